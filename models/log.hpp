@@ -1,0 +1,60 @@
+// Logs as tables: CSV or CSV.gz, read row by row in fixed memory.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shapeid {
+
+/// A row of numbers in the order of LogReader::columns(). NaN marks an empty field.
+struct LogRow {
+  int line = 0;  ///< in the file, from 1
+  std::vector<double> values;
+};
+
+/// Reads a CSV or gzipped CSV file one row at a time, whatever its size. Throws InputError with
+/// file, line and column for anything that is not a header followed by rows of as many numbers.
+class LogReader {
+ public:
+  explicit LogReader(const std::string& path);
+  ~LogReader();
+  LogReader(LogReader&&) noexcept;
+  LogReader& operator=(LogReader&&) noexcept;
+  LogReader(const LogReader&) = delete;
+  LogReader& operator=(const LogReader&) = delete;
+
+  [[nodiscard]] const std::string& path() const;
+  [[nodiscard]] const std::vector<std::string>& columns() const;
+  /// The next row; empty at the end of the file.
+  [[nodiscard]] std::optional<LogRow> next();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// mapping.yaml: how a foreign log's columns become ours.
+struct ColumnRule {
+  std::string from;    ///< column of the foreign log
+  double scale = 1.0;  ///< ours = sign * scale * theirs + offset
+  double offset = 0.0;
+  double sign = 1.0;
+  std::string hold;  ///< sample-and-hold group; empty: every row is a measurement
+};
+
+enum class TorqueKind { joint, motor, current };
+
+struct Mapping {
+  std::map<std::string, ColumnRule> columns;    ///< by our name
+  std::map<std::string, double> keep_rows;      ///< keep rows where column == value
+  std::optional<TorqueKind> torque;             ///< what the torque channels are, if declared
+  std::map<std::string, double> torque_factor;  ///< per joint: gear (motor) or N m / A (current)
+};
+
+/// Throws InputError.
+[[nodiscard]] Mapping read_mapping_yaml(const std::string& path);
+
+}  // namespace shapeid

@@ -1,0 +1,59 @@
+#include "shapeid/models/robot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace shapeid {
+
+std::optional<int> Robot::find_link(const std::string& wanted) const {
+  for (int i = 0; i < link_count(); ++i) {
+    const Link& link = links[static_cast<std::size_t>(i)];
+    const bool here =
+        link.name == wanted || std::any_of(link.members.begin(), link.members.end(),
+                                           [&](const Member& m) { return m.name == wanted; });
+    if (here) return i;
+  }
+  return std::nullopt;
+}
+
+std::optional<int> Robot::find_joint(const std::string& wanted) const {
+  for (int j = 0; j < joint_count(); ++j) {
+    if (joint(j).name == wanted) return j;
+  }
+  return std::nullopt;
+}
+
+Violation why_malformed(const Robot& robot) {
+  if (robot.links.empty()) return "a robot has no links";
+  if (robot.links.front().parent != -1) return "link 0 is not the root";
+  constexpr double unit_slack = 1e-9;  // a direction read from a file and normalised once
+  for (int i = 0; i < robot.link_count(); ++i) {
+    const Link& link = robot.links[static_cast<std::size_t>(i)];
+    if (!link.inertia.values.allFinite()) return fmt::format("inertia of {} not finite", link.name);
+    if (i == 0) continue;
+    if (link.parent < 0 || link.parent >= i) {
+      return fmt::format("parent of link {} does not stand before it", link.name);
+    }
+    if (std::abs(link.joint.axis.norm() - 1.0) > unit_slack) {
+      return fmt::format("axis of joint {} is not a unit vector", link.joint.name);
+    }
+  }
+  for (const Contact& contact : robot.contacts) {
+    if (contact.link < 0 || contact.link >= robot.link_count()) {
+      return fmt::format("contact {} is on no link", contact.name);
+    }
+  }
+  return std::nullopt;
+}
+
+Eigen::VectorXd stacked_parameters(const Robot& robot) {
+  Eigen::VectorXd Phi(10 * robot.link_count());
+  for (int i = 0; i < robot.link_count(); ++i) {
+    Phi.segment<10>(10 * i) = robot.links[static_cast<std::size_t>(i)].inertia.values;
+  }
+  return Phi;
+}
+
+}  // namespace shapeid

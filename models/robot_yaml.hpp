@@ -1,0 +1,30 @@
+// robot.yaml, optional beside a URDF: what a URDF cannot say.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "shapeid/models/robot.hpp"
+
+namespace shapeid {
+
+/// Pose of the IMU in the base link's frame, and more that the URDF does not hold.
+struct RobotNotes {
+  Eigen::Isometry3d imu = Eigen::Isometry3d::Identity();
+  std::map<std::string, double> noise_sigma;  ///< per channel of the log, in the channel's unit
+  struct Rotor {
+    double inertia = 0.0;  ///< kg m^2 about its spin axis, before the gear
+    double gear = 1.0;
+  };
+  std::map<std::string, Rotor> rotors;  ///< per joint
+  struct MassRange {
+    double lower = 0.0, upper = 0.0;  ///< kg
+  };
+  std::map<std::string, MassRange> expected_mass;  ///< per free link, or "load"
+};
+
+/// Reads robot.yaml and puts its contacts into `robot` (replacing those there). Throws InputError.
+[[nodiscard]] RobotNotes read_robot_yaml(const std::string& path, Robot& robot);
+
+}  // namespace shapeid

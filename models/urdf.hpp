@@ -1,0 +1,52 @@
+// URDF in and out, strictly: every number is matched in full, every reference is resolved, every
+// inertia is linted. urdfdom reads mass="nan" as zero and accepts two parents; this reader does
+// not.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/robot.hpp"
+
+namespace shapeid {
+
+/// An inertia in a file that no body can have, or that is suspicious.
+struct InertiaFinding {
+  std::string link;   ///< name of the URDF link
+  Place place;        ///< file and line
+  std::string wrong;  ///< the broken inequality with its margin
+  std::string
+      likely_cause;  ///< diagonal swapped, about the wrong point, row-major slip, ...; may be empty
+  bool fatal = true;  ///< false: suspicious only (a rod, an unusually small inertia)
+};
+
+struct UrdfOptions {
+  Root root = Root::floating;
+  bool reject_impossible = true;  ///< throw InputError at the first fatal finding
+};
+
+struct UrdfFile {
+  Robot robot;
+  std::vector<InertiaFinding> findings;
+};
+
+/// Reads a URDF. Throws InputError (file, line, what is wrong, what would be right).
+[[nodiscard]] UrdfFile read_urdf(const std::string& path, const UrdfOptions& options = {});
+/// The same from text; `name` stands for the file in messages.
+[[nodiscard]] UrdfFile parse_urdf(const std::string& text, const std::string& name,
+                                  const UrdfOptions& options = {});
+
+/// New parameters for one lumped link, about its origin in its axes.
+struct IdentifiedLink {
+  int link = 0;
+  InertialParameters inertia;
+};
+
+/// The text of the original URDF with the <inertial> of the given links replaced. The moving link
+/// takes the whole lumped inertia, its fixed members lose theirs (a comment says so). All else
+/// stays as it was. Throws Defect rather than write an inertia that the reader would refuse.
+[[nodiscard]] std::string write_urdf(const std::string& original_path, const Robot& robot,
+                                     const std::vector<IdentifiedLink>& identified);
+
+}  // namespace shapeid

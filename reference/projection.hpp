@@ -1,0 +1,31 @@
+// Equations (7)-(9): rows of the dynamics that no contact force can reach.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace shapeid::reference {
+
+/// Orthonormal basis of what is left of the (weighted) rows after contact forces are eliminated.
+struct ContactFreeBasis {
+  Eigen::MatrixXd Q2;  ///< rows x (rows - rank): null space of J W^(1/2)
+  int rank = 0;        ///< numerical rank of W^(1/2) J^T
+};
+
+/// Q2 from the rank-revealing QR of W^(1/2) J^T = [Q1 Q2] [R; 0] P^T. `weight` holds the diagonal
+/// of W.
+[[nodiscard]] ContactFreeBasis contact_free_basis(const Eigen::MatrixXd& J,
+                                                  const Eigen::VectorXd& weight);
+
+/// Rows of one sample with contact forces eliminated: minimising || Y Phi - F || over Phi is
+/// minimising || W^(1/2) (Y_full Phi - S^T tau - J^T f) || over Phi and f (equation (9) for W = I).
+struct ContactFreeRows {
+  Eigen::MatrixXd Y;  ///< Q2^T W^(1/2) Y_full
+  Eigen::VectorXd F;  ///< Q2^T W^(1/2) S^T tau
+  int rank = 0;
+};
+
+[[nodiscard]] ContactFreeRows eliminate_contacts(const Eigen::MatrixXd& Y, const Eigen::VectorXd& F,
+                                                 const Eigen::MatrixXd& J,
+                                                 const Eigen::VectorXd& weight);
+
+}  // namespace shapeid::reference
