@@ -10,7 +10,7 @@ namespace shapeid {
 struct Place {
   std::string file;
   int line = 0;
-  std::string column;  ///< column name or number of a table; empty where there is none
+  std::string column{};  ///< column name or number of a table; empty where there is none
 };
 
 /// "robot.urdf:12: " or "log.csv:7, column tau.knee: ", ready to stand before a message.
