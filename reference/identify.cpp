@@ -1,0 +1,145 @@
+#include "shapeid/reference/identify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/reference/mass_solver.hpp"
+#include "shapeid/reference/triangle.hpp"
+
+namespace shapeid::reference {
+namespace {
+
+/// Contiguous blocks of rows; twice as long each time there are too many.
+class Blocks {
+ public:
+  Blocks(Window window, double seconds) : window_(std::move(window)), seconds_(seconds) {}
+
+  void add(const Sample& sample) {
+    if (window_.samples() > 0 && sample.time - start_ >= seconds_) close();
+    if (window_.samples() == 0) start_ = sample.time;
+    window_.add(sample);
+  }
+
+  std::vector<RowBlock> finish() {
+    if (window_.samples() > 0) close();
+    return std::move(blocks_);
+  }
+
+ private:
+  void close() {
+    Eigen::MatrixXd rows(window_.Y().rows(), window_.Y().cols() + 1);
+    rows << window_.Y(), window_.F();
+    blocks_.push_back({triangle(rows)});
+    window_.clear();
+    if (blocks_.size() < most_blocks) return;
+    for (std::size_t k = 0; 2 * k + 1 < blocks_.size(); ++k) {
+      blocks_[k].rows = triangle(stacked(blocks_[2 * k].rows, blocks_[2 * k + 1].rows));
+    }
+    blocks_.resize(blocks_.size() / 2);
+    seconds_ *= 2.0;
+  }
+
+  Window window_;
+  double seconds_, start_ = 0.0;
+  std::vector<RowBlock> blocks_;
+};
+
+/// Rows of all blocks, or of all but block `skipped`.
+Eigen::MatrixXd rows_without(const std::vector<RowBlock>& blocks, std::size_t skipped) {
+  Eigen::MatrixXd rows(0, blocks.front().rows.cols());
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    if (k != skipped) rows = triangle(stacked(rows, blocks[k].rows));
+  }
+  return rows;
+}
+
+void set_rows(MassProblem& problem, const Eigen::MatrixXd& rows) {
+  problem.Y = rows.leftCols(rows.cols() - 1);
+  problem.F = rows.rightCols(1);
+  problem.W = Eigen::VectorXd::Ones(rows.rows());
+}
+
+/// Delete-a-block jackknife: the spread of answers that each miss one block.
+Eigen::VectorXd jackknife(const std::vector<RowBlock>& blocks, const DivisionRun& run) {
+  const auto count = static_cast<Eigen::Index>(blocks.size());
+  if (count < 2) {  // one block has no spread
+    return Eigen::VectorXd::Constant(run.solution.Phi.size(),
+                                     std::numeric_limits<double>::infinity());
+  }
+  Eigen::MatrixXd Phi(run.solution.Phi.size(), count);
+  MassProblem problem = run.problem;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    set_rows(problem, rows_without(blocks, static_cast<std::size_t>(k)));
+    Phi.col(k) = solve_masses(problem, run.solution.m).Phi;
+  }
+  const Eigen::VectorXd mean = Phi.rowwise().mean();
+  const double factor = static_cast<double>(count - 1) / static_cast<double>(count);
+  return (factor * (Phi.colwise() - mean).rowwise().squaredNorm()).cwiseSqrt();
+}
+
+}  // namespace
+
+Eigen::VectorXd natural_sizes(const BodyModel& model, double expected_mass) {
+  const Eigen::VectorXd largest = shape_columns(model).cwiseAbs().rowwise().maxCoeff();
+  // A parameter that every shape leaves at zero by symmetry still needs a positive size to be
+  // measured against: that of the largest of its group on the same link.
+  Eigen::VectorXd size = expected_mass * largest;
+  for (Eigen::Index link = 0; link < size.size(); link += 10) {
+    for (const auto& [first, count] : {std::pair{1, 3}, std::pair{4, 6}}) {
+      auto group = size.segment(link + first, count);
+      const double fallback = group.maxCoeff() > 0.0 ? group.maxCoeff() : expected_mass;
+      group = (group.array() > 0.1 * fallback).select(group, 0.1 * fallback);
+    }
+  }
+  return size;
+}
+
+Identification identify(const Robot& robot, const BodyModel& model, const SampleStream& next,
+                        const IdentifySettings& settings,
+                        const std::function<void(const DivisionRun&)>& watch) {
+  const Eigen::VectorXd weight = settings.weight.size() > 0
+                                     ? settings.weight
+                                     : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
+  const Window window(robot, model, settings.contacts, weight);
+  Blocks collected(window, settings.block_seconds);
+  Identification result;
+  double previous = 0.0;
+  while (const std::optional<Sample> sample = next()) {
+    collected.add(*sample);
+    if (result.samples > 0) {
+      result.seconds += std::min(sample->time - previous, settings.block_seconds);
+    }
+    previous = sample->time;
+    ++result.samples;
+  }
+  const std::vector<RowBlock> blocks = collected.finish();
+  if (blocks.empty()) throw Refusal("no-data", "the log has no usable sample");
+
+  result.data = determine(blocks, natural_sizes(model, settings.expected_mass));
+  if (std::none_of(result.data.determined.begin(), result.data.determined.end(),
+                   [](bool known) { return known; })) {
+    throw Refusal("not-excited",
+                  "the motion determines no parameter of the free links; use a log in which they "
+                  "move, turn or are loaded");
+  }
+
+  MassProblem problem = window.problem(model);
+  set_rows(problem, rows_without(blocks, blocks.size()));
+  problem.lambda = settings.lambda.value_or(default_lambda(problem, settings.expected_mass));
+  problem.mass_bound = settings.mass_bound.value_or(10.0 * settings.expected_mass);
+  DivisionOptions division = settings.division;
+  division.expected_mass = settings.expected_mass;
+
+  result.run = divide_and_solve(model, problem, division, watch);
+  const auto& history = result.run.history;
+  result.undivided_objective =
+      history.empty() ? result.run.solution.value.total() : history.front().objective_before;
+  result.Phi = all_parameters(model, result.run.solution.Phi);
+  result.standard_error = jackknife(blocks, result.run);
+  return result;
+}
+
+}  // namespace shapeid::reference

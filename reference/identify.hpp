@@ -1,0 +1,56 @@
+// The whole way, from samples to parameters: rows, masses, divisions, and what the data determine.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/body_model.hpp"
+#include "shapeid/models/robot.hpp"
+#include "shapeid/models/sample.hpp"
+#include "shapeid/reference/determination.hpp"
+#include "shapeid/reference/division.hpp"
+#include "shapeid/reference/window.hpp"
+
+namespace shapeid::reference {
+
+struct IdentifySettings {
+  ContactTreatment contacts = ContactTreatment::project;
+  Eigen::VectorXd weight;            ///< diagonal of W, generalised order; empty: ones
+  double expected_mass = 0.0;        ///< M0 > 0, kg, of all free shapes together
+  std::optional<double> lambda;      ///< default: default_lambda()
+  std::optional<double> mass_bound;  ///< kg; default: ten times M0
+  DivisionOptions division;          ///< most_divisions = 0 solves once and does not divide
+  double block_seconds = 0.5;        ///< contiguous blocks for standard errors
+};
+
+struct Identification {
+  DivisionRun run;
+  double undivided_objective = 0.0;  ///< of the shapes as given
+  Eigen::VectorXd Phi;               ///< all links of the robot, 10 each
+  Determination data;                ///< per parameter of the free links
+  /// Standard errors of Phi of the free links with shapes, bounds and density term at work, by
+  /// leaving out each block once (jackknife). Bias from noise in Y is not in them.
+  Eigen::VectorXd standard_error;
+  std::size_t samples = 0;
+  double seconds = 0.0;  ///< of motion used
+};
+
+/// Samples one by one; empty at the end.
+using SampleStream = std::function<std::optional<Sample>()>;
+
+/// Identifies the free links of `model`. Memory does not grow with the stream: blocks are
+/// triangles, and neighbours merge when there are more than most_blocks of them. Throws Refusal
+/// "no-data" for an empty stream, "not-excited" if the rows determine no parameter at all.
+[[nodiscard]] Identification identify(const Robot& robot, const BodyModel& model,
+                                      const SampleStream& next, const IdentifySettings& settings,
+                                      const std::function<void(const DivisionRun&)>& watch = {});
+
+inline constexpr std::size_t most_blocks = 64;
+
+/// For each parameter of the free links the largest size that mass M0 within the shapes can give
+/// it.
+[[nodiscard]] Eigen::VectorXd natural_sizes(const BodyModel& model, double expected_mass);
+
+}  // namespace shapeid::reference

@@ -1,0 +1,51 @@
+#include "shapeid/reference/online.hpp"
+
+#include <utility>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/reference/mass_solver.hpp"
+
+namespace shapeid::reference {
+namespace {
+
+Eigen::VectorXd weight_of(const Robot& robot, const OnlineSettings& settings) {
+  return settings.weight.size() > 0 ? settings.weight
+                                    : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
+}
+
+}  // namespace
+
+OnlineIdentifier::OnlineIdentifier(const Robot& robot, BodyModel model, OnlineSettings settings)
+    : model_(std::move(model)),
+      settings_(std::move(settings)),
+      rows_(robot, model_, settings_.contacts, weight_of(robot, settings_)),
+      filter_(settings_.alpha),
+      masses_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model_.shapes.size()))) {
+  if (settings_.window == 0 || settings_.stride == 0) {
+    throw InputError("a window or stride of no samples", "both count samples, at least 1");
+  }
+  if (!(settings_.expected_mass > 0.0)) {
+    throw InputError("the expected mass is not positive", "kg, of all free shapes together");
+  }
+}
+
+std::optional<OnlineResult> OnlineIdentifier::feed(const Sample& sample) {
+  recent_.push_back(sample);
+  if (recent_.size() > settings_.window) recent_.pop_front();
+  ++since_last_;
+  if (recent_.size() < settings_.window || since_last_ < settings_.stride) return std::nullopt;
+  since_last_ = 0;
+
+  rows_.clear();
+  for (const Sample& s : recent_) rows_.add(s);
+  MassProblem problem = rows_.problem(model_);
+  if (!settings_.lambda) settings_.lambda = default_lambda(problem, settings_.expected_mass);
+  problem.lambda = *settings_.lambda;
+
+  OnlineResult result{sample.time, solve_masses(problem, masses_), {}};
+  masses_ = result.solution.m;
+  result.filtered = filter_.update(result.solution.Phi);
+  return result;
+}
+
+}  // namespace shapeid::reference
