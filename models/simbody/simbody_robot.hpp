@@ -8,10 +8,12 @@
 
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
+#include "shapeid/models/simbody/robot_state.hpp"
 
 namespace shapeid {
 
-/// Inverse dynamics, mass matrix and energies of a Robot, computed by Simbody alone.
+/// Inverse dynamics, mass matrix and energies of a Robot, computed by Simbody alone. Not for use by
+/// two threads at once: each call works in one Simbody state.
 class SimbodyRobot {
  public:
   /// Every link must have a body that can exist (Simbody refuses others): throws InputError.
@@ -23,7 +25,10 @@ class SimbodyRobot {
   SimbodyRobot& operator=(const SimbodyRobot&) = delete;
 
   /// H qddot + C qdot + G in generalised order (base rows in base axes at the base origin). The
-  /// base gets an arbitrary attitude and linear velocity inside, which must not matter.
+  /// base gets an arbitrary attitude, place and linear velocity inside, which must not matter. A
+  /// fixed root does not turn: of its base quantities only the specific force is used. Gravity acts
+  /// as a force here, so the result carries rounding of the size of the robot's weight even where a
+  /// sample is weightless.
   [[nodiscard]] Eigen::VectorXd inverse_dynamics(const Sample& sample) const;
 
   /// H, dof x dof, generalised order (base velocity in base axes).
@@ -33,6 +38,13 @@ class SimbodyRobot {
   /// 3 rows a contact, whether or not it touches.
   [[nodiscard]] Eigen::Matrix3Xd contact_positions(const Eigen::VectorXd& q) const;
   [[nodiscard]] Eigen::MatrixXd contact_point_jacobian(const Eigen::VectorXd& q) const;
+
+  /// J, of all links (a fixed root has none) at this configuration and velocity.
+  [[nodiscard]] double kinetic_energy(const RobotState& state) const;
+  /// J, in the gravity of `gravity()`, zero for bodies at the height of the world's origin.
+  [[nodiscard]] double potential_energy(const RobotState& state) const;
+  /// m/s^2, world axes: (0, 0, -9.81).
+  [[nodiscard]] static Eigen::Vector3d gravity();
 
  private:
   struct State;
