@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "shapeid/models/robot.hpp"
+
 namespace shapeid {
 
 /// SI units and radians. Base quantities are in base-frame axes at the base link's origin. The
@@ -30,5 +32,8 @@ struct Sample {
   /// Measured contact forces in base axes, N, one for each contact; empty if not measured.
   std::vector<Eigen::Vector3d> contact_force;
 };
+
+/// Empty if the sample has as many numbers as the robot needs, all finite.
+[[nodiscard]] Violation why_malformed(const Sample& sample, const Robot& robot);
 
 }  // namespace shapeid

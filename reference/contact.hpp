@@ -8,11 +8,16 @@
 
 namespace shapeid::reference {
 
-/// Rows of J of every contact that touches in this sample (point 3, line 5, plane 6 rows each),
-/// base axes; columns in generalised order. No row if nothing touches.
+/// Rows of J of every contact that touches in this sample, in the robot's order of contacts;
+/// columns in generalised order. A point has 3 rows, the velocity of its origin in base axes; a
+/// line 5, the angular velocity about its frame's y and z added; a plane 6, the angular velocity in
+/// base axes added. No row if nothing touches.
 [[nodiscard]] Eigen::MatrixXd contact_jacobian(const Robot& robot, const Sample& sample);
 
-/// J^T f of equation (4) from the sample's measured forces (point contacts), generalised order.
+/// J^T f of equation (4) from the sample's measured forces, generalised order. Forces act at the
+/// origins of all contacts, whether or not they are said to touch: a measured force needs no label.
+/// Moments are not measured and count as zero. Throws Refusal ("no-contact-forces") if the sample
+/// has no force for each contact.
 [[nodiscard]] Eigen::VectorXd measured_contact_force(const Robot& robot, const Sample& sample);
 
 /// Velocity of each contact point in base axes relative to the base origin's velocity, m/s:

@@ -3,16 +3,22 @@
 
 #include <Eigen/Core>
 
+#include "shapeid/models/contract.hpp"
+
 namespace shapeid::reference {
 
+/// Empty if the diagonal of W has one positive finite entry for each of `rows` rows.
+[[nodiscard]] Violation why_no_weight(const Eigen::VectorXd& weight, Eigen::Index rows);
+
 /// Orthonormal basis of what is left of the (weighted) rows after contact forces are eliminated.
+/// Q2 is only defined up to a rotation: compare Q2 Q2^T, or what is computed from it.
 struct ContactFreeBasis {
   Eigen::MatrixXd Q2;  ///< rows x (rows - rank): null space of J W^(1/2)
-  int rank = 0;        ///< numerical rank of W^(1/2) J^T
+  int rank = 0;  ///< numerical rank of W^(1/2) J^T, less than J's rows if forces are redundant
 };
 
-/// Q2 from the rank-revealing QR of W^(1/2) J^T = [Q1 Q2] [R; 0] P^T. `weight` holds the diagonal
-/// of W.
+/// Equations (7)-(8): Q2 from the rank-revealing QR of W^(1/2) J^T = [Q1 Q2] [R; 0] P^T. `weight`
+/// holds the diagonal of W. The identity if J has no rows.
 [[nodiscard]] ContactFreeBasis contact_free_basis(const Eigen::MatrixXd& J,
                                                   const Eigen::VectorXd& weight);
 
@@ -21,9 +27,10 @@ struct ContactFreeBasis {
 struct ContactFreeRows {
   Eigen::MatrixXd Y;  ///< Q2^T W^(1/2) Y_full
   Eigen::VectorXd F;  ///< Q2^T W^(1/2) S^T tau
-  int rank = 0;
+  int rank = 0;       ///< of W^(1/2) J^T: how many rows the forces took
 };
 
+/// `Y` rows x columns, `F` = S^T tau (rows), `J` contact rows x rows, `weight` the diagonal of W.
 [[nodiscard]] ContactFreeRows eliminate_contacts(const Eigen::MatrixXd& Y, const Eigen::VectorXd& F,
                                                  const Eigen::MatrixXd& J,
                                                  const Eigen::VectorXd& weight);

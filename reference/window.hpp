@@ -23,7 +23,7 @@ enum class ContactTreatment {
 /// that a log of any length fits.
 class Window {
  public:
-  /// `weight`: diagonal of W in generalised order, 1 / sigma^2.
+  /// `weight`: diagonal of W in generalised order, 1 / sigma^2. The robot must outlive the window.
   Window(const Robot& robot, const BodyModel& model, ContactTreatment contacts,
          Eigen::VectorXd weight);
 
@@ -35,7 +35,9 @@ class Window {
   [[nodiscard]] Eigen::MatrixXd Y() const;
   [[nodiscard]] Eigen::VectorXd F() const;
 
-  /// The mass problem (15) of these rows and the model's shapes (weights are already in the rows).
+  /// The mass problem (15) of these rows and the shapes of `model`, which has the free links that
+  /// the window was made for. W is one, since weights are already in the rows; lambda and
+  /// mass_bound are zero, for the caller to set.
   [[nodiscard]] MassProblem problem(const BodyModel& model) const;
 
  private:

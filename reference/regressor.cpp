@@ -1,0 +1,64 @@
+#include "shapeid/reference/regressor.hpp"
+
+#include <cstddef>
+#include <vector>
+
+#include "shapeid/models/inertia.hpp"
+#include "shapeid/reference/kinematics.hpp"
+
+namespace shapeid::reference {
+namespace {
+
+/// I v = L(v) (Ixx, Ixy, Ixz, Iyy, Iyz, Izz)
+Eigen::Matrix<double, 3, 6> tensor_times(const Eigen::Vector3d& v) {
+  Eigen::Matrix<double, 3, 6> L;
+  L << v.x(), v.y(), v.z(), 0.0, 0.0, 0.0,  //
+      0.0, v.x(), 0.0, v.y(), v.z(), 0.0,   //
+      0.0, 0.0, v.x(), 0.0, v.y(), v.z();
+  return L;
+}
+
+/// Equation (2) for one body: force and moment about the link origin that its motion takes, linear
+/// in its ten parameters. omega, alpha and the origin's proper acceleration a in link axes:
+///   f = m a + alpha x h + omega x (omega x h)
+///   n = h x a + I alpha + omega x (I omega),   h = m r, I about the link origin.
+Eigen::Matrix<double, 6, 10> body_regressor(const Eigen::Vector3d& omega,
+                                            const Eigen::Vector3d& alpha,
+                                            const Eigen::Vector3d& a) {
+  Eigen::Matrix<double, 6, 10> B = Eigen::Matrix<double, 6, 10>::Zero();
+  B.block<3, 1>(0, 0) = a;
+  B.block<3, 3>(0, 1) = skew(alpha) + skew(omega) * skew(omega);
+  B.block<3, 3>(3, 1) = -skew(a);
+  B.block<3, 6>(3, 4) = tensor_times(alpha) + skew(omega) * tensor_times(omega);
+  return B;
+}
+
+}  // namespace
+
+Eigen::MatrixXd regressor(const Robot& robot, const Sample& sample) {
+  const std::vector<LinkMotion> motions = link_motions(robot, sample);
+  Eigen::MatrixXd Y(robot.dof(), 10 * robot.link_count());
+  for (int i = 0; i < robot.link_count(); ++i) {
+    const LinkMotion& link = motions[static_cast<std::size_t>(i)];
+    const Eigen::Matrix3d R = link.pose.linear();
+    Eigen::Matrix<double, 6, 10> B = body_regressor(R.transpose() * link.angular_velocity,
+                                                    R.transpose() * link.angular_acceleration,
+                                                    R.transpose() * link.proper_acceleration);
+    B.topRows<3>() = R * B.topRows<3>();
+    B.bottomRows<3>() = R * B.bottomRows<3>();
+    // Equation (3): a wrench on the link counts in each generalised direction by the velocity that
+    // this direction gives the link (virtual power).
+    Y.middleCols<10>(10 * i) =
+        point_jacobian(robot, motions, i, link.pose.translation()).transpose() * B;
+  }
+  return Y;
+}
+
+Eigen::VectorXd applied_force(const Robot& robot, const Sample& sample) {
+  SHAPEID_CONTRACT(why_malformed(sample, robot));
+  Eigen::VectorXd force(robot.dof());
+  force << Eigen::VectorXd::Zero(robot.base_dof()), sample.tau;
+  return force;
+}
+
+}  // namespace shapeid::reference

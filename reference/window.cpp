@@ -1,0 +1,96 @@
+#include "shapeid/reference/window.hpp"
+
+#include <Eigen/QR>
+#include <utility>
+
+#include "shapeid/reference/contact.hpp"
+#include "shapeid/reference/projection.hpp"
+#include "shapeid/reference/regressor.hpp"
+
+namespace shapeid::reference {
+namespace {
+
+/// Columns of the free links, in the model's order.
+Eigen::MatrixXd columns_of(const std::vector<int>& links, const Eigen::MatrixXd& Y) {
+  Eigen::MatrixXd free(Y.rows(), 10 * static_cast<Eigen::Index>(links.size()));
+  Eigen::Index column = 0;
+  for (const int link : links) {
+    free.middleCols<10>(column) = Y.middleCols<10>(10 * link);
+    column += 10;
+  }
+  return free;
+}
+
+[[maybe_unused]] Violation why_other_links(const std::vector<int>& window_links,
+                                           const BodyModel& model) {
+  if (model.free_links == window_links) return std::nullopt;
+  return "the model's free links are not those of the window";
+}
+
+}  // namespace
+
+Window::Window(const Robot& robot, const BodyModel& model, ContactTreatment contacts,
+               Eigen::VectorXd weight)
+    : robot_(&robot),
+      contacts_(contacts),
+      weight_(std::move(weight)),
+      known_(model.known),
+      free_links_(model.free_links) {
+  SHAPEID_CONTRACT(why_malformed(model, robot));
+  SHAPEID_CONTRACT(why_no_weight(weight_, robot.dof()));
+  // A triangle costs one pass over all rows: with room for several triangles it is made seldom.
+  constexpr Eigen::Index triangles = 4;
+  const Eigen::Index columns = 10 * static_cast<Eigen::Index>(free_links_.size()) + 1;
+  rows_.resize(triangles * columns + robot.dof(), columns);
+}
+
+void Window::add(const Sample& sample) {
+  const Eigen::MatrixXd Y = regressor(*robot_, sample);
+  const Eigen::MatrixXd Y_free = columns_of(free_links_, Y);
+  Eigen::VectorXd F = applied_force(*robot_, sample) - Y * known_;
+  if (contacts_ == ContactTreatment::measured) F += measured_contact_force(*robot_, sample);  // (4)
+
+  const Eigen::MatrixXd J = contacts_ == ContactTreatment::project
+                                ? contact_jacobian(*robot_, sample)
+                                : Eigen::MatrixXd(0, robot_->dof());
+  // Without rows in J this only multiplies by W^(1/2).
+  const ContactFreeRows free = eliminate_contacts(Y_free, F, J, weight_);
+
+  if (used_ + free.Y.rows() > rows_.rows()) reduce();
+  rows_.block(used_, 0, free.Y.rows(), free.Y.cols()) = free.Y;  // (5)
+  rows_.block(used_, free.Y.cols(), free.F.rows(), 1) = free.F;
+  used_ += free.Y.rows();
+  ++samples_;
+}
+
+void Window::clear() {
+  used_ = 0;
+  samples_ = 0;
+}
+
+Eigen::MatrixXd Window::Y() const { return rows_.topRows(used_).leftCols(rows_.cols() - 1); }
+
+Eigen::VectorXd Window::F() const { return rows_.topRows(used_).rightCols<1>(); }
+
+MassProblem Window::problem(const BodyModel& model) const {
+  SHAPEID_CONTRACT(why_other_links(free_links_, model));
+  MassProblem p;
+  p.Y = Y();
+  p.F = F();
+  p.W = Eigen::VectorXd::Ones(used_);
+  p.U = shape_columns(model);
+  p.V = shape_volumes(model);
+  SHAPEID_CONTRACT(why_malformed(p));
+  return p;
+}
+
+// Exact, not an approximation: [Y F] = Q R with Q^T Q = 1, so || Y x - F || = || R (x, -1) || for
+// every x. Normal equations, minimum and objective (its constant included: the last row of R) stay.
+void Window::reduce() {
+  const Eigen::Index columns = rows_.cols();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows_.topRows(used_));
+  rows_.topRows(columns) = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+  used_ = columns;
+}
+
+}  // namespace shapeid::reference
