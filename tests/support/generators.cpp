@@ -17,7 +17,8 @@ constexpr std::int64_t fraction_steps = std::int64_t{1} << 40;
 rc::Gen<double> signed_fraction() {
   return rc::gen::map(rc::gen::inRange<std::int64_t>(0, 2 * fraction_steps), [](std::int64_t k) {
     // Even and odd k take the two signs, so that k = 0 (the end of shrinking) is the value 0.
-    const double size = static_cast<double>(k / 2) / static_cast<double>(fraction_steps);
+    const std::int64_t half = k / 2;
+    const double size = static_cast<double>(half) / static_cast<double>(fraction_steps);
     return k % 2 == 0 ? size : -size;
   });
 }

@@ -1,0 +1,57 @@
+#include "shapeid/reference/contact_detection.hpp"
+
+#include <Eigen/QR>
+
+#include "shapeid/reference/contact.hpp"
+#include "shapeid/reference/regressor.hpp"
+
+namespace shapeid::reference {
+namespace {
+
+Eigen::Index component_count(ContactKind kind) {
+  switch (kind) {
+    case ContactKind::point:
+      return 3;
+    case ContactKind::line:
+      return 5;
+    case ContactKind::plane:
+      return 6;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Eigen::VectorXd supporting_forces(const Robot& robot, const Sample& sample,
+                                  const Eigen::VectorXd& Phi) {
+  Sample all = sample;
+  all.in_contact.assign(robot.contacts.size(), true);
+  const Eigen::MatrixXd J = contact_jacobian(robot, all);
+  const Eigen::VectorXd asked = regressor(robot, all) * Phi - applied_force(robot, all);
+  const Eigen::Index n = robot.joint_count();
+  const Eigen::MatrixXd Jt = J.rightCols(n).transpose();
+  const Eigen::VectorXd f =
+      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(Jt).solve(asked.tail(n));
+
+  const Eigen::Vector3d up = sample.base_specific_force.normalized();
+  Eigen::VectorXd supporting(static_cast<Eigen::Index>(robot.contacts.size()));
+  Eigen::Index row = 0;
+  for (Eigen::Index c = 0; c < supporting.size(); ++c) {
+    supporting[c] = f.segment<3>(row).dot(up);
+    row += component_count(robot.contacts[static_cast<std::size_t>(c)].kind);
+  }
+  return supporting;
+}
+
+std::vector<bool> detect_contacts(const Robot& robot, const Sample& sample,
+                                  const Eigen::VectorXd& Phi, double share) {
+  double mass = 0.0;
+  for (int i = 0; i < robot.link_count(); ++i) mass += Phi[10 * i];
+  constexpr double gravity = 9.81;
+  const Eigen::VectorXd force = supporting_forces(robot, sample, Phi);
+  std::vector<bool> touching;
+  for (const double f : force) touching.push_back(f > share * mass * gravity);
+  return touching;
+}
+
+}  // namespace shapeid::reference

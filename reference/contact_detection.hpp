@@ -1,0 +1,23 @@
+// Which feet touch, for logs that do not say: the vertical force each leg's torques ask for.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "shapeid/models/robot.hpp"
+#include "shapeid/models/sample.hpp"
+
+namespace shapeid::reference {
+
+/// Force along the specific force (up, when the base does not accelerate much) at each contact, N:
+/// least squares of the joint rows alone, J_joints^T f = Y Phi - S^T tau, as though all contacts
+/// touched. Depends on the model that is given, so the labels are derived, not measured.
+[[nodiscard]] Eigen::VectorXd supporting_forces(const Robot& robot, const Sample& sample,
+                                                const Eigen::VectorXd& Phi);
+
+/// Contacts whose supporting force exceeds `share` of the robot's weight.
+[[nodiscard]] std::vector<bool> detect_contacts(const Robot& robot, const Sample& sample,
+                                                const Eigen::VectorXd& Phi, double share);
+
+}  // namespace shapeid::reference
