@@ -8,10 +8,16 @@
 
 namespace shapeid::reference {
 
-/// Minimiser of the problem, started from `start` (any m >= 0; zeros for a cold start). Throws
-/// Defect if the iteration bound, stated in the source with its reason, is exceeded.
+/// Minimiser of the problem, started from `start` (kg, any m >= 0; zeros for a cold start). The
+/// shapes with mass at the start are free in the first KKT system. For lambda > 0 the answer does
+/// not depend on the start; for lambda = 0 it is one of the minimisers. Masses are exactly zero or
+/// positive. Throws Defect if the iteration bound, stated in the source with its reason, is
+/// exceeded.
 [[nodiscard]] MassSolution solve_masses(const MassProblem& problem, const Eigen::VectorXd& start);
 [[nodiscard]] MassSolution solve_masses(const MassProblem& problem);
+
+/// Empty if the start has one finite mass >= 0 for every shape.
+[[nodiscard]] Violation why_no_start(const MassProblem& problem, const Eigen::VectorXd& start);
 
 /// How far m is from satisfying the KKT conditions, each scaled by its own terms and free of units:
 /// zero for the exact optimum, a modest multiple of the machine epsilon for a good answer.
