@@ -1,11 +1,11 @@
 #include "shapeid/reference/window.hpp"
 
-#include <Eigen/QR>
 #include <utility>
 
 #include "shapeid/reference/contact.hpp"
 #include "shapeid/reference/projection.hpp"
 #include "shapeid/reference/regressor.hpp"
+#include "shapeid/reference/triangle.hpp"
 
 namespace shapeid::reference {
 namespace {
@@ -87,10 +87,9 @@ MassProblem Window::problem(const BodyModel& model) const {
 // Exact, not an approximation: [Y F] = Q R with Q^T Q = 1, so || Y x - F || = || R (x, -1) || for
 // every x. Normal equations, minimum and objective (its constant included: the last row of R) stay.
 void Window::reduce() {
-  const Eigen::Index columns = rows_.cols();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows_.topRows(used_));
-  rows_.topRows(columns) = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
-  used_ = columns;
+  const Eigen::MatrixXd R = triangle(rows_.topRows(used_));
+  rows_.topRows(R.rows()) = R;
+  used_ = R.rows();
 }
 
 }  // namespace shapeid::reference
