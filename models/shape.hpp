@@ -1,9 +1,11 @@
 // Primitive shapes of uniform density, placed in a link frame: volume, moments up to order two,
 // division into two shapes of the same kind.
 //
-// Every solid is a cell of a canonical body under an affine map, so one formula per canonical body
-// serves for all poses, sizes and parts: moments are integrated in canonical coordinates and mapped
-// by Sigma -> T Sigma T^T (docs/derivations/shapes.md).
+// Cuboids, cylinders and ellipsoids are cells of a canonical body under an affine map, so one
+// formula per canonical body serves for all poses, sizes and parts: moments are integrated in
+// canonical coordinates and mapped by Sigma -> T Sigma T^T (docs/derivations/shapes.md). Division
+// moves a bound of the cell and nothing else, so that parts do not drift however often they are
+// divided.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "shapeid/models/contract.hpp"
 #include "shapeid/models/inertia.hpp"
 
 namespace shapeid {
@@ -59,8 +62,14 @@ struct Point {
 
 using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Polyhedron, Point>;
 
+/// Empty if the shape is one that the functions below are defined for: finite, of positive volume,
+/// the cell inside its canonical body, the surface closed and counter-clockwise.
+[[nodiscard]] Violation why_malformed(const Shape& shape);
+
 /// Makers: size in m, pose in the link frame. Each throws std::invalid_argument for sizes that are
-/// not positive and finite, or surfaces that are not closed.
+/// not positive and finite, points without a solid hull, and surfaces that are open, inconsistently
+/// oriented or inside out (a mesh is never turned silently). A mesh is marked convex if no edge is
+/// re-entrant by more than single precision, which is what mesh files usually carry.
 [[nodiscard]] Shape make_cuboid(const Eigen::Vector3d& sides, const Eigen::Isometry3d& pose);
 [[nodiscard]] Shape make_cylinder(double radius, double length, const Eigen::Isometry3d& pose);
 [[nodiscard]] Shape make_ellipsoid(const Eigen::Vector3d& semi_axes, const Eigen::Isometry3d& pose);
@@ -73,6 +82,16 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Polyhedron, Point>;
 /// "cuboid", "cylinder", "ellipsoid", "polyhedron", "point"
 [[nodiscard]] std::string kind_name(const Shape& shape);
 
+/// What a uniform solid weighs where, free of any distant origin: the central moments of a small
+/// part keep their digits however far it lies from the link origin.
+struct Moments {
+  double volume;               ///< m^3; the nominal one for a point
+  Eigen::Vector3d centroid;    ///< m, link frame
+  Eigen::Matrix3d covariance;  ///< m^2, mean of (x - centroid)(x - centroid)^T, link axes
+};
+
+[[nodiscard]] Moments moments(const Shape& shape);
+
 /// m^3
 [[nodiscard]] double volume(const Shape& shape);
 
@@ -80,7 +99,8 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Polyhedron, Point>;
 /// the link origin in link axes. Times its mass this is the shape's share of the link's Phi.
 [[nodiscard]] InertialParameters unit_parameters(const Shape& shape);
 
-/// Whether a point of the link frame lies inside or on the boundary, to within `slack` (m).
+/// Whether a point of the link frame lies inside or on the boundary. With slack (m), also whether
+/// the point of the shape with the nearest coordinates of its cell is no farther away than that.
 [[nodiscard]] bool contains(const Shape& shape, const Eigen::Vector3d& point, double slack = 0.0);
 
 /// Axis-aligned bounds in link axes, lower and upper corner, m.
@@ -89,12 +109,20 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Polyhedron, Point>;
 /// Whether divide() can be called. A point cannot be divided, nor a mesh that is not convex.
 [[nodiscard]] bool divisible(const Shape& shape);
 
-/// Cuts across coordinate `axis` (0, 1, 2 of the cell; of the bounding box for a polyhedron) so
-/// that the first part holds `fraction` of the volume. Both parts are of the same kind.
+/// Cuts across coordinate `axis` (0, 1, 2 of the cell; of the link axes for a polyhedron) so that
+/// the first part, on the lower side, holds `fraction` of the volume. Both parts are of the same
+/// kind. Throws std::invalid_argument if the shape is not divisible, the axis is none of the three,
+/// the fraction is not between 0 and 1, or the parts would be thinner than one rounding.
 [[nodiscard]] std::pair<Shape, Shape> divide(const Shape& shape, int axis, double fraction);
 
-/// Algorithm 1's cut: into equal volumes, across the longest side (arc lengths for curved kinds,
-/// the direction of largest spread for a polyhedron). Ties go to the lowest axis.
+/// Sides whose lengths differ by less than this fraction count as equally long: what rounding makes
+/// of equal sides must not decide where the next cut goes.
+inline constexpr double tie_of_sides = 1e-9;
+
+/// Algorithm 1's cut: into equal volumes, across the longest side. Sides of a cell are measured in
+/// metres: straight ones as they are, arcs at their largest radius, in a stretched frame by the
+/// root mean square of the stretch along the coordinate. A polyhedron is cut across its principal
+/// direction of largest spread. Of sides that tie the one of the lowest axis is cut.
 [[nodiscard]] std::pair<Shape, Shape> divide(const Shape& shape);
 
 }  // namespace shapeid
