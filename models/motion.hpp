@@ -1,6 +1,8 @@
 // From a log to samples: the same filter over every channel, derivatives, gaps, contacts.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,45 +12,64 @@
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/robot_yaml.hpp"
 #include "shapeid/models/sample.hpp"
+#include "shapeid/models/segment_filter.hpp"
 
 namespace shapeid {
 
-enum class Smoothing {
-  none,        ///< values as logged; derivatives by central differences
-  zero_phase,  ///< Butterworth forward and backward, for logs
-  causal       ///< Butterworth forward only, for streams; its group delay is in the report
-};
+/// Which contacts touch in a sample whose flags are not logged, one entry a contact of the robot;
+/// empty if it cannot be told, and the sample is dropped.
+using ContactRule = std::function<std::optional<std::vector<bool>>(const Sample&)>;
 
 struct MotionOptions {
   Smoothing smoothing = Smoothing::zero_phase;
-  double cutoff = 20.0;  ///< Hz, -3 dB of one pass; the same for joints, IMU and torque
-  int order = 2;         ///< of one pass
-  double rate = 0.0;     ///< Hz of the regular grid; 0: the log's median rate
-  double gap = 5.0;      ///< a step longer than this many median steps is a gap
-  /// Columns q/dq/ddq present in the log and trusted: with `exact_derivatives` logged dq, ddq and
-  /// base.gyrodot are used as they are (simulation), else derivatives come from the filter.
+  double cutoff = 20.0;  ///< Hz, -3 dB of one pass; the same for joints, IMU, torque and force
+  int order = 2;         ///< of one pass, 1 to 8
+  double rate = 0.0;     ///< Hz of the regular grid; 0: the log's median rate. Not below that.
+  double gap = 5.0;      ///< a channel's step longer than this many of its median steps is a gap
+  /// Joint velocities from the logged dq instead of the differentiated q. Drives often log a
+  /// velocity that is a sample late or filtered on its own, so this is not the default.
+  bool use_logged_velocity = false;
+  /// Logged dq, ddq and base.gyrodot are used as they are (simulation). Nothing is resampled,
+  /// filtered or differentiated, and `smoothing` does not count.
   bool exact_derivatives = false;
-  bool derive_contacts =
-      false;  ///< from -J^-T (tau - given model) when the log has no contact columns
+  /// Decides contacts when the log has no contact columns, e.g. from -J^-T (tau - given model).
+  ContactRule derive_contacts;
+  /// s before and after a change of any contact in which samples are dropped, because the filter
+  /// mixes both sides there. Empty: 1 / (4 cutoff), where the impulse response of two passes has
+  /// fallen below a tenth of its peak; 0 drops nothing.
+  std::optional<double> contact_margin;
+  /// Refuse a floating log whose accelerometer does not read about 9.81 m/s^2 on average. Turn off
+  /// for a robot in free fall.
+  bool expect_gravity = true;
+  /// Refuse logs with frozen channels: a torque other than zero, or an accelerometer, that never
+  /// changes while the joints move.
+  bool refuse_frozen = true;
 };
 
 /// What preparing a log did, for the report of a run.
 struct MotionReport {
-  std::size_t rows = 0, samples = 0, gaps = 0, dropped_rows = 0;
+  std::size_t rows = 0;          ///< in the log
+  std::size_t samples = 0;       ///< handed out
+  std::size_t gaps = 0;          ///< between segments
+  std::size_t dropped_rows = 0;  ///< by the mapping's row filter
+  /// Grid rows lost at the ends of segments, and in segments too short to filter.
+  std::size_t dropped_at_ends = 0;
+  /// Samples lost because a contact is not known, or changes within the margin.
+  std::size_t dropped_at_contacts = 0;
   double rate = 0.0;         ///< Hz
-  double group_delay = 0.0;  ///< s, at low frequency; 0 for zero_phase
+  double group_delay = 0.0;  ///< s, at low frequency, of all channels alike; 0 for zero_phase
   bool floating = false;     ///< the log has base.* columns
   bool contacts_logged = false, contacts_derived = false, forces_logged = false;
   std::vector<std::string> extra;  ///< columns that are neither ours nor mapped
   std::vector<std::string> notes;
 };
 
-/// Streams the samples of a log in fixed memory (chunks with overlap). Throws InputError for bad
-/// input: a clock that runs backwards, units that cannot be (degrees), torque that is a current,
-/// missing columns.
+/// Streams the samples of a log in fixed memory. Throws InputError for bad input: a clock that runs
+/// backwards, units that cannot be (degrees), torque that is a current, missing columns.
 class MotionReader {
  public:
-  /// `robot` must outlive the reader; its order of joints and contacts is the samples' order.
+  /// `path` "-" reads standard input. `robot` must outlive the reader; its order of joints and
+  /// contacts is the samples' order. IMU channels are turned and moved from notes.imu to the base.
   MotionReader(const std::string& path, const Robot& robot, const RobotNotes& notes,
                const std::optional<Mapping>& mapping, const MotionOptions& options);
   ~MotionReader();
@@ -65,5 +86,10 @@ class MotionReader {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Gives the robot a point contact at the origin of every link that the log has a contact.<link>
+/// column for, unless it has contacts already (robot.yaml). Throws InputError for unknown links.
+void add_default_contacts(Robot& robot, const std::string& log_path,
+                          const std::optional<Mapping>& mapping);
 
 }  // namespace shapeid

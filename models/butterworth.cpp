@@ -1,0 +1,103 @@
+#include "shapeid/models/butterworth.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "shapeid/models/error.hpp"
+
+namespace shapeid {
+namespace {
+
+using std::numbers::pi;
+
+/// Damping q of the k-th conjugate pair 1 / (s^2 + q s + 1) of the prototype, k from 1.
+double damping(int order, int k) { return 2.0 * std::sin((2 * k - 1) * pi / (2 * order)); }
+
+}  // namespace
+
+Butterworth::Butterworth(int order, double cutoff, double rate)
+    : order_(order), rate_(rate), K_(std::tan(pi * cutoff / rate)) {
+  constexpr int highest_order = 8;
+  if (order < 1 || order > highest_order) {
+    throw InputError(fmt::format("filter of order {}", order),
+                     fmt::format("choose an order from 1 to {}", highest_order));
+  }
+  if (!(cutoff > 0.0 && cutoff < rate / 2.0)) {
+    throw InputError(fmt::format("cutoff of {:g} Hz for data at {:g} Hz", cutoff, rate),
+                     fmt::format("choose a cutoff between 0 and {:g} Hz", rate / 2.0));
+  }
+  // s = (1 - 1/z) / (K (1 + 1/z)) takes the cutoff of the prototype to that of the filter.
+  for (int k = 1; k <= order / 2; ++k) {
+    const double q = damping(order, k);
+    const double a0 = 1.0 + q * K_ + K_ * K_;
+    const double b = K_ * K_ / a0;
+    sections_.push_back({b, 2.0 * b, b, 2.0 * (K_ * K_ - 1.0) / a0, (1.0 - q * K_ + K_ * K_) / a0});
+  }
+  if (order % 2 == 1) {
+    const double b = K_ / (1.0 + K_);
+    sections_.push_back({b, b, 0.0, (K_ - 1.0) / (1.0 + K_), 0.0});
+  }
+}
+
+double Butterworth::prototype_frequency(double frequency) const {
+  return std::tan(pi * frequency / rate_) / K_;
+}
+
+double Butterworth::gain(double frequency) const {
+  return 1.0 / std::sqrt(1.0 + std::pow(prototype_frequency(frequency), 2 * order_));
+}
+
+double Butterworth::group_delay(double frequency) const {
+  const double w = prototype_frequency(frequency);
+  double delay = order_ % 2 == 1 ? 1.0 / (1.0 + w * w) : 0.0;
+  for (int k = 1; k <= order_ / 2; ++k) {
+    const double q = damping(order_, k);
+    delay += q * (1.0 + w * w) / (std::pow(1.0 - w * w, 2) + q * q * w * w);
+  }
+  const double stretch = (1.0 + std::pow(K_ * w, 2)) / (2.0 * rate_ * K_);  // dw / d omega
+  return delay * stretch;
+}
+
+Eigen::Index Butterworth::samples_to_decay(double fraction) const {
+  double slowest = 0.0;
+  for (const Section& s : sections_) {
+    const double discriminant = s.a1 * s.a1 / 4.0 - s.a2;
+    const double radius =
+        discriminant < 0.0 ? std::sqrt(s.a2) : std::abs(s.a1) / 2.0 + std::sqrt(discriminant);
+    slowest = std::max(slowest, radius);
+  }
+  if (slowest == 0.0) return 1;
+  return static_cast<Eigen::Index>(std::ceil(std::log(fraction) / std::log(slowest)));
+}
+
+FilterState::FilterState(const Butterworth& design, Eigen::Index channels)
+    : sections_(design.sections()),
+      first_(Eigen::MatrixXd::Zero(channels, static_cast<Eigen::Index>(sections_.size()))),
+      second_(first_) {}
+
+void FilterState::settle(const Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < sections_.size(); ++i) {
+    const Section& s = sections_[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    first_.col(column) = (1.0 - s.b0) * x;  // every section has unit gain: its output is x too
+    second_.col(column) = (s.b2 - s.a2) * x;
+  }
+}
+
+Eigen::VectorXd FilterState::step(const Eigen::VectorXd& x) {
+  Eigen::VectorXd in = x;
+  for (std::size_t i = 0; i < sections_.size(); ++i) {
+    const Section& s = sections_[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    const Eigen::VectorXd out = s.b0 * in + first_.col(column);
+    first_.col(column) = s.b1 * in - s.a1 * out + second_.col(column);
+    second_.col(column) = s.b2 * in - s.a2 * out;
+    in = out;
+  }
+  return in;
+}
+
+}  // namespace shapeid

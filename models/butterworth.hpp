@@ -1,0 +1,55 @@
+// Butterworth low-pass filters as second-order sections, designed by the bilinear transform, with
+// their gain and group delay in closed form (docs/derivations/filtering.md).
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace shapeid {
+
+/// H(z) = (b0 + b1 / z + b2 / z^2) / (1 + a1 / z + a2 / z^2)
+struct Section {
+  double b0, b1, b2, a1, a2;
+};
+
+/// A low-pass of unit gain at zero frequency and -3 dB at the cutoff, for one pass.
+class Butterworth {
+ public:
+  /// `order` 1 to 8; `cutoff` and `rate` in Hz with 0 < cutoff < rate / 2. Throws InputError.
+  Butterworth(int order, double cutoff, double rate);
+
+  [[nodiscard]] const std::vector<Section>& sections() const { return sections_; }
+  /// |H| at a frequency in Hz.
+  [[nodiscard]] double gain(double frequency) const;
+  /// -d(phase)/d(omega) at a frequency in Hz, in s.
+  [[nodiscard]] double group_delay(double frequency) const;
+  /// After how many samples a transient has decayed to `fraction` of itself, from the slowest pole.
+  [[nodiscard]] Eigen::Index samples_to_decay(double fraction) const;
+
+ private:
+  /// Frequency on the axis of the analog prototype, where the cutoff is at one.
+  [[nodiscard]] double prototype_frequency(double frequency) const;
+
+  int order_;
+  double rate_;
+  double K_;  ///< tan(pi cutoff / rate)
+  std::vector<Section> sections_;
+};
+
+/// Runs many channels through a filter, one sample at a time.
+class FilterState {
+ public:
+  FilterState(const Butterworth& design, Eigen::Index channels);
+
+  /// As if the input had been `x` for ever (one entry a channel).
+  void settle(const Eigen::VectorXd& x);
+  /// The next output.
+  [[nodiscard]] Eigen::VectorXd step(const Eigen::VectorXd& x);
+
+ private:
+  std::vector<Section> sections_;
+  Eigen::MatrixXd first_, second_;  ///< transposed direct form II, channels x sections
+};
+
+}  // namespace shapeid

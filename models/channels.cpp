@@ -1,0 +1,308 @@
+#include "shapeid/models/channels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "shapeid/models/error.hpp"
+
+namespace shapeid {
+namespace {
+
+constexpr int header_line = 1;
+constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
+
+std::vector<std::string> with_axes(const std::string& quantity) {
+  std::vector<std::string> names;
+  for (const char* axis : axes) names.push_back(quantity + "." + axis);
+  return names;
+}
+
+/// "i3_A", "motor_current_knee", "tau_motor": what is called so is not a joint torque.
+bool sounds_like_current_or_motor(const std::string& name) {
+  std::string lower = name;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array<std::string_view, 3> words = {"current", "amp", "motor"};
+  constexpr std::array<std::string_view, 2> units = {"_a", "_ma"};
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view w) { return lower.find(w) != std::string::npos; }) ||
+         std::any_of(units.begin(), units.end(),
+                     [&](std::string_view u) { return lower.ends_with(u); });
+}
+
+/// Looks names up in a log, through a mapping if there is one, and remembers what was used.
+class Finder {
+ public:
+  Finder(const LogReader& log, const std::optional<Mapping>& mapping)
+      : path_(log.path()), mapping_(mapping) {
+    for (std::size_t i = 0; i < log.columns().size(); ++i) columns_[log.columns()[i]] = i;
+    if (!mapping) return;
+    for (const auto& [ours, rule] : mapping->columns) {
+      static_cast<void>(column(rule.from, fmt::format("the mapping takes {} from it", ours)));
+    }
+  }
+
+  [[nodiscard]] bool has(const std::string& ours) const {
+    return rule(ours) != nullptr || columns_.contains(ours);
+  }
+  [[nodiscard]] bool has_any(const std::vector<std::string>& names) const {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return has(name); });
+  }
+
+  /// Index of a column of the log; `why` says who needs it.
+  std::size_t column(const std::string& from, const std::string& why) {
+    const auto found = columns_.find(from);
+    if (found == columns_.end()) {
+      throw InputError({path_, header_line}, fmt::format("has no column {}", from), why);
+    }
+    used_.insert(from);
+    return found->second;
+  }
+
+  Channel find(const std::string& ours) {
+    const ColumnRule* const r = rule(ours);
+    if (r == nullptr) {
+      return {ours, ours, column(ours, "add it, or name its source in a mapping file")};
+    }
+    Channel channel{ours, r->from, column(r->from, ""), r->sign * r->scale, r->offset};
+    if (!r->hold.empty()) {
+      channel.hold_group =
+          groups_.try_emplace(r->hold, static_cast<int>(groups_.size())).first->second;
+    }
+    return channel;
+  }
+
+  /// Appends all of `names`; -1 if the log has none of them and need not.
+  int append(const std::vector<std::string>& names, bool required, std::vector<Channel>& channels) {
+    if (!required && !has_any(names)) return -1;
+    const int start = static_cast<int>(channels.size());
+    for (const std::string& name : names) channels.push_back(find(name));
+    return start;
+  }
+
+  [[nodiscard]] int groups() const { return static_cast<int>(groups_.size()); }
+  [[nodiscard]] std::vector<std::string> unused() const {
+    std::vector<std::string> names;
+    for (const auto& [name, index] : columns_) {
+      if (!used_.contains(name)) names.push_back(name);
+    }
+    return names;
+  }
+  /// Names that carry contact flags, without the prefix.
+  [[nodiscard]] std::vector<std::string> contact_names() const {
+    constexpr std::string_view prefix = "contact.";
+    std::set<std::string> names;
+    for (const auto& [name, index] : columns_) {
+      if (name.starts_with(prefix)) names.insert(name.substr(prefix.size()));
+    }
+    if (mapping_) {
+      for (const auto& [name, rule] : mapping_->columns) {
+        if (name.starts_with(prefix)) names.insert(name.substr(prefix.size()));
+      }
+    }
+    return {names.begin(), names.end()};
+  }
+
+ private:
+  [[nodiscard]] const ColumnRule* rule(const std::string& ours) const {
+    if (!mapping_) return nullptr;
+    const auto found = mapping_->columns.find(ours);
+    return found == mapping_->columns.end() ? nullptr : &found->second;
+  }
+
+  std::string path_;
+  const std::optional<Mapping>& mapping_;
+  std::map<std::string, std::size_t> columns_;
+  std::set<std::string> used_;
+  std::map<std::string, int> groups_;
+};
+
+/// Puts gears and drive gains into the scales of the torque channels.
+void declare_torque(const std::optional<Mapping>& mapping, const std::string& path,
+                    const Robot& robot, ChannelPlan& plan) {
+  const TorqueKind kind = mapping && mapping->torque ? *mapping->torque : TorqueKind::joint;
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    Channel& tau = plan.channels[static_cast<std::size_t>(plan.tau + j)];
+    const std::string& joint = robot.joint(j).name;
+    if (!(mapping && mapping->torque) && tau.from != tau.name &&
+        sounds_like_current_or_motor(tau.from)) {
+      throw InputError(
+          {path, header_line, tau.from},
+          fmt::format("is to be {}, but sounds like a current or a motor-side torque", tau.name),
+          "declare torque: {kind: joint | motor | current, factor} in the mapping");
+    }
+    if (kind == TorqueKind::joint) continue;
+    const auto factor = mapping->torque_factor.find(joint);
+    if (factor == mapping->torque_factor.end()) {
+      throw InputError(fmt::format("the mapping gives no torque factor for joint {}", joint),
+                       kind == TorqueKind::motor ? "give the gear ratio of every joint"
+                                                 : "give N m per A of every joint");
+    }
+    tau.scale *= factor->second;
+    tau.offset *= factor->second;
+  }
+}
+
+void check_root(const Finder& finder, const std::string& path, const Robot& robot) {
+  std::vector<std::string> base = with_axes("base.gyro");
+  for (const std::string& name : with_axes("base.accel")) base.push_back(name);
+  const bool floating = finder.has_any(base);
+  if (floating && robot.root == Root::fixed) {
+    throw InputError({path, header_line}, "has base.* columns, but the robot's root is fixed",
+                     "read the robot with a floating root, or leave the base.* columns out");
+  }
+  if (!floating && robot.root == Root::floating) {
+    throw InputError(
+        {path, header_line}, "has no base.* columns, but the robot's root floats",
+        "read the robot with a fixed root, or log base.gyro.{x,y,z} and base.accel.{x,y,z}");
+  }
+}
+
+void check_contacts(const Finder& finder, const std::string& path, const Robot& robot) {
+  for (const std::string& name : finder.contact_names()) {
+    const bool known = std::any_of(robot.contacts.begin(), robot.contacts.end(),
+                                   [&](const Contact& c) { return c.name == name; });
+    if (!known) {
+      throw InputError({path, header_line, "contact." + name},
+                       robot.find_link(name) ? "is no contact of the robot"
+                                             : fmt::format("the robot has no link {}", name),
+                       "name links of the URDF, and declare them as contacts in robot.yaml");
+    }
+  }
+}
+
+}  // namespace
+
+ChannelPlan plan_channels(const LogReader& log, const Robot& robot,
+                          const std::optional<Mapping>& mapping) {
+  Finder finder(log, mapping);
+  check_root(finder, log.path(), robot);
+  check_contacts(finder, log.path(), robot);
+
+  const auto per_joint = [&](const std::string& quantity) {
+    std::vector<std::string> names;
+    for (int j = 0; j < robot.joint_count(); ++j) {
+      names.push_back(quantity + "." + robot.joint(j).name);
+    }
+    return names;
+  };
+  std::vector<std::string> force, contact;
+  for (const Contact& c : robot.contacts) {
+    contact.push_back("contact." + c.name);
+    for (const std::string& name : with_axes("force." + c.name)) force.push_back(name);
+  }
+
+  ChannelPlan plan;
+  plan.time = finder.find("time");
+  if (robot.root == Root::floating) {
+    plan.gyro = finder.append(with_axes("base.gyro"), true, plan.channels);
+    plan.accel = finder.append(with_axes("base.accel"), true, plan.channels);
+    plan.gyrodot = finder.append(with_axes("base.gyrodot"), false, plan.channels);
+  }
+  plan.q = finder.append(per_joint("q"), true, plan.channels);
+  plan.dq = finder.append(per_joint("dq"), false, plan.channels);
+  plan.ddq = finder.append(per_joint("ddq"), false, plan.channels);
+  plan.tau = finder.append(per_joint("tau"), true, plan.channels);
+  plan.force = finder.append(force, false, plan.channels);
+  finder.append(contact, false, plan.contacts);
+  declare_torque(mapping, log.path(), robot, plan);
+
+  if (mapping) {
+    for (const auto& [name, value] : mapping->keep_rows) {
+      plan.keep.push_back({finder.column(name, "the mapping keeps rows by it"), value});
+    }
+  }
+  plan.hold_groups = finder.groups();
+  plan.extra = finder.unused();
+  return plan;
+}
+
+MeasuredRows::MeasuredRows(const std::string& path, const Robot& robot,
+                           const std::optional<Mapping>& mapping)
+    : log_(path),
+      plan_(plan_channels(log_, robot, mapping)),
+      held_(plan_.channels.size(), std::numeric_limits<double>::quiet_NaN()) {}
+
+bool MeasuredRows::kept(const LogRow& row) const {
+  return std::all_of(plan_.keep.begin(), plan_.keep.end(), [&](const ChannelPlan::Keep& keep) {
+    return row.values[keep.column] == keep.value;
+  });
+}
+
+double MeasuredRows::clock(const LogRow& row) {
+  const Place place{log_.path(), row.line, plan_.time.from};
+  const double time = plan_.time.scale * row.values[plan_.time.column] + plan_.time.offset;
+  if (std::isnan(time)) throw InputError(place, "is empty", "give every row its time");
+  if (last_time_ && time <= *last_time_) {
+    throw InputError(place,
+                     time == *last_time_
+                         ? fmt::format("the clock stands still at {} s", time)
+                         : fmt::format("the clock runs back from {} to {} s", *last_time_, time),
+                     "give rows in increasing time, each time once");
+  }
+  last_time_ = time;
+  return time;
+}
+
+std::vector<int> MeasuredRows::contacts(const LogRow& row) const {
+  std::vector<int> flags;
+  for (const Channel& contact : plan_.contacts) {
+    const double flag = contact.scale * row.values[contact.column] + contact.offset;
+    if (!(std::isnan(flag) || flag == 0.0 || flag == 1.0 || flag == -1.0)) {
+      throw InputError({log_.path(), row.line, contact.from}, fmt::format("{} is no flag", flag),
+                       "write 1 for touching, 0 for not, -1 or nothing for not known");
+    }
+    flags.push_back(std::isnan(flag) ? -1 : static_cast<int>(flag));
+  }
+  return flags;
+}
+
+/// Leaves only new measurements: a sample-and-hold group repeats its values until a new one comes.
+void MeasuredRows::blank_held(const LogRow& row, Eigen::VectorXd& values) {
+  std::vector<bool> fresh(static_cast<std::size_t>(plan_.hold_groups), false);
+  for (std::size_t c = 0; c < plan_.channels.size(); ++c) {
+    const Channel& channel = plan_.channels[c];
+    const double value = row.values[channel.column];
+    if (channel.hold_group < 0 || std::isnan(value) || value == held_[c]) continue;
+    fresh[static_cast<std::size_t>(channel.hold_group)] = true;
+    held_[c] = value;
+  }
+  for (std::size_t c = 0; c < plan_.channels.size(); ++c) {
+    const int group = plan_.channels[c].hold_group;
+    if (group >= 0 && !fresh[static_cast<std::size_t>(group)]) {
+      values[static_cast<Eigen::Index>(c)] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
+std::optional<MeasuredRow> MeasuredRows::next() {
+  while (const std::optional<LogRow> row = log_.next()) {
+    ++rows_;
+    if (!kept(*row)) {
+      ++filtered_;
+      continue;
+    }
+    MeasuredRow measured{row->line, clock(*row),
+                         Eigen::VectorXd(static_cast<Eigen::Index>(plan_.channels.size())),
+                         contacts(*row)};
+    for (std::size_t c = 0; c < plan_.channels.size(); ++c) {
+      const Channel& channel = plan_.channels[c];
+      measured.values[static_cast<Eigen::Index>(c)] =
+          channel.scale * row->values[channel.column] + channel.offset;
+    }
+    blank_held(*row, measured.values);
+    return measured;
+  }
+  return std::nullopt;
+}
+
+}  // namespace shapeid

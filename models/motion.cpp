@@ -1,0 +1,273 @@
+#include "shapeid/models/motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "shapeid/models/channels.hpp"
+#include "shapeid/models/differences.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/resampler.hpp"
+#include "shapeid/models/sample_builder.hpp"
+
+namespace shapeid {
+namespace {
+
+// Rows from which the median steps are taken. A stream must not wait for as many.
+constexpr std::size_t head_of_log = 4096;
+constexpr std::size_t head_of_stream = 256;
+// The impulse response of two passes has fallen below a tenth of its peak a quarter of the cutoff's
+// period away (docs/derivations/filtering.md).
+constexpr double margin_periods = 0.25;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Median time between measurements: of the rows, and of every channel.
+struct Steps {
+  double row = 0.0;
+  Eigen::VectorXd channel;
+};
+
+Steps median_steps(const std::deque<MeasuredRow>& head, const MeasuredRows& source) {
+  if (head.size() < 2) {
+    throw InputError({source.path()}, fmt::format("has {} rows of measurements", head.size()),
+                     "a motion takes at least some tenths of a second");
+  }
+  std::vector<double> rows;
+  for (std::size_t i = 1; i < head.size(); ++i) rows.push_back(head[i].time - head[i - 1].time);
+  Steps steps{median(std::move(rows)),
+              Eigen::VectorXd(static_cast<Eigen::Index>(source.plan().channels.size()))};
+  for (Eigen::Index c = 0; c < steps.channel.size(); ++c) {
+    std::vector<double> own;
+    std::optional<double> last;
+    for (const MeasuredRow& row : head) {
+      if (std::isnan(row.values[c])) continue;
+      if (last) own.push_back(row.time - *last);
+      last = row.time;
+    }
+    if (own.empty()) {
+      const Channel& channel = source.plan().channels[static_cast<std::size_t>(c)];
+      throw InputError({source.path(), 0, channel.from},
+                       channel.hold_group < 0 ? "is empty" : "is held and never changes",
+                       fmt::format("{} needs measurements from the log's beginning", channel.name));
+    }
+    steps.channel[c] = median(std::move(own));
+  }
+  return steps;
+}
+
+void check_exact(const ChannelPlan& plan, const std::string& path) {
+  if (plan.dq < 0 || plan.ddq < 0 || (plan.floating() && plan.gyrodot < 0)) {
+    throw InputError({path}, "lacks derivatives",
+                     plan.floating() ? "exact derivatives need dq.*, ddq.* and base.gyrodot.*"
+                                     : "exact derivatives need dq.* and ddq.*");
+  }
+}
+
+}  // namespace
+
+struct MotionReader::State {
+  State(const std::string& path, const Robot& r, const RobotNotes& notes,
+        const std::optional<Mapping>& mapping, const MotionOptions& o)
+      : robot(r),
+        imu(notes.imu),
+        options(o),
+        source(path, r, mapping),
+        margin(o.exact_derivatives ? 0.0 : o.contact_margin.value_or(margin_periods / o.cutoff)) {
+    const ChannelPlan& plan = source.plan();
+    if (options.exact_derivatives) check_exact(plan, path);
+    if (options.use_logged_velocity && plan.dq < 0) {
+      throw InputError({path}, "has no dq.* columns", "log them, or do not ask to use them");
+    }
+    if (!robot.contacts.empty() && plan.contacts.empty() && !options.derive_contacts) {
+      throw InputError({path}, "has no contact.* columns, but the robot has contacts",
+                       "log a flag for each (0 in the air), or have them derived");
+    }
+    report.floating = plan.floating();
+    report.contacts_logged = !plan.contacts.empty();
+    report.contacts_derived = !robot.contacts.empty() && plan.contacts.empty();
+    report.forces_logged = plan.force >= 0;
+    report.extra = plan.extra;
+    read_head();
+  }
+
+  const Robot& robot;
+  Eigen::Isometry3d imu;
+  MotionOptions options;
+  MotionReport report;
+  MeasuredRows source;
+  std::deque<MeasuredRow> head;
+  std::optional<Resampler> grid;
+  std::optional<SegmentFilter> filter;
+  ContactMargin margin;
+
+  struct Stamp {
+    double time;
+    std::vector<int> contacts;
+  };
+  std::deque<Stamp> stamps;             ///< of rows that are inside the filter
+  std::deque<Eigen::VectorXd> around;   ///< filtered rows around the one to differentiate
+  std::deque<Stamp> around_stamps;      ///< of these
+  std::deque<FlaggedSample> unsettled;  ///< samples that a segment's end would take away
+  Eigen::Index since_start = 0;         ///< samples since the segment's beginning
+  bool ended = false;
+
+  void read_head() {
+    const std::size_t wanted =
+        options.smoothing == Smoothing::causal ? head_of_stream : head_of_log;
+    while (head.size() < wanted) {
+      std::optional<MeasuredRow> row = source.next();
+      if (!row) break;
+      head.push_back(std::move(*row));
+    }
+    const Steps steps = median_steps(head, source);
+    const double logged_rate = 1.0 / steps.row;
+    report.rate = options.rate > 0.0 ? options.rate : logged_rate;
+    if (options.exact_derivatives) return;
+    constexpr double rate_slack = 0.99;  // a median of jittered stamps
+    if (report.rate < rate_slack * logged_rate) {
+      throw InputError(
+          fmt::format("a grid of {:g} Hz for a log of {:g} Hz", report.rate, logged_rate),
+          "leave the log's rate: picking rows would fold noise into the motion");
+    }
+    const Butterworth design(options.order, options.cutoff, report.rate);
+    if (options.smoothing == Smoothing::causal) report.group_delay = design.group_delay(0.0);
+    grid.emplace(report.rate, options.gap * steps.channel.cwiseMax(steps.row));
+    filter.emplace(options.smoothing, design, steps.channel.size());
+  }
+
+  std::optional<MeasuredRow> next_row() {
+    if (head.empty()) return source.next();
+    MeasuredRow row = std::move(head.front());
+    head.pop_front();
+    return row;
+  }
+
+  /// Lets one more row of the log in; false at its end.
+  bool advance() {
+    if (ended) return false;
+    const std::optional<MeasuredRow> row = next_row();
+    if (options.exact_derivatives) {
+      if (row) take_exact(*row);
+    } else {
+      if (row) grid->push(*row);
+      if (!row) grid->finish();
+      while (const std::optional<GridRow> point = grid->next()) take(*point);
+    }
+    if (!row) end_log();
+    return true;
+  }
+
+  void end_log() {
+    ended = true;
+    if (!options.exact_derivatives) end_segment();
+    margin.finish();
+    report.rows = source.rows();
+    report.dropped_rows = source.filtered();
+    report.dropped_at_contacts = margin.dropped();
+  }
+
+  void take_exact(const MeasuredRow& row) {
+    if (row.values.hasNaN()) {
+      throw InputError({source.path(), row.line}, "has an empty field",
+                       "exact derivatives need every value in every row");
+    }
+    flag({make_exact_sample(source.plan(), robot, imu, row), row.contacts});
+  }
+
+  void take(const GridRow& row) {
+    if (row.starts_segment && !first_segment) {
+      end_segment();
+      ++report.gaps;
+    }
+    first_segment = false;
+    stamps.push_back({row.time, row.contacts});
+    ++rows_of_segment;
+    filter->push(row.values);
+    drain();
+  }
+
+  void drain() {
+    while (std::optional<Eigen::VectorXd> row = filter->next()) {
+      around.push_back(std::move(*row));
+      around_stamps.push_back(std::move(stamps.front()));
+      stamps.pop_front();
+      constexpr std::size_t width = 2 * difference_reach + 1;
+      if (around.size() < width) continue;
+      Stencil f;
+      std::copy(around.begin(), around.end(), f.begin());
+      Stamp& centre = around_stamps[difference_reach];
+      settle({make_sample(source.plan(), robot, imu, centre.time, f[difference_reach],
+                          first_derivative(f, report.rate), second_derivative(f, report.rate),
+                          options.use_logged_velocity),
+              centre.contacts});
+      around.pop_front();
+      around_stamps.pop_front();
+    }
+  }
+
+  /// Hands on what is far enough from both ends of the segment.
+  void settle(FlaggedSample sample) {
+    const Eigen::Index edge = filter->unsettled();
+    if (since_start++ < edge) return;
+    unsettled.push_back(std::move(sample));
+    const Eigen::Index held = options.smoothing == Smoothing::zero_phase ? edge : 0;
+    if (std::cmp_less_equal(unsettled.size(), held)) return;
+    ++handed_on;
+    flag(std::move(unsettled.front()));
+    unsettled.pop_front();
+  }
+
+  void flag(FlaggedSample sample) {
+    if (report.contacts_derived) {
+      const std::optional<std::vector<bool>> derived = options.derive_contacts(sample.sample);
+      sample.contacts.assign(robot.contacts.size(), -1);
+      if (derived) sample.contacts.assign(derived->begin(), derived->end());
+    }
+    margin.push(std::move(sample));
+  }
+
+  void end_segment() {
+    filter->finish();
+    drain();
+    margin.finish();
+    report.dropped_at_ends += rows_of_segment - handed_on;
+    filter->reset();
+    stamps.clear();
+    around.clear();
+    around_stamps.clear();
+    unsettled.clear();
+    since_start = 0;
+    rows_of_segment = handed_on = 0;
+  }
+
+  bool first_segment = true;
+  std::size_t rows_of_segment = 0, handed_on = 0;
+};
+
+MotionReader::MotionReader(const std::string& path, const Robot& robot, const RobotNotes& notes,
+                           const std::optional<Mapping>& mapping, const MotionOptions& options)
+    : state_(std::make_unique<State>(path, robot, notes, mapping, options)) {}
+MotionReader::~MotionReader() = default;
+MotionReader::MotionReader(MotionReader&&) noexcept = default;
+MotionReader& MotionReader::operator=(MotionReader&&) noexcept = default;
+
+std::optional<Sample> MotionReader::next() {
+  do {
+    if (std::optional<Sample> sample = state_->margin.next()) {
+      ++state_->report.samples;
+      return sample;
+    }
+  } while (state_->advance());
+  return std::nullopt;
+}
+
+const MotionReport& MotionReader::report() const { return state_->report; }
+
+}  // namespace shapeid
