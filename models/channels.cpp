@@ -97,20 +97,6 @@ class Finder {
     }
     return names;
   }
-  /// Names that carry contact flags, without the prefix.
-  [[nodiscard]] std::vector<std::string> contact_names() const {
-    constexpr std::string_view prefix = "contact.";
-    std::set<std::string> names;
-    for (const auto& [name, index] : columns_) {
-      if (name.starts_with(prefix)) names.insert(name.substr(prefix.size()));
-    }
-    if (mapping_) {
-      for (const auto& [name, rule] : mapping_->columns) {
-        if (name.starts_with(prefix)) names.insert(name.substr(prefix.size()));
-      }
-    }
-    return {names.begin(), names.end()};
-  }
 
  private:
   [[nodiscard]] const ColumnRule* rule(const std::string& ours) const {
@@ -167,8 +153,9 @@ void check_root(const Finder& finder, const std::string& path, const Robot& robo
   }
 }
 
-void check_contacts(const Finder& finder, const std::string& path, const Robot& robot) {
-  for (const std::string& name : finder.contact_names()) {
+void check_contacts(const std::vector<std::string>& names, const std::string& path,
+                    const Robot& robot) {
+  for (const std::string& name : names) {
     const bool known = std::any_of(robot.contacts.begin(), robot.contacts.end(),
                                    [&](const Contact& c) { return c.name == name; });
     if (!known) {
@@ -182,11 +169,25 @@ void check_contacts(const Finder& finder, const std::string& path, const Robot& 
 
 }  // namespace
 
+std::vector<std::string> contact_names(const LogReader& log,
+                                       const std::optional<Mapping>& mapping) {
+  constexpr std::string_view prefix = "contact.";
+  std::set<std::string> names;
+  const auto collect = [&](const std::string& name) {
+    if (name.starts_with(prefix)) names.insert(name.substr(prefix.size()));
+  };
+  for (const std::string& name : log.columns()) collect(name);
+  if (mapping) {
+    for (const auto& [name, rule] : mapping->columns) collect(name);
+  }
+  return {names.begin(), names.end()};
+}
+
 ChannelPlan plan_channels(const LogReader& log, const Robot& robot,
                           const std::optional<Mapping>& mapping) {
   Finder finder(log, mapping);
   check_root(finder, log.path(), robot);
-  check_contacts(finder, log.path(), robot);
+  check_contacts(contact_names(log, mapping), log.path(), robot);
 
   const auto per_joint = [&](const std::string& quantity) {
     std::vector<std::string> names;

@@ -46,6 +46,10 @@ struct ChannelPlan {
 [[nodiscard]] ChannelPlan plan_channels(const LogReader& log, const Robot& robot,
                                         const std::optional<Mapping>& mapping);
 
+/// The links that the log, or the mapping, has contact.<link> columns for; in alphabetical order.
+[[nodiscard]] std::vector<std::string> contact_names(const LogReader& log,
+                                                     const std::optional<Mapping>& mapping);
+
 /// The rows of a log in the order of its plan: SI units, row filters and sample-and-hold resolved.
 class MeasuredRows {
  public:

@@ -270,4 +270,22 @@ std::optional<Sample> MotionReader::next() {
 
 const MotionReport& MotionReader::report() const { return state_->report; }
 
+void add_default_contacts(Robot& robot, const std::string& log_path,
+                          const std::optional<Mapping>& mapping) {
+  if (!robot.contacts.empty()) return;
+  for (const std::string& name : contact_names(LogReader(log_path), mapping)) {
+    const std::optional<int> link = robot.find_link(name);
+    if (!link) {
+      throw InputError({log_path, 1, "contact." + name}, "the robot has no link of this name",
+                       "name links of the URDF");
+    }
+    const std::vector<Member>& members = robot.links[static_cast<std::size_t>(*link)].members;
+    const auto member = std::find_if(members.begin(), members.end(),
+                                     [&](const Member& m) { return m.name == name; });
+    const Eigen::Isometry3d frame =
+        member == members.end() ? Eigen::Isometry3d::Identity() : member->pose;
+    robot.contacts.push_back({name, *link, ContactKind::point, frame});
+  }
+}
+
 }  // namespace shapeid

@@ -38,12 +38,6 @@ struct MotionOptions {
   /// mixes both sides there. Empty: 1 / (4 cutoff), where the impulse response of two passes has
   /// fallen below a tenth of its peak; 0 drops nothing.
   std::optional<double> contact_margin;
-  /// Refuse a floating log whose accelerometer does not read about 9.81 m/s^2 on average. Turn off
-  /// for a robot in free fall.
-  bool expect_gravity = true;
-  /// Refuse logs with frozen channels: a torque other than zero, or an accelerometer, that never
-  /// changes while the joints move.
-  bool refuse_frozen = true;
 };
 
 /// What preparing a log did, for the report of a run.

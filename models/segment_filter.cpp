@@ -6,9 +6,9 @@
 namespace shapeid {
 namespace {
 
-// What is left of the filter's start in a row that is handed on. Small beside the noise that makes
-// filtering necessary, and it costs two or three periods of the cutoff at most.
-constexpr double settled_fraction = 0.01;
+// What may be left of the filter's start in a row that is handed on: the reflection at a segment's
+// end turns the acceleration's sign, and a thousandth of that is below any real noise.
+constexpr double settled_fraction = 1e-3;
 // Below the rounding of the filtered values themselves.
 constexpr double rounding_fraction = std::numeric_limits<double>::epsilon() / 4.0;
 

@@ -26,8 +26,8 @@ class SegmentFilter {
   /// `channels`: length of the rows.
   SegmentFilter(Smoothing smoothing, const Butterworth& design, Eigen::Index channels);
 
-  /// Rows that come out near a segment's beginning (and its end, for zero_phase) that still feel
-  /// the start of the filter by more than one percent.
+  /// Rows that come out near a segment's beginning (and its end, for zero_phase) in which more than
+  /// a thousandth of the filter's start is left.
   [[nodiscard]] Eigen::Index unsettled() const;
 
   void push(const Eigen::VectorXd& row);

@@ -1,0 +1,110 @@
+#include "shapeid/models/log_writer.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "shapeid/models/contract.hpp"
+#include "shapeid/models/error.hpp"
+
+namespace shapeid {
+namespace {
+
+void check_names(const std::vector<std::string>& columns, const std::string& path) {
+  std::set<std::string> seen;
+  for (const std::string& name : columns) {
+    if (name.empty() || !seen.insert(name).second ||
+        name.find_first_of(",\"\r\n") != std::string::npos) {
+      throw InputError({path, 0, name}, "cannot be a column",
+                       "give every column its own name without commas and quotes");
+    }
+  }
+  if (columns.empty()) throw InputError({path}, "would have no columns", "name some");
+}
+
+}  // namespace
+
+struct LogWriter::State {
+  State(const std::string& p, std::vector<std::string> names)
+      : path(p), beside(fmt::format("{}.part{}", p, ::getpid())), columns(std::move(names)) {
+    check_names(columns, path);
+    const bool zipped = path.ends_with(".gz");
+    file = gzopen(beside.c_str(), zipped ? "wb" : "wbT");  // T: transparent, no gzip
+    if (file == nullptr) fail("cannot be written");
+    put(fmt::format("{}\n", fmt::join(columns, ",")));
+  }
+  ~State() { discard(); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  void put(const std::string& text) {
+    if (gzwrite(file, text.data(), static_cast<unsigned>(text.size())) == 0) {
+      fail("cannot be written");
+    }
+  }
+
+  void discard() {
+    if (file == nullptr) return;
+    gzclose_w(std::exchange(file, nullptr));
+    std::error_code ignored;
+    std::filesystem::remove(beside, ignored);
+  }
+
+  [[noreturn]] void fail(const std::string& wrong) {
+    discard();
+    throw InputError({path}, wrong, "name a writable folder with room in it");
+  }
+
+  std::string path, beside;
+  std::vector<std::string> columns;
+  gzFile file = nullptr;
+};
+
+LogWriter::LogWriter(const std::string& path, std::vector<std::string> columns)
+    : state_(std::make_unique<State>(path, std::move(columns))) {}
+LogWriter::~LogWriter() = default;
+LogWriter::LogWriter(LogWriter&&) noexcept = default;
+LogWriter& LogWriter::operator=(LogWriter&&) noexcept = default;
+
+void LogWriter::write(const std::vector<double>& values) {
+  if (values.size() != state_->columns.size()) {
+    throw Defect(fmt::format("{} values for {} columns", values.size(), state_->columns.size()));
+  }
+  std::string line;
+  for (const double value : values) {
+    if (std::isinf(value)) throw Defect("an infinity in a log");
+    if (!std::isnan(value)) {
+      std::array<char, 32> digits;  // the longest shortest double has 24 characters
+      const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+      line.append(digits.data(), end);
+    }
+    line.push_back(',');
+  }
+  line.back() = '\n';
+  state_->put(line);
+}
+
+void LogWriter::close() {
+  if (gzclose_w(std::exchange(state_->file, nullptr)) != Z_OK) {
+    std::error_code ignored;
+    std::filesystem::remove(state_->beside, ignored);
+    state_->fail("cannot be written");
+  }
+  std::error_code failed;
+  std::filesystem::rename(state_->beside, state_->path, failed);
+  if (failed) {
+    std::error_code ignored;
+    std::filesystem::remove(state_->beside, ignored);
+    state_->fail("cannot be replaced: " + failed.message());
+  }
+}
+
+}  // namespace shapeid
