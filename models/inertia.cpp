@@ -104,7 +104,8 @@ Violation why_impossible(const InertialParameters& body, double tolerance) {
   const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
                                         body.tensor_about_centre(), Eigen::EigenvaluesOnly)
                                         .eigenvalues();
-  if (principal[0] < 0.0) {
+  // A rod's zero comes out as rounding of either sign: only a moment below that is negative.
+  if (principal[0] < -tolerance * principal[2]) {
     return fmt::format(
         "a principal moment about the centre of mass is negative ({:g} kg m^2, largest {:g})",
         principal[0], principal[2]);

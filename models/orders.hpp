@@ -11,16 +11,18 @@
 
 namespace shapeid {
 
-/// Where each library keeps what (all SI, link axes unless said):
-///   shapeid    m, m rx, m ry, m rz, Ixx, Ixy, Ixz, Iyy, Iyz, Izz          about the origin
-///   pinocchio  m, m rx, m ry, m rz, Ixx, Ixy, Iyy, Ixz, Iyz, Izz          about the origin
-///   idyntree   as shapeid
-///   drake      m, rx, ry, rz, Gxx, Gyy, Gzz, Gxy, Gxz, Gyz                about the origin, per
-///   mass mujoco     m, rx, ry, rz, Ixx, Iyy, Izz, Ixy, Ixz, Iyz                about the centre of
-///   mass urdf       m, rx, ry, rz, roll, pitch, yaw, Ixx, Ixy, Ixz, Iyy, Iyz, Izz
-///                                              about the centre of mass, in the rotated frame
-///   spatial_v2 m, hx, hy, hz, Ixx, Iyy, Izz, Iyz, Ixz, Ixy                about the origin
-///   symoro     Ixx, Ixy, Ixz, Iyy, Iyz, Izz, m rx, m ry, m rz, m          about the origin
+// clang-format off
+/// Where each library keeps what (SI, link axes unless said):
+///   shapeid     m, m rx, m ry, m rz, Ixx, Ixy, Ixz, Iyy, Iyz, Izz   about the origin
+///   pinocchio   m, m rx, m ry, m rz, Ixx, Ixy, Iyy, Ixz, Iyz, Izz   about the origin
+///   idyntree    as shapeid
+///   drake       m, rx, ry, rz, Gxx, Gyy, Gzz, Gxy, Gxz, Gyz         about the origin, per mass
+///   mujoco      m, rx, ry, rz, Ixx, Iyy, Izz, Ixy, Ixz, Iyz         about the centre of mass
+///   urdf        m, rx, ry, rz, roll, pitch, yaw, Ixx, Ixy, Ixz, Iyy, Iyz, Izz
+///                                                     about the centre of mass, in the rotated frame
+///   spatial_v2  m, m rx, m ry, m rz, Ixx, Iyy, Izz, Iyz, Ixz, Ixy   about the origin
+///   symoro      Ixx, Ixy, Ixz, Iyy, Iyz, Izz, m rx, m ry, m rz, m   about the origin
+// clang-format on
 enum class Order { shapeid, pinocchio, idyntree, drake, mujoco, urdf, spatial_v2, symoro };
 
 inline constexpr std::array<std::string_view, 8> order_names = {
@@ -32,8 +34,8 @@ inline constexpr std::array<std::string_view, 8> order_names = {
 /// Ten numbers, thirteen for urdf.
 [[nodiscard]] Eigen::Index number_count(Order order);
 
-/// Throws InputError if the count is wrong, or if a centre of mass is asked of a massless body
-/// that has moments.
+/// from_order throws InputError if the count is wrong or a number is not finite; to_order if a
+/// centre of mass is asked of a massless body that has moments.
 [[nodiscard]] InertialParameters from_order(Order order, const Eigen::VectorXd& numbers);
 [[nodiscard]] Eigen::VectorXd to_order(Order order, const InertialParameters& body);
 

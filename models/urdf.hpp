@@ -3,6 +3,7 @@
 // not.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct InertiaFinding {
 
 struct UrdfOptions {
   Root root = Root::floating;
+  /// Moving joints to be treated as fixed, each at a position (rad or m): fingers, wheels, all that
+  /// no log speaks of. A name that is no joint of the file throws InputError.
+  std::map<std::string, double> locked;
+  /// A <mimic> joint is no coordinate of its own, and its coupling is not modelled: it is refused,
+  /// or with this option locked where its master stands at zero.
+  bool lock_mimic = false;
   bool reject_impossible = true;  ///< throw InputError at the first fatal finding
 };
 

@@ -1,0 +1,27 @@
+// Small helpers of the readers: files, names, and the angles that URDF and our own files share.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "shapeid/models/contract.hpp"
+
+namespace shapeid {
+
+/// The whole file. Throws InputError if it is not a regular file that can be read, or has more than
+/// `limit` bytes.
+[[nodiscard]] std::string read_small_file(const std::string& path, std::size_t limit);
+
+/// The line, from 1, that holds byte `offset`.
+[[nodiscard]] int line_at(std::string_view text, std::size_t offset);
+
+/// Why a text cannot name a link, joint or channel ("is empty", ...); empty if it can.
+[[nodiscard]] Violation why_no_name(std::string_view name);
+
+/// R = Rz(yaw) Ry(pitch) Rx(roll), angles in rad: URDF's fixed-axis roll, pitch, yaw.
+[[nodiscard]] Eigen::Matrix3d rotation_from_rpy(const Eigen::Vector3d& rpy);
+
+}  // namespace shapeid
