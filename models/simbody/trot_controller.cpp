@@ -36,6 +36,21 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& r) {
   return m;
 }
 
+/// In base axes, m, with the joints at q.
+Eigen::Vector3d centre_of_mass(const Robot& robot, const Eigen::VectorXd& q) {
+  std::vector<Eigen::Isometry3d> frames = {Eigen::Isometry3d::Identity()};
+  Eigen::Vector3d moment = robot.links[0].inertia.first_moment();
+  double mass = robot.links[0].inertia.mass();
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    const Link& link = robot.links[static_cast<std::size_t>(j) + 1];
+    frames.push_back(frames[static_cast<std::size_t>(link.parent)] * link.joint.placement *
+                     Eigen::AngleAxisd(q[j], link.joint.axis));
+    moment += link.inertia.mass() * (frames.back() * link.inertia.centre_of_mass());
+    mass += link.inertia.mass();
+  }
+  return moment / mass;
+}
+
 /// Into the friction cone, with a force that pushes.
 Eigen::Vector3d limited(const Eigen::Vector3d& force, double friction) {
   Eigen::Vector3d f = force;
@@ -57,24 +72,33 @@ TrotController::TrotController(const Robot& robot, const TrotOptions& options, s
   if (robot.root != Root::floating || robot.contacts.size() != 4) {
     throw InputError("robot " + robot.name + " cannot trot", "a floating base and four feet");
   }
-  for (const Link& link : robot.links) mass_ += link.inertia.mass();
-
   for (const Contact& contact : robot.contacts) {
     Leg leg(robot, contact);
     const Eigen::Vector3d straight = leg.position(Eigen::Vector3d::Zero());
     const Eigen::Vector3d home(straight.x(), straight.y(), -options.height);
-    const Eigen::Vector3d bent(0.0, 0.75, -1.5);  // knees behind the line from hip to foot
-    const Eigen::Vector3d q = leg.reach(home, bent);
-    for (int i = 0; i < 3; ++i) stance_[leg.joints()[static_cast<std::size_t>(i)]] = q[i];
     // Diagonal legs move together.
     const double offset = home.x() * home.y() > 0.0 ? 0.0 : 0.5;
     feet_.push_back({leg, home, offset});
   }
+  stand_up();
+  // The bent legs take the centre of mass off the middle of the feet: they follow it.
+  for (const Link& link : robot.links) mass_ += link.inertia.mass();
+  centre_ = centre_of_mass(robot, stance_);
+  for (Foot& foot : feet_) foot.home.head<2>() += centre_.head<2>();
+  stand_up();
 
   Random random(seed);
   for (Wave& wave : waves_) {
     wave.frequency = {2.0 * pi * random.uniform(0.25, 0.6), 2.0 * pi * random.uniform(0.7, 1.3)};
     wave.phase = {random.uniform(0.0, 2.0 * pi), random.uniform(0.0, 2.0 * pi)};
+  }
+}
+
+void TrotController::stand_up() {
+  const Eigen::Vector3d bent(0.0, 0.75, -1.5);  // knees behind the line from hip to foot
+  for (const Foot& foot : feet_) {
+    const Eigen::Vector3d q = foot.leg.reach(foot.home, bent);
+    for (int i = 0; i < 3; ++i) stance_[foot.leg.joints()[static_cast<std::size_t>(i)]] = q[i];
   }
 }
 
@@ -122,7 +146,7 @@ std::vector<Eigen::Vector3d> TrotController::stance_forces(const RobotState& sta
     const Leg& leg = feet_[standing[k]].leg;
     const auto column = static_cast<Eigen::Index>(3 * k);
     A.block<3, 3>(0, column).setIdentity();
-    A.block<3, 3>(3, column) = cross_matrix(R * leg.position(leg.own(state.q)));
+    A.block<3, 3>(3, column) = cross_matrix(R * (leg.position(leg.own(state.q)) - centre_));
   }
   Eigen::VectorXd wrench(6);
   wrench << mass_ * acceleration, moment;
@@ -155,8 +179,7 @@ Eigen::Vector3d TrotController::swing_force(const Foot& foot, double progress, d
       state.base.translation() + velocity * remaining +
       level * about_z(wanted.turn * (remaining + 0.5 * stance_time)) * foot.home;
   Eigen::Vector3d target =
-      hip + 0.5 * stance_time * wanted.velocity + raibert_gain * (velocity - wanted.velocity);
-  target += 0.5 * stance_time * (velocity - wanted.velocity);
+      hip + 0.5 * stance_time * velocity + raibert_gain * (velocity - wanted.velocity);
   target.z() = -press_down;
 
   // A cycloid along, a raised cosine up: both start and end at rest.

@@ -66,6 +66,8 @@ class TrotController {
     double turn, height, roll, pitch;
   };
 
+  /// Joint positions with every foot at its home.
+  void stand_up();
   [[nodiscard]] Wanted wanted(double time, double yaw) const;
   [[nodiscard]] std::vector<Eigen::Vector3d> stance_forces(const RobotState& state,
                                                            const Wanted& wanted) const;
@@ -75,6 +77,7 @@ class TrotController {
   const Robot* robot_;
   TrotOptions options_;
   double mass_ = 0.0;
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< of mass, standing, base axes
   std::vector<Foot> feet_;
   Eigen::VectorXd stance_;
   std::array<Wave, 6> waves_;
