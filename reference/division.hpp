@@ -1,4 +1,5 @@
 // Equation (16) and Algorithm 1: divide the shape with the largest v, solve again, warm-started.
+// Derivation, and the reasons for the defaults: docs/derivations/division.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +21,7 @@ struct DivisionOptions {
   int patience = 3;    ///< ... this many divisions in a row
   int most_divisions = 100;
   double tie = 1e-9;           ///< relative: v this close count as equal, the smallest place wins
-  double expected_mass = 0.0;  ///< M0, kg; fixed before the first division
+  double expected_mass = 0.0;  ///< M0 > 0, kg; fixed before the first division
 };
 
 /// One division: what was cut, and what the next solve gave.
@@ -29,6 +30,7 @@ struct DivisionStep {
   double criterion = 0.0;  ///< its v
   double objective_before = 0.0, objective_at_split = 0.0, objective_after = 0.0;
   /// || Phi_k - Phi_(k-1) || per group, relative to the group's size: mass, first moment, tensor.
+  /// A first moment's size is sqrt(mass x tensor), which bounds it wherever the origin lies.
   Eigen::Vector3d step = Eigen::Vector3d::Zero();
   int iterations = 0;
   int shapes = 0;  ///< after this division
@@ -42,11 +44,38 @@ struct DivisionRun {
   std::string stopped_by;  ///< "step", "limit", "nothing divisible"
 };
 
-/// v of every shape (zero for shapes that cannot be divided).
+/// v of every shape (zero for shapes that cannot be divided). m in kg, one a shape. V0 is the
+/// volume of all shapes, which no division changes.
 [[nodiscard]] Eigen::VectorXd division_criterion(const BodyModel& model, const Eigen::VectorXd& m,
                                                  const DivisionOptions& options);
 
-/// Algorithm 1 from an undivided model. `watch` (may be empty) is called after every division.
+/// The place whose shape is divided next: the largest v, or the smallest place among those within
+/// the tie. -1 if no v is positive: then no divisible shape carries mass.
+[[nodiscard]] Eigen::Index next_to_divide(const Eigen::VectorXd& v, double tie);
+
+/// A model with one shape cut in two, its problem, and where the next solve starts.
+struct Split {
+  BodyModel model;
+  MassProblem problem;
+  Eigen::VectorXd start;  ///< m1 = m V1/V, m2 = m V2/V: the same density on both sides of the cut
+};
+
+/// Cuts the shape at `place`. The first part ("3.0") takes its place, the second ("3.1") is
+/// appended, so that every other shape keeps its place.
+[[nodiscard]] Split split_shape(const BodyModel& model, const MassProblem& problem,
+                                const Eigen::VectorXd& m, Eigen::Index place);
+
+/// Empty if the problem's columns and volumes are those of the model's shapes.
+[[nodiscard]] Violation why_unrelated(const BodyModel& model, const MassProblem& problem);
+
+/// Empty if Phi, the data term and the density term are what they were before the split, to within
+/// rounding.
+[[nodiscard]] Violation why_changed(const MassProblem& before, const Eigen::VectorXd& m,
+                                    const Split& after);
+
+/// Algorithm 1 from an undivided model, whose columns and volumes are the problem's. `watch` (may
+/// be empty) is called after every division. Only the objective converges; a small step proves no
+/// optimality. Throws std::invalid_argument for options that make no sense.
 [[nodiscard]] DivisionRun divide_and_solve(
     const BodyModel& model, const MassProblem& problem, const DivisionOptions& options,
     const std::function<void(const DivisionRun&)>& watch = {});

@@ -1,0 +1,169 @@
+#include "shapeid/reference/division.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "shapeid/reference/mass_solver.hpp"
+
+namespace shapeid::reference {
+namespace {
+
+void check(const DivisionOptions& options) {
+  if (!(options.expected_mass > 0.0)) {
+    throw std::invalid_argument("the expected mass M0 must be positive");
+  }
+  if (!(options.k1 >= 0.0 && options.k2 >= 0.0 && options.k1 + options.k2 > 0.0)) {
+    throw std::invalid_argument("k1 and k2 must not be negative, nor both zero");
+  }
+  if (!(options.step >= 0.0) || !(options.tie >= 0.0 && options.tie < 1.0) ||
+      options.patience < 1 || options.most_divisions < 0) {
+    throw std::invalid_argument(
+        "division needs eps >= 0, 0 <= tie < 1, patience >= 1, most divisions >= 0");
+  }
+}
+
+/// Norms over all links of the masses, first moments and tensors in Phi.
+Eigen::Vector3d group_norms(const Eigen::VectorXd& Phi) {
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  for (Eigen::Index link = 0; link < Phi.size(); link += 10) {
+    squares += Eigen::Vector3d(Phi[link] * Phi[link], Phi.segment<3>(link + 1).squaredNorm(),
+                               Phi.segment<6>(link + 4).squaredNorm());
+  }
+  return squares.cwiseSqrt();
+}
+
+/// || difference || of each group over the group's size in `Phi`; zero where nothing differs.
+Eigen::Vector3d relative_groups(const Eigen::VectorXd& difference, const Eigen::VectorXd& Phi) {
+  const Eigen::Vector3d change = group_norms(difference);
+  Eigen::Vector3d size = group_norms(Phi);
+  size[1] = std::sqrt(size[0] * size[2]);  // a first moment may vanish by the choice of the origin
+  Eigen::Vector3d relative = Eigen::Vector3d::Zero();
+  for (int g = 0; g < 3; ++g) {
+    if (change[g] > 0.0) relative[g] = change[g] / size[g];
+  }
+  return relative;
+}
+
+}  // namespace
+
+Eigen::VectorXd division_criterion(const BodyModel& model, const Eigen::VectorXd& m,
+                                   const DivisionOptions& options) {
+  const Eigen::VectorXd V = shape_volumes(model);
+  const double V0 = V.sum();
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(V.size());
+  for (Eigen::Index j = 0; j < v.size(); ++j) {
+    if (!divisible(model.shapes[static_cast<std::size_t>(j)].shape)) continue;
+    const double mass = m[j] / options.expected_mass, size = V[j] / V0;
+    v[j] = options.k1 * mass * size + options.k2 * mass / size;  // (16)
+  }
+  return v;
+}
+
+Eigen::Index next_to_divide(const Eigen::VectorXd& v, double tie) {
+  const double largest = v.size() > 0 ? v.maxCoeff() : 0.0;
+  if (!(largest > 0.0)) return -1;
+  const auto first = std::find_if(v.begin(), v.end(),
+                                  [&](double value) { return value >= (1.0 - tie) * largest; });
+  return first - v.begin();
+}
+
+Split split_shape(const BodyModel& model, const MassProblem& problem, const Eigen::VectorXd& m,
+                  Eigen::Index place) {
+  Split split{model, problem, Eigen::VectorXd(m.size() + 1)};
+  std::vector<SoughtShape>& shapes = split.model.shapes;
+  const SoughtShape whole = shapes[static_cast<std::size_t>(place)];
+  auto [first, second] = divide(whole.shape);
+  shapes[static_cast<std::size_t>(place)] = {whole.link, std::move(first), whole.id + ".0"};
+  shapes.push_back({whole.link, std::move(second), whole.id + ".1"});
+  split.problem.U = shape_columns(split.model);
+  split.problem.V = shape_volumes(split.model);
+
+  const double V1 = split.problem.V[place], V2 = split.problem.V[m.size()];
+  split.start << m, m[place] * V2 / (V1 + V2);
+  split.start[place] = m[place] * V1 / (V1 + V2);
+  SHAPEID_CONTRACT(why_changed(problem, m, split));
+  return split;
+}
+
+Violation why_unrelated(const BodyModel& model, const MassProblem& problem) {
+  if (problem.shapes() != static_cast<Eigen::Index>(model.shapes.size())) {
+    return fmt::format("{} columns for {} shapes", problem.shapes(), model.shapes.size());
+  }
+  if (problem.U != shape_columns(model) || problem.V != shape_volumes(model)) {
+    return "the problem's columns or volumes are not those of the model's shapes";
+  }
+  return std::nullopt;
+}
+
+Violation why_changed(const MassProblem& before, const Eigen::VectorXd& m, const Split& after) {
+  // A few hundred roundings of the terms' own size, as in every backward stable chain of a dozen
+  // steps (moments, columns, products); a wrong fraction is off by 1e10 of them.
+  const double allowed = 300.0 * std::numeric_limits<double>::epsilon() *
+                         static_cast<double>(before.F.size() + after.problem.shapes());
+  const Eigen::VectorXd Phi = before.U * m, terms = after.problem.U.cwiseAbs() * after.start;
+  const double change = relative_groups(after.problem.U * after.start - Phi, terms).maxCoeff();
+  if (!(change <= allowed)) return fmt::format("the split changes Phi by {:g}", change);
+
+  const Objective f0 = objective(before, m), f1 = objective(after.problem, after.start);
+  const Eigen::VectorXd rows = before.Y.cwiseAbs() * terms + before.F.cwiseAbs();
+  const double data = std::abs(f1.data - f0.data);
+  if (!(data <= allowed * rows.dot(before.W.cwiseProduct(rows)))) {
+    return fmt::format("the split changes the data term from {:g} to {:g}", f0.data, f1.data);
+  }
+  if (!(std::abs(f1.density - f0.density) <= allowed * f0.density)) {
+    return fmt::format("the split changes the density term from {:g} to {:g}", f0.density,
+                       f1.density);
+  }
+  return std::nullopt;
+}
+
+DivisionRun divide_and_solve(const BodyModel& model, const MassProblem& problem,
+                             const DivisionOptions& options,
+                             const std::function<void(const DivisionRun&)>& watch) {
+  check(options);
+  SHAPEID_CONTRACT(why_unrelated(model, problem));
+  DivisionRun run{model, problem, solve_masses(problem), {}, {}};
+  int small_steps = 0;
+  while (true) {
+    if (static_cast<int>(run.history.size()) >= options.most_divisions) {
+      run.stopped_by = "limit";
+      return run;
+    }
+    const Eigen::VectorXd v = division_criterion(run.model, run.solution.m, options);
+    const Eigen::Index place = next_to_divide(v, options.tie);
+    if (place < 0) {
+      run.stopped_by = "nothing divisible";
+      return run;
+    }
+    DivisionStep step;
+    step.divided = run.model.shapes[static_cast<std::size_t>(place)].id;
+    step.criterion = v[place];
+    step.objective_before = run.solution.value.total();
+
+    Split split = split_shape(run.model, run.problem, run.solution.m, place);
+    step.objective_at_split = objective(split.problem, split.start).total();
+    MassSolution next = solve_masses(split.problem, split.start);
+    step.objective_after = next.value.total();
+    step.step = relative_groups(next.Phi - run.solution.Phi, next.Phi);
+    step.iterations = next.iterations;
+    step.shapes = static_cast<int>(split.model.shapes.size());
+
+    run.model = std::move(split.model);
+    run.problem = std::move(split.problem);
+    run.solution = std::move(next);
+    run.history.push_back(std::move(step));
+    if (watch) watch(run);
+
+    small_steps = run.history.back().step.maxCoeff() < options.step ? small_steps + 1 : 0;
+    if (small_steps >= options.patience) {
+      run.stopped_by = "step";
+      return run;
+    }
+  }
+}
+
+}  // namespace shapeid::reference
