@@ -1,0 +1,108 @@
+// When divisions end, and what the run says about it.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "shapeid/reference/division.hpp"
+#include "shapeid/tests/division/any_model.hpp"
+#include "shapeid/tests/support/load_problem.hpp"
+
+namespace shapeid::reference {
+namespace {
+
+/// 1 kg of 4 cm within one cuboid of 40 x 20 x 5 cm.
+test::ModelWithRows load_in_region() {
+  test::Draw draw(7);
+  test::ModelWithRows given;
+  given.model = test::one_cuboid({0.05, 0.02, 0.1}, {0.4, 0.2, 0.05});
+  const auto load = test::cuboid_body(1.0, {0.13, -0.04, 0.098}, {0.04, 0.04, 0.04});
+  given.problem = test::load_window(draw, 40, load, 0.01);
+  test::use_shapes(given.problem, given.model, 1.0);
+  return given;
+}
+
+DivisionRun run(const test::ModelWithRows& given, const DivisionOptions& options) {
+  return divide_and_solve(given.model, given.problem, options);
+}
+
+TEST(Stop, AtTheLimit) {
+  for (const int limit : {0, 1, 5}) {
+    const DivisionRun result =
+        run(load_in_region(), {.step = 0.0, .most_divisions = limit, .expected_mass = 1.0});
+    EXPECT_EQ(result.stopped_by, "limit");
+    EXPECT_EQ(result.history.size(), static_cast<std::size_t>(limit));
+    EXPECT_EQ(result.model.shapes.size(), static_cast<std::size_t>(limit) + 1);
+  }
+}
+
+// Every step is below an infinite eps: patience alone decides.
+TEST(Stop, PatienceCountsSmallStepsInARow) {
+  for (const int patience : {1, 4}) {
+    const DivisionRun result = run(
+        load_in_region(),
+        {.step = std::numeric_limits<double>::max(), .patience = patience, .expected_mass = 1.0});
+    EXPECT_EQ(result.stopped_by, "step");
+    EXPECT_EQ(result.history.size(), static_cast<std::size_t>(patience));
+  }
+}
+
+TEST(Stop, ByTheStepWithDefaults) {
+  const DivisionOptions options{.expected_mass = 1.0};
+  const DivisionRun result = run(load_in_region(), options);
+  ASSERT_EQ(result.stopped_by, "step");
+  const auto& history = result.history;
+  ASSERT_GT(history.size(), static_cast<std::size_t>(options.patience));
+  int in_a_row = 0;
+  for (std::size_t k = 0; k < history.size(); ++k) {
+    in_a_row = history[k].step.maxCoeff() < options.step ? in_a_row + 1 : 0;
+    EXPECT_EQ(in_a_row >= options.patience, k + 1 == history.size()) << "division " << k;
+  }
+}
+
+TEST(Stop, PointsCannotBeDivided) {
+  test::ModelWithRows given = load_in_region();
+  given.model.shapes = {{0, make_point({0.1, 0.0, 0.1}, 1e-3), "0"},
+                        {0, make_point({-0.1, 0.0, 0.1}, 1e-3), "1"}};
+  test::use_shapes(given.problem, given.model, 1.0);
+  const DivisionRun result = run(given, {.expected_mass = 1.0});
+  EXPECT_EQ(result.stopped_by, "nothing divisible");
+  EXPECT_TRUE(result.history.empty());
+  EXPECT_GT(result.solution.Phi[0], 0.5);
+}
+
+// Forces that pull the wrong way: no shape carries mass, so none is worth a division.
+TEST(Stop, WithoutMassNothingIsDivided) {
+  test::ModelWithRows given = load_in_region();
+  given.problem.F *= -1.0;
+  const DivisionRun result = run(given, {.expected_mass = 1.0});
+  EXPECT_EQ(result.stopped_by, "nothing divisible");
+  EXPECT_EQ(result.solution.Phi, Eigen::VectorXd::Zero(10));
+}
+
+// The place of every other shape stays: the first part replaces, the second is appended.
+TEST(Split, FirstPartReplacesSecondIsAppended) {
+  test::ModelWithRows given = load_in_region();
+  given.model.shapes.push_back(
+      {0, make_cuboid({0.1, 0.1, 0.3}, Eigen::Isometry3d::Identity()), "1"});
+  test::use_shapes(given.problem, given.model, 1.0);
+  const Split split = split_shape(given.model, given.problem, Eigen::Vector2d(3.0, 1.0), 0);
+  ASSERT_EQ(split.model.shapes.size(), 3U);
+  EXPECT_EQ(split.model.shapes[0].id, "0.0");
+  EXPECT_EQ(split.model.shapes[1].id, "1");
+  EXPECT_EQ(split.model.shapes[2].id, "0.1");
+  EXPECT_EQ(split.start, Eigen::Vector3d(1.5, 1.0, 1.5));
+}
+
+TEST(Watch, SeesEveryDivision) {
+  const test::ModelWithRows given = load_in_region();
+  std::size_t seen = 0;
+  (void)divide_and_solve(given.model, given.problem, {.most_divisions = 5, .expected_mass = 1.0},
+                         [&](const DivisionRun& now) {
+                           EXPECT_EQ(now.history.size(), ++seen);
+                           EXPECT_EQ(now.solution.m.size(), now.problem.shapes());
+                         });
+  EXPECT_EQ(seen, 5U);
+}
+
+}  // namespace
+}  // namespace shapeid::reference
