@@ -1,0 +1,86 @@
+// Moments of every kind against quadrature, and under maps of the frame.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "shapeid/models/shape.hpp"
+#include "shapeid/tests/shapes/quadrature.hpp"
+#include "shapeid/tests/support/generators.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/shape_generators.hpp"
+
+namespace shapeid {
+namespace {
+
+using test::few_hundred_eps;
+using test::scaled;
+using test::scaled_difference;
+
+/// The accuracy that shape.hpp promises: volume to its own size, centroid to the positions that it
+/// is a mean of, central moments to the part's own extent, however far away it lies.
+void check_against_quadrature(const Shape& shape) {
+  const Moments here = moments(shape);
+  const Moments there = test::integrated(shape);
+  RC_ASSERT(scaled(std::abs(here.volume - there.volume), there.volume, 1) < few_hundred_eps);
+  RC_ASSERT(scaled((here.centroid - there.centroid).norm(), test::reach(shape), 3) <
+            few_hundred_eps);
+  RC_ASSERT(scaled((here.covariance - there.covariance).norm(), there.covariance.trace(), 9) <
+            few_hundred_eps);
+}
+
+RC_GTEST_PROP(Moments, CuboidCellsAgreeWithQuadrature, ()) {
+  check_against_quadrature(*test::cuboid_cell());
+}
+RC_GTEST_PROP(Moments, CylinderSectorsAgreeWithQuadrature, ()) {
+  check_against_quadrature(*test::cylinder_sector());
+}
+RC_GTEST_PROP(Moments, EllipsoidSectorsAgreeWithQuadrature, ()) {
+  check_against_quadrature(*test::ellipsoid_sector());
+}
+RC_GTEST_PROP(Moments, PolyhedraAgreeWithQuadrature, ()) {
+  check_against_quadrature(*test::convex_polyhedron());
+}
+
+// Equations (10)-(14) put the moments together about the link origin: undo it by the parallel axis
+// theorem.
+RC_GTEST_PROP(Moments, UnitParametersHoldThem, ()) {
+  const Shape shape = *test::solid();
+  const Moments m = moments(shape);
+  const PseudoInertia sigma = pseudo_inertia(unit_parameters(shape));
+  const Eigen::Matrix3d second = m.covariance + m.centroid * m.centroid.transpose();
+  RC_ASSERT(sigma(3, 3) == 1.0);
+  RC_ASSERT(Eigen::Vector3d(sigma.topRightCorner(3, 1)) == m.centroid);
+  RC_ASSERT(scaled_difference(sigma.topLeftCorner(3, 3), second, 9) < few_hundred_eps);
+}
+
+// Sigma -> T Sigma T^T, and for rigid maps the same through moved().
+RC_GTEST_PROP(Moments, RigidMapsMoveThem, ()) {
+  const Shape shape = *test::solid();
+  const Eigen::Isometry3d T = *test::pose(0.7);
+  const auto moved_shape = unit_parameters(test::mapped(shape, T));
+  const auto moved_body = moved(unit_parameters(shape), T);
+  RC_ASSERT(scaled_difference(moved_shape.values, moved_body.values, 10) < few_hundred_eps);
+}
+
+RC_GTEST_PROP(Moments, AffineMapsStretchThem, ()) {
+  const Shape shape = *test::solid();
+  Eigen::Affine3d T(*test::pose(0.7));
+  T.linear() += 0.3 * *test::rotation();
+  const PseudoInertia stretched = pseudo_inertia(unit_parameters(test::mapped(shape, T)));
+  const PseudoInertia by_hand =
+      T.matrix() * pseudo_inertia(unit_parameters(shape)) * T.matrix().transpose();
+  RC_ASSERT(scaled_difference(stretched, by_hand, 16) < few_hundred_eps);
+  const double expected = volume(shape) * std::abs(T.linear().determinant());
+  // The determinant itself cancels when the two rotations nearly do.
+  RC_ASSERT(scaled(std::abs(volume(test::mapped(shape, T)) - expected),
+                   volume(shape) * std::pow(T.linear().norm(), 3), 9) < few_hundred_eps);
+}
+
+RC_GTEST_PROP(Moments, ExistAsBodies, ()) {
+  RC_ASSERT(!why_impossible(unit_parameters(*test::solid())));
+}
+
+}  // namespace
+}  // namespace shapeid
