@@ -148,10 +148,16 @@ rc::Gen<Shape> solid() {
 }
 
 rc::Gen<Cut> cut() {
-  return rc::gen::map(rc::gen::pair(rc::gen::inRange(0, 3), real(0.05, 0.95)),
-                      [](const auto& drawn) {
-                        return Cut{drawn.first, drawn.second};
-                      });
+  return rc::gen::map(
+      rc::gen::tuple(rc::gen::inRange(0, 3), real(0.2, 0.8), rc::gen::arbitrary<bool>()),
+      [](const auto& drawn) {
+        return Cut{std::get<0>(drawn), std::get<1>(drawn), std::get<2>(drawn)};
+      });
+}
+
+void showValue(const Cut& cut, std::ostream& out) {
+  out << (cut.upper ? "upper" : "lower") << " part of a cut across " << cut.axis << " at "
+      << cut.fraction;
 }
 
 rc::Gen<Eigen::Vector3d> whereabouts() {

@@ -28,12 +28,14 @@ namespace shapeid::test {
 /// Any of the above.
 [[nodiscard]] rc::Gen<Shape> solid();
 
-/// A division that need not be the default one.
+/// A division that need not be the default one, and the part to go on with.
 struct Cut {
   int axis;
   double fraction;
+  bool upper;
 };
 [[nodiscard]] rc::Gen<Cut> cut();
+void showValue(const Cut& cut, std::ostream& out);
 
 /// Three numbers well inside (0, 1), for point_inside().
 [[nodiscard]] rc::Gen<Eigen::Vector3d> whereabouts();

@@ -1,0 +1,214 @@
+// Polyhedra against cuboids, hulls against meshes, cuts through vertices, solids that are not
+// convex.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "shapeid/models/shape.hpp"
+#include "shapeid/tests/support/generators.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/shape_generators.hpp"
+
+namespace shapeid {
+namespace {
+
+using test::few_hundred_eps;
+using test::own_size;
+using test::reach;
+using test::scaled;
+
+using Vertices = std::vector<Eigen::Vector3d>;
+
+/// A grid of points on the surface of a box and inside it, with the corners among them.
+Vertices box_points(const Eigen::Vector3d& sides, int steps) {
+  Vertices points;
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; j <= steps; ++j) {
+      for (int k = 0; k <= steps; ++k) {
+        points.emplace_back((Eigen::Vector3d(i, j, k) / steps - Eigen::Vector3d::Constant(0.5))
+                                .cwiseProduct(sides));
+      }
+    }
+  }
+  return points;
+}
+
+/// The same body, as far as rounding of vertices at their distance from the link origin allows.
+void check_same(const Shape& a, const Shape& b) {
+  const Moments ma = moments(a);
+  const Moments mb = moments(b);
+  const double size = own_size(a);
+  const double far = reach(a);
+  RC_ASSERT(scaled(std::abs(ma.volume - mb.volume), ma.volume + far * size * size, 3) <
+            few_hundred_eps);
+  RC_ASSERT(scaled((ma.centroid - mb.centroid).norm(), far + far * far * size * size / ma.volume,
+                   3) < few_hundred_eps);
+  RC_ASSERT(scaled((ma.covariance - mb.covariance).norm(),
+                   size * size + far * std::pow(size, 4) / ma.volume, 9) < few_hundred_eps);
+}
+
+rc::Gen<Eigen::Vector3d> box_sides() {
+  const auto side = test::magnitude(0.05, 1.0);
+  return rc::gen::map(rc::gen::tuple(side, side, side), [](const auto& t) {
+    return Eigen::Vector3d(std::get<0>(t), std::get<1>(t), std::get<2>(t));
+  });
+}
+
+// Grid points lie on faces, on edges, in lines: everything that is degenerate for a hull.
+RC_GTEST_PROP(Polyhedron, HullOfABoxIsTheCuboid, ()) {
+  const Eigen::Vector3d sides = *box_sides();
+  const Eigen::Isometry3d pose = *test::pose(0.5);
+  const Shape hull = make_convex_hull(box_points(sides, *rc::gen::inRange(1, 4)), pose);
+  check_same(hull, make_cuboid(sides, pose));
+}
+
+RC_GTEST_PROP(Polyhedron, PartsOfABoxAreCuboids, ()) {
+  const Eigen::Vector3d sides = *box_sides();
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = *test::vector3(0.5);
+  Shape solid = make_convex_hull(box_points(sides, 1), pose);
+  Shape cuboid = make_cuboid(sides, pose);
+  for (const test::Cut& cut : *rc::gen::container<std::vector<test::Cut>>(6, test::cut())) {
+    const auto solids = divide(solid, cut.axis, cut.fraction);
+    const auto cuboids = divide(cuboid, cut.axis, cut.fraction);
+    solid = cut.upper ? solids.second : solids.first;
+    cuboid = cut.upper ? cuboids.second : cuboids.first;
+    check_same(solid, cuboid);
+  }
+}
+
+RC_GTEST_PROP(Polyhedron, DefaultDivisionOfABoxIsTheCuboids, ()) {
+  const Eigen::Isometry3d pose = *test::pose(0.5);
+  const Eigen::Vector3d sides(0.2, 0.5, 0.3);
+  const auto [a, b] = divide(make_convex_hull(box_points(sides, 1), pose));
+  const auto [c, d] = divide(make_cuboid(sides, pose));
+  const bool same_order = (moments(a).centroid - moments(c).centroid).norm() <
+                          (moments(a).centroid - moments(d).centroid).norm();
+  check_same(a, same_order ? c : d);
+  check_same(b, same_order ? d : c);
+}
+
+RC_GTEST_PROP(Polyhedron, MeshAndHullOfTheSameBodyAgree, ()) {
+  const Shape hull = *test::convex_polyhedron();
+  const auto& solid = std::get<Polyhedron>(hull);
+  const Shape mesh = make_mesh(solid.vertices, solid.faces, Eigen::Isometry3d::Identity());
+  RC_ASSERT(divisible(mesh));
+  check_same(mesh, hull);
+  check_same(make_convex_hull(solid.vertices, Eigen::Isometry3d::Identity()), hull);
+}
+
+RC_GTEST_PROP(Polyhedron, HullHoldsItsPointsAndUsesThem, ()) {
+  const Vertices points = *rc::gen::mapcat(rc::gen::inRange(8, 40), [](int count) {
+    return rc::gen::container<Vertices>(static_cast<std::size_t>(count), test::vector3(0.5));
+  });
+  Vertices all = points;
+  for (const Eigen::Vector3d& v : box_points({0.2, 0.2, 0.2}, 2)) all.push_back(v);
+  const Shape hull = make_convex_hull(all, Eigen::Isometry3d::Identity());
+  for (const Eigen::Vector3d& v : all) {
+    RC_ASSERT(contains(hull, v, few_hundred_eps * std::numeric_limits<double>::epsilon()));
+  }
+  for (const Eigen::Vector3d& v : std::get<Polyhedron>(hull).vertices) {
+    RC_ASSERT(std::find(all.begin(), all.end(), v) != all.end());
+  }
+}
+
+// Vertices that no cut touches are copied bit by bit.
+RC_GTEST_PROP(Polyhedron, DivisionKeepsVertices, ()) {
+  const Shape whole = *test::convex_polyhedron();
+  const auto [lower, upper] = divide(whole);
+  const auto holds = [](const Shape& shape, const Eigen::Vector3d& v) {
+    const Vertices& vertices = std::get<Polyhedron>(shape).vertices;
+    return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+  };
+  for (const Eigen::Vector3d& v : std::get<Polyhedron>(whole).vertices) {
+    RC_ASSERT(holds(lower, v) || holds(upper, v));
+  }
+}
+
+// An octahedron halved across an axis: the plane runs through four vertices and four edges.
+TEST(Polyhedron, CutThroughVerticesAndEdges) {
+  const Vertices corners = {{0.3, 0, 0},  {-0.3, 0, 0}, {0, 0.4, 0},
+                            {0, -0.4, 0}, {0, 0, 0.5},  {0, 0, -0.5}};
+  const Shape octahedron = make_convex_hull(corners, Eigen::Isometry3d::Identity());
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [lower, upper] = divide(octahedron, axis, 0.5);
+    for (const Shape& half : {lower, upper}) {
+      EXPECT_FALSE(why_malformed(half));
+      EXPECT_EQ(std::get<Polyhedron>(half).vertices.size(), 5U);
+      EXPECT_LT(scaled(std::abs(volume(half) - 0.5 * volume(octahedron)), volume(octahedron), 1),
+                few_hundred_eps);
+    }
+  }
+}
+
+/// A cuboid whose corner (x > 0, y > 0) is missing, as a mesh with caps of triangles.
+Shape notched() {
+  const std::vector<std::pair<double, double>> outline = {{-0.2, -0.2}, {0.2, -0.2}, {0.2, 0.0},
+                                                          {0.0, 0.0},   {0.0, 0.2},  {-0.2, 0.2}};
+  Vertices vertices;
+  for (const double z : {-0.1, 0.1}) {
+    for (const auto& [x, y] : outline) vertices.emplace_back(x, y, z);
+  }
+  std::vector<std::array<int, 3>> faces;
+  for (int i = 0; i < 6; ++i) {
+    const int j = (i + 1) % 6;
+    faces.push_back({i, j, j + 6});
+    faces.push_back({i, j + 6, i + 6});
+  }
+  for (const auto& [a, b, c] :
+       std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}) {
+    faces.push_back({c, b, a});
+    faces.push_back({a + 6, b + 6, c + 6});
+  }
+  return make_mesh(vertices, faces, Eigen::Isometry3d::Identity());
+}
+
+TEST(Polyhedron, NotConvexMeshHasMomentsButDoesNotDivide) {
+  const Shape mesh = notched();
+  EXPECT_FALSE(divisible(mesh));
+  EXPECT_THROW(static_cast<void>(divide(mesh)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(divide(mesh, 0, 0.5)), std::invalid_argument);
+
+  Eigen::Isometry3d left = Eigen::Isometry3d::Identity();
+  left.translation() << -0.1, 0.0, 0.0;
+  Eigen::Isometry3d right = Eigen::Isometry3d::Identity();
+  right.translation() << 0.1, -0.1, 0.0;
+  const Shape a = make_cuboid({0.2, 0.4, 0.2}, left);
+  const Shape b = make_cuboid({0.2, 0.2, 0.2}, right);
+  EXPECT_LT(scaled(std::abs(volume(mesh) - volume(a) - volume(b)), volume(mesh), 2),
+            few_hundred_eps);
+  const Vector10 sum =
+      volume(a) * unit_parameters(a).values + volume(b) * unit_parameters(b).values;
+  EXPECT_LT(test::scaled_difference(volume(mesh) * unit_parameters(mesh).values, sum, 10),
+            few_hundred_eps);
+}
+
+TEST(Polyhedron, NotConvexMeshDoesNotContainItsNotch) {
+  const Shape mesh = notched();
+  EXPECT_TRUE(contains(mesh, {-0.1, 0.1, 0.0}));
+  EXPECT_TRUE(contains(mesh, {0.1, -0.1, 0.05}));
+  EXPECT_FALSE(contains(mesh, {0.1, 0.1, 0.0}));
+  EXPECT_FALSE(contains(mesh, {0.01, 0.02, 0.0}, 0.0099));
+  EXPECT_TRUE(contains(mesh, {0.01, 0.02, 0.0}, 0.0101));
+}
+
+// Two boxes apart from each other: every edge is convex, the solid is not.
+TEST(Polyhedron, TwoPiecesAreNotConvex) {
+  Vertices vertices;
+  std::vector<std::array<int, 3>> faces;
+  for (const double offset : {0.0, 1.0}) {
+    const auto box = std::get<Polyhedron>(
+        make_convex_hull(box_points({0.2, 0.3, 0.4}, 1), Eigen::Isometry3d::Identity()));
+    const int first = static_cast<int>(vertices.size());
+    for (const auto& v : box.vertices) vertices.push_back(v + offset * Eigen::Vector3d::UnitX());
+    for (const auto& [a, b, c] : box.faces) faces.push_back({a + first, b + first, c + first});
+  }
+  EXPECT_FALSE(divisible(make_mesh(vertices, faces, Eigen::Isometry3d::Identity())));
+}
+
+}  // namespace
+}  // namespace shapeid
