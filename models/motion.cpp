@@ -9,6 +9,7 @@
 #include "shapeid/models/channels.hpp"
 #include "shapeid/models/differences.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/plausibility.hpp"
 #include "shapeid/models/resampler.hpp"
 #include "shapeid/models/sample_builder.hpp"
 
@@ -103,6 +104,7 @@ struct MotionReader::State {
   MotionReport report;
   MeasuredRows source;
   std::deque<MeasuredRow> head;
+  std::optional<Plausibility> plausibility;
   std::optional<Resampler> grid;
   std::optional<SegmentFilter> filter;
   ContactMargin margin;
@@ -130,6 +132,12 @@ struct MotionReader::State {
     const double logged_rate = 1.0 / steps.row;
     report.rate = options.rate > 0.0 ? options.rate : logged_rate;
     if (options.exact_derivatives) return;
+    check_clock(source.path(), source.plan().time.from, steps.row);
+    plausibility.emplace(source.path(), robot, source.plan(),
+                         Plausibility::Options{options.gap * steps.row, options.expect_gravity,
+                                               options.refuse_frozen});
+    for (const MeasuredRow& row : head) plausibility->add(row);
+    plausibility->judge();
     constexpr double rate_slack = 0.99;  // a median of jittered stamps
     if (report.rate < rate_slack * logged_rate) {
       throw InputError(
@@ -143,9 +151,13 @@ struct MotionReader::State {
   }
 
   std::optional<MeasuredRow> next_row() {
-    if (head.empty()) return source.next();
-    MeasuredRow row = std::move(head.front());
-    head.pop_front();
+    if (!head.empty()) {
+      MeasuredRow row = std::move(head.front());
+      head.pop_front();
+      return row;
+    }
+    std::optional<MeasuredRow> row = source.next();
+    if (row && plausibility) plausibility->add(*row);
     return row;
   }
 
@@ -166,6 +178,7 @@ struct MotionReader::State {
 
   void end_log() {
     ended = true;
+    if (plausibility) plausibility->judge();
     if (!options.exact_derivatives) end_segment();
     margin.finish();
     report.rows = source.rows();

@@ -38,6 +38,12 @@ struct MotionOptions {
   /// mixes both sides there. Empty: 1 / (4 cutoff), where the impulse response of two passes has
   /// fallen below a tenth of its peak; 0 drops nothing.
   std::optional<double> contact_margin;
+  /// Refuse a floating log whose accelerometer does not read about 9.81 m/s^2 on average while
+  /// something carries the robot. Turn off for free fall without contact flags.
+  bool expect_gravity = true;
+  /// Refuse logs in which an IMU channel, or a torque other than zero, never changes while joints
+  /// move.
+  bool refuse_frozen = true;
 };
 
 /// What preparing a log did, for the report of a run.

@@ -1,5 +1,6 @@
 #include "shapeid/models/resampler.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -22,6 +23,12 @@ void Resampler::push(const MeasuredRow& row) {
 }
 
 void Resampler::finish() { finished_ = true; }
+
+std::size_t Resampler::held() const {
+  std::size_t most = flags_.size();
+  for (const Track& track : tracks_) most = std::max(most, track.size());
+  return most;
+}
 
 void Resampler::restart(double time) {
   anchor_ = time;
@@ -67,16 +74,17 @@ double Resampler::interpolate(const Track& track, double longest) const {
   return sum;
 }
 
-std::vector<int> Resampler::nearest_contacts() {
+/// Drops the flags of rows that are not the nearest to time() any more.
+void Resampler::trim_contacts() {
   const double t = time();
   while (flags_.size() > 1 && std::abs(flags_[1].time - t) <= std::abs(flags_[0].time - t)) {
     flags_.pop_front();
   }
-  return flags_.front().contacts;
 }
 
 std::optional<GridRow> Resampler::next() {
   while (any_ && time() <= newest_) {
+    trim_contacts();
     State state = State::ready;
     double until = time();
     for (std::size_t c = 0; c < tracks_.size(); ++c) {
@@ -95,7 +103,7 @@ std::optional<GridRow> Resampler::next() {
       continue;
     }
     GridRow row{std::exchange(starts_segment_, false), time(),
-                Eigen::VectorXd(longest_step_.size()), nearest_contacts()};
+                Eigen::VectorXd(longest_step_.size()), flags_.front().contacts};
     for (std::size_t c = 0; c < tracks_.size(); ++c) {
       const auto i = static_cast<Eigen::Index>(c);
       row.values[i] = interpolate(tracks_[c], longest_step_[i]);

@@ -39,6 +39,8 @@ class Resampler {
   void finish();
   /// The next row of the grid, as soon as the measurements around it are known.
   [[nodiscard]] std::optional<GridRow> next();
+  /// Measurements in memory, of the channel that has most.
+  [[nodiscard]] std::size_t held() const;
 
  private:
   struct Point {
@@ -58,7 +60,7 @@ class Resampler {
   [[nodiscard]] double time() const { return anchor_ + static_cast<double>(steps_) / rate_; }
   [[nodiscard]] Look look(Track& track, double longest) const;
   [[nodiscard]] double interpolate(const Track& track, double longest) const;
-  [[nodiscard]] std::vector<int> nearest_contacts();
+  void trim_contacts();
   void restart(double time);
 
   double rate_;

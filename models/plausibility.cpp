@@ -1,0 +1,196 @@
+#include "shapeid/models/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace shapeid {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double gravity = 9.81;
+
+constexpr std::size_t block = 4096;  // rows, some seconds of any log
+// Some dozens of stationary seconds would do; fewer rows leave a stride's impacts in the mean.
+constexpr std::size_t enough_rows = 400;
+// A joint has moved when its range is far above encoder noise: some degrees, some millimetres.
+constexpr double moved_angle = 0.1, moved_length = 0.01;
+// No joint passes its stop by more than this (URDF limits are often drawn too tight).
+constexpr double past_limit = 2.0;
+// Eight turns: no limited joint makes them.
+constexpr double many_turns = 50.0;
+// Rows to a span of the slope test: differences over it are large against quantisation.
+constexpr int span = 16;
+// Below this correlation q and dq differ by more than a factor, and the test says nothing.
+constexpr double correlated = 0.9;
+// Noise and late velocities shrink a slope by less than 1 - correlated^2; units by at least 57.
+constexpr double slope_slack = 0.25;
+
+bool near(double value, double wanted) { return std::abs(value / wanted - 1.0) <= slope_slack; }
+
+}  // namespace
+
+void check_clock(const std::string& path, const std::string& column, double median_step) {
+  constexpr double longest = 0.2, shortest = 1e-6;
+  if (median_step < longest && median_step > shortest) return;
+  std::string right = "give seconds, and at least five rows a second";
+  // 5 Hz to 20 kHz, as a clock counts them
+  if (median_step >= longest) right += "; milliseconds take scale: 0.001, microseconds 1e-6";
+  throw InputError({path, 0, column}, fmt::format("the median step is {:g} s", median_step), right);
+}
+
+void Plausibility::Range::add(double value, int at) {
+  if (std::isnan(value)) return;
+  if (std::abs(value) > std::max(std::abs(least), std::abs(most)) || least > most) line = at;
+  least = std::min(least, value);
+  most = std::max(most, value);
+}
+
+void Plausibility::Slope::add(double t, double position, double velocity, double longest_step) {
+  if (std::isnan(position) || std::isnan(velocity)) return;
+  const bool follows = in_span > 0 && t - time <= longest_step;
+  if (follows) integral += 0.5 * (velocity + dq) * (t - time);
+  if (follows && in_span == span) {
+    const double change = position - start;
+    xx += change * change;
+    xy += change * integral;
+    yy += integral * integral;
+  }
+  if (!follows || in_span == span) {
+    in_span = 0;
+    start = position;
+    integral = 0.0;
+  }
+  ++in_span;
+  time = t;
+  dq = velocity;
+}
+
+Plausibility::Plausibility(std::string path, const Robot& robot, const ChannelPlan& plan,
+                           Options options)
+    : path_(std::move(path)),
+      robot_(robot),
+      plan_(plan),
+      options_(options),
+      ranges_(plan.channels.size()),
+      slopes_(static_cast<std::size_t>(robot.joint_count())) {}
+
+Place Plausibility::place(int channel, int line) const {
+  return {path_, line, plan_.channels[static_cast<std::size_t>(channel)].from};
+}
+
+void Plausibility::add(const MeasuredRow& row) {
+  for (std::size_t c = 0; c < ranges_.size(); ++c) {
+    ranges_[c].add(row.values[static_cast<Eigen::Index>(c)], row.line);
+  }
+  if (plan_.dq >= 0) {
+    for (int j = 0; j < robot_.joint_count(); ++j) {
+      slopes_[static_cast<std::size_t>(j)].add(row.time, row.values[plan_.q + j],
+                                               row.values[plan_.dq + j], options_.longest_step);
+    }
+  }
+  if (plan_.floating()) add_gravity(row);
+  if (++rows_ == block) judge();
+}
+
+/// Only while something carries the robot: in flight an accelerometer reads nothing.
+void Plausibility::add_gravity(const MeasuredRow& row) {
+  const double force = row.values.segment<3>(plan_.accel).norm();
+  const bool carried = row.contacts.empty() ||
+                       std::find(row.contacts.begin(), row.contacts.end(), 1) != row.contacts.end();
+  if (std::isnan(force) || !carried) return;
+  force_sum_ += force;
+  ++force_count_;
+}
+
+void Plausibility::judge() {
+  for (int j = 0; j < robot_.joint_count(); ++j) {
+    judge_slope(j);
+    judge_position(j);
+  }
+  if (options_.expect_gravity) judge_gravity();
+  if (options_.refuse_frozen) judge_frozen();
+  rows_ = force_count_ = 0;
+  force_sum_ = 0.0;
+  ranges_.assign(ranges_.size(), {});
+  slopes_.assign(slopes_.size(), {});
+}
+
+void Plausibility::judge_position(int j) const {
+  const Joint& joint = robot_.joint(j);
+  const Range& q = range(plan_.q + j);
+  if (joint.kind != JointKind::revolute || q.least > q.most) return;
+  const double past = std::max(q.most - joint.upper, joint.lower - q.least);
+  const double most = std::max(std::abs(q.least), std::abs(q.most));
+  const bool fits_as_degrees =
+      q.most * degree <= joint.upper + degree && q.least * degree >= joint.lower - degree;
+  if (past > past_limit && fits_as_degrees) {
+    throw InputError(
+        place(plan_.q + j, q.line),
+        fmt::format("{:g} lies outside the limits {:g} to {:g} rad: the unit looks like degrees",
+                    most == q.most ? q.most : q.least, joint.lower, joint.upper),
+        fmt::format("give radians, or map with scale: {:.17g}", degree));
+  }
+  if (most > many_turns) {
+    throw InputError(place(plan_.q + j, q.line),
+                     fmt::format("{:g} rad on the limited joint {}", most, joint.name),
+                     "give radians of the joint, not of the motor or in encoder counts");
+  }
+}
+
+void Plausibility::judge_slope(int j) const {
+  const Slope& s = slopes_[static_cast<std::size_t>(j)];
+  const double moved = robot_.joint(j).kind == JointKind::prismatic ? moved_length : moved_angle;
+  if (plan_.dq < 0 || range(plan_.q + j).width() < moved) return;
+  if (!(s.xy * s.xy > correlated * correlated * s.xx * s.yy)) return;
+  const double slope = s.xy / s.xx;
+  if (near(slope, 1.0)) return;
+  std::string wrong = fmt::format("is {:.3g} times the derivative of {}", slope,
+                                  plan_.channels[static_cast<std::size_t>(plan_.q + j)].from);
+  std::string right = "give rad/s and rad (m/s and m) of the same joint, and seconds";
+  if (near(slope, -1.0)) right = "give both the same sign (mapping: sign: -1)";
+  if (near(slope, 1.0 / degree)) wrong += ": its unit looks like degrees per second";
+  if (near(slope, degree)) wrong += ": the position's unit looks like degrees";
+  if (near(slope, 1e3)) wrong += ": the clock looks like milliseconds taken for seconds";
+  throw InputError(place(plan_.dq + j), wrong, right);
+}
+
+void Plausibility::judge_gravity() const {
+  if (force_count_ < enough_rows) return;
+  const double mean = force_sum_ / static_cast<double>(force_count_);
+  constexpr double least = 0.6, most = 1.7;  // a gallop's mean magnitude is 1.2 g
+  const auto between = [&](double unit) { return mean > least * unit && mean < most * unit; };
+  if (between(gravity)) return;
+  std::string right = "give the specific force in m/s^2, gravity included";
+  if (between(1.0)) right += "; the unit looks like g (scale: 9.80665)";
+  if (between(1e3 * gravity)) right += "; the unit looks like mm/s^2 (scale: 0.001)";
+  if (mean <= least) right += "; gravity seems to be removed (or the robot falls freely)";
+  throw InputError(place(plan_.accel),
+                   fmt::format("the accelerometer's mean magnitude is {:.3g} m/s^2", mean), right);
+}
+
+void Plausibility::judge_frozen() const {
+  if (rows_ < enough_rows) return;
+  const auto moves = [&](int j) { return range(plan_.q + j).width() > moved_angle; };
+  const auto refuse = [&](int channel) {
+    throw InputError(place(channel),
+                     fmt::format("stays at {:g} while the joints move", range(channel).least),
+                     "log the live signal, or allow frozen channels");
+  };
+  bool any = false;
+  for (int j = 0; j < robot_.joint_count(); ++j) {
+    any = any || moves(j);
+    // Zero is what a free joint has.
+    if (moves(j) && range(plan_.tau + j).frozen()) refuse(plan_.tau + j);
+  }
+  for (const int imu : {plan_.gyro, plan_.accel}) {
+    for (int axis = 0; any && plan_.floating() && axis < 3; ++axis) {
+      if (range(imu + axis).frozen()) refuse(imu + axis);
+    }
+  }
+}
+
+}  // namespace shapeid

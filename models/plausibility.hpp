@@ -1,0 +1,79 @@
+// Units and signs that cannot be right are refused before they become inertias.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/channels.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/robot.hpp"
+
+namespace shapeid {
+
+/// Throws InputError for a median step (s) that only a clock in other units than seconds has.
+void check_clock(const std::string& path, const std::string& column, double median_step);
+
+/// Watches the measured rows of a log, block by block:
+///  * positions far outside the joint's limits, which fit them in radians if they are degrees;
+///  * logged dq that follows the slope of q with another factor than one (degrees, milliseconds) or
+///    with the opposite sign;
+///  * an accelerometer whose mean magnitude is not gravity (g as unit, mm/s^2, gravity removed);
+///  * channels that never change while the joints move.
+/// A block decides only what it has motion enough to decide. Throws InputError.
+class Plausibility {
+ public:
+  struct Options {
+    double longest_step = 0.0;  ///< s between rows; slopes are not taken across longer ones
+    bool expect_gravity = true;
+    bool refuse_frozen = true;
+  };
+  Plausibility(std::string path, const Robot& robot, const ChannelPlan& plan, Options options);
+
+  /// Takes a row in and judges when a block is full.
+  void add(const MeasuredRow& row);
+  /// Judges what has come since the last block, and forgets it.
+  void judge();
+
+ private:
+  /// Smallest and largest value of a channel, and where the largest magnitude stood.
+  struct Range {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
+    int line = 0;
+    void add(double value, int at);
+    [[nodiscard]] double width() const { return most - least; }
+    [[nodiscard]] bool frozen() const { return least == most && least != 0.0; }
+  };
+  /// Sums over short spans of the change of q (x) and the integral of dq (y).
+  struct Slope {
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    int in_span = 0;
+    double start = 0.0, integral = 0.0;  ///< of the present span
+    double time = 0.0, dq = 0.0;         ///< last row
+    void add(double t, double position, double velocity, double longest_step);
+  };
+
+  [[nodiscard]] const Range& range(int channel) const {
+    return ranges_[static_cast<std::size_t>(channel)];
+  }
+  [[nodiscard]] Place place(int channel, int line = 0) const;
+  void add_gravity(const MeasuredRow& row);
+  void judge_position(int joint) const;
+  void judge_slope(int joint) const;
+  void judge_gravity() const;
+  void judge_frozen() const;
+
+  std::string path_;
+  const Robot& robot_;
+  const ChannelPlan& plan_;
+  Options options_;
+  std::size_t rows_ = 0;
+  std::vector<Range> ranges_;  ///< one a channel
+  std::vector<Slope> slopes_;  ///< one a joint
+  double force_sum_ = 0.0;
+  std::size_t force_count_ = 0;
+};
+
+}  // namespace shapeid

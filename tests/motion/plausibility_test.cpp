@@ -1,0 +1,155 @@
+#include "shapeid/models/plausibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numbers>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/tests/motion/example.hpp"
+#include "shapeid/tests/motion/scratch.hpp"
+
+namespace shapeid {
+namespace {
+
+using test::chain;
+using test::message_of;
+using test::read_motion;
+using test::regular_times;
+using test::Scratch;
+using test::smooth_motion;
+using test::write_log;
+
+constexpr double radian = 180.0 / std::numbers::pi;
+
+/// Writes what `spoil` makes of a good motion, and says how it is received.
+std::string reception(const std::function<void(Sample&)>& spoil, const Robot& robot,
+                      const MotionOptions& options = {}) {
+  const Scratch scratch;
+  const auto path = scratch.path("x.csv");
+  write_log(path, robot, regular_times(0.0, 500.0, 5000), [&](double t) {
+    Sample s = smooth_motion(robot, t);
+    s.in_contact.assign(robot.contacts.size(), true);
+    spoil(s);
+    return s;
+  });
+  return message_of<InputError>([&] { static_cast<void>(read_motion(path, robot, options)); },
+                                path);
+}
+
+Robot standing() {
+  Robot robot = chain(3, Root::floating);
+  robot.contacts.push_back({"l2", 3, ContactKind::point, Eigen::Isometry3d::Identity()});
+  return robot;
+}
+
+TEST(Plausibility, GoodLogsPass) {
+  EXPECT_EQ(reception([](Sample&) {}, chain(3, Root::floating)), "accepted");
+  EXPECT_EQ(reception([](Sample&) {}, chain(3, Root::fixed)), "accepted");
+  EXPECT_EQ(reception([](Sample&) {}, standing()), "accepted");
+}
+
+TEST(Plausibility, UnitsAndSignsThatCannotBeAreNamed) {
+  struct Case {
+    std::function<void(Sample&)> spoil;
+    std::string message;
+  };
+  const Case table[] = {
+      {[](Sample& s) { s.q *= radian, s.dq *= radian; },
+       "x.csv:79, column q.j0: 32.5646 lies outside the limits -2.5 to 2.5 rad: the unit looks "
+       "like degrees; give radians, or map with scale: 0.017453292519943295"},
+      {[](Sample& s) { s.dq *= radian; },
+       "x.csv, column dq.j0: is 57.3 times the derivative of q.j0: its unit looks like degrees per "
+       "second; give rad/s and rad (m/s and m) of the same joint, and seconds"},
+      {[](Sample& s) { s.q *= radian; },
+       "x.csv, column dq.j0: is 0.0175 times the derivative of q.j0: the position's unit looks "
+       "like "
+       "degrees; give rad/s and rad (m/s and m) of the same joint, and seconds"},
+      {[](Sample& s) { s.dq[1] *= -1.0; },
+       "x.csv, column dq.j1: is -1 times the derivative of q.j1; give both the same sign (mapping: "
+       "sign: -1)"},
+      {[](Sample& s) { s.dq[2] *= 6.0; },
+       "x.csv, column dq.j2: is 6 times the derivative of q.j2; give rad/s and rad (m/s and m) of "
+       "the same joint, and seconds"},
+      {[](Sample& s) { s.q *= 2e4, s.dq *= 2e4; },
+       "x.csv:79, column q.j0: 11367.2 rad on the limited joint j0; give radians of the joint, "
+       "not of the motor or in encoder counts"},
+      {[](Sample& s) { s.time *= 1000.0; },
+       "x.csv, column time: the median step is 2 s; give seconds, and at least five rows a second; "
+       "milliseconds take scale: 0.001, microseconds 1e-6"},
+      {[](Sample& s) { s.time *= 1e-7; },
+       "x.csv, column time: the median step is 2e-10 s; give seconds, and at least five rows a "
+       "second"},
+      {[](Sample& s) { s.tau[1] = 1.5; },
+       "x.csv, column tau.j1: stays at 1.5 while the joints move; log the live signal, or allow "
+       "frozen channels"},
+  };
+  for (const Case& wrong : table) {
+    EXPECT_EQ(reception(wrong.spoil, chain(3, Root::fixed)), wrong.message);
+  }
+}
+
+TEST(Plausibility, GravityIsLookedForWhereSomethingCarriesTheRobot) {
+  struct Case {
+    std::function<void(Sample&)> spoil;
+    std::string hint;
+  };
+  const Case table[] = {
+      {[](Sample& s) { s.base_specific_force /= 9.81; }, "the unit looks like g (scale: 9.80665)"},
+      {[](Sample& s) { s.base_specific_force *= 1e3; }, "the unit looks like mm/s^2"},
+      {[](Sample& s) { s.base_specific_force.z() -= 9.81; }, "gravity seems to be removed"},
+      {[](Sample& s) { s.base_specific_force *= 3.0; }, "gravity included"},
+  };
+  for (const Case& wrong : table) {
+    const std::string message = reception(wrong.spoil, standing());
+    EXPECT_NE(message.find(wrong.hint), std::string::npos) << message;
+    EXPECT_NE(message.find("column base.accel.x: the accelerometer's mean magnitude is"),
+              std::string::npos)
+        << message;
+    MotionOptions trusting;
+    trusting.expect_gravity = false;
+    EXPECT_EQ(reception(wrong.spoil, standing(), trusting), "accepted");
+  }
+  const auto falling = [](Sample& s) {
+    s.base_specific_force.z() -= 9.81;
+    s.in_contact = {false};
+  };
+  EXPECT_EQ(reception(falling, standing()), "accepted");
+}
+
+TEST(Plausibility, AFrozenImuIsRefused) {
+  const auto frozen = [](Sample& s) { s.base_specific_force = {0.1, 0.2, 9.8}; };
+  EXPECT_EQ(reception(frozen, chain(2, Root::floating)),
+            "x.csv, column base.accel.x: stays at 0.1 while the joints move; log the live signal, "
+            "or allow frozen channels");
+  MotionOptions trusting;
+  trusting.refuse_frozen = false;
+  EXPECT_EQ(reception(frozen, chain(2, Root::floating), trusting), "accepted");
+}
+
+TEST(Plausibility, PassiveJointsAndWheelsPass) {
+  EXPECT_EQ(reception([](Sample& s) { s.tau[1] = 0.0; }, chain(3, Root::fixed)), "accepted");
+  Robot wheel = chain(1, Root::fixed);
+  wheel.links[1].joint.kind = JointKind::continuous;
+  EXPECT_EQ(reception([](Sample& s) { s.q *= 200.0, s.dq *= 200.0; }, wheel), "accepted");
+}
+
+// Too little motion decides nothing: encoder noise has no slope.
+TEST(Plausibility, ARestingRobotPasses) {
+  const auto resting = [](Sample& s) {
+    s.q *= 1e-3;
+    s.dq *= -0.3;
+  };
+  EXPECT_EQ(reception(resting, chain(3, Root::fixed)), "accepted");
+}
+
+// A unit that changes later in the log is found there.
+TEST(Plausibility, EveryBlockIsJudged) {
+  const auto late = [](Sample& s) {
+    if (s.time > 8.0) s.dq *= radian;
+  };
+  EXPECT_NE(reception(late, chain(3, Root::fixed)).find("is 57.3 times"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace shapeid
