@@ -7,6 +7,7 @@
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/simbody/simbody_robot.hpp"
 #include "shapeid/tests/physics/dynamics.hpp"
+#include "shapeid/tests/physics/touching.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -17,13 +18,6 @@ using Eigen::Vector3d;
 using test::few_hundred_eps;
 using test::scaled;
 using test::scaled_difference;
-
-/// A robot with at least one contact and one degree of freedom, of either kind of root.
-rc::Gen<Robot> touching_robot() {
-  const auto any_robot =
-      rc::gen::oneOf(test::robot({1, 12, Root::floating}), test::robot({2, 12, Root::fixed}));
-  return rc::gen::suchThat(any_robot, [](const Robot& r) { return !r.contacts.empty(); });
-}
 
 Robot with_kind(Robot robot, ContactKind kind) {
   for (Contact& contact : robot.contacts) contact.kind = kind;
@@ -36,7 +30,7 @@ Sample touching_everywhere(Sample s) {
 }
 
 RC_GTEST_PROP(ContactJacobian, PointsMoveAsSimbodySays, ()) {
-  const Robot robot = with_kind(*touching_robot(), ContactKind::point);
+  const Robot robot = with_kind(*test::touching_robot(), ContactKind::point);
   const Sample s = touching_everywhere(*test::sample(robot));
   RC_ASSERT(scaled_difference(reference::contact_jacobian(robot, s),
                               SimbodyRobot(robot).contact_point_jacobian(s.q),
@@ -57,7 +51,7 @@ Robot with_tripod(const Robot& robot, const Contact& contact) {
 // The rows that hold a link against turning, from the motion of points alone: turning about y moves
 // the tip of z along x, and so on around.
 RC_GTEST_PROP(ContactJacobian, AngularRowsFollowFromPoints, ()) {
-  Robot robot = *touching_robot();
+  Robot robot = *test::touching_robot();
   robot.contacts.resize(1);
   Sample s = *test::sample(robot);
   s.in_contact = {true};
@@ -96,7 +90,7 @@ RC_GTEST_PROP(ContactJacobian, AngularRowsFollowFromPoints, ()) {
 }
 
 RC_GTEST_PROP(ContactJacobian, HasTheRowsOfWhatTouchesInOrder, ()) {
-  const Robot robot = *touching_robot();
+  const Robot robot = *test::touching_robot();
   const Sample s = *test::sample(robot);
   Eigen::MatrixXd expected(0, robot.dof());
   for (std::size_t c = 0; c < robot.contacts.size(); ++c) {
@@ -114,7 +108,7 @@ RC_GTEST_PROP(ContactJacobian, HasTheRowsOfWhatTouchesInOrder, ()) {
 }
 
 RC_GTEST_PROP(ContactJacobian, TimesVelocityIsTheContactVelocity, ()) {
-  const Robot robot = *touching_robot();
+  const Robot robot = *test::touching_robot();
   const Sample s = *test::sample(robot);
   const Eigen::MatrixXd J = SimbodyRobot(robot).contact_point_jacobian(s.q);
   const Eigen::VectorXd velocity = test::generalised_velocity(robot, Vector3d::Zero(), s);
@@ -124,7 +118,7 @@ RC_GTEST_PROP(ContactJacobian, TimesVelocityIsTheContactVelocity, ()) {
 }
 
 RC_GTEST_PROP(MeasuredForces, DoTheWorkThatSimbodySays, ()) {
-  const Robot robot = *touching_robot();
+  const Robot robot = *test::touching_robot();
   Sample s = *test::sample(robot);
   Eigen::VectorXd forces(3 * static_cast<Eigen::Index>(robot.contacts.size()));
   for (std::size_t c = 0; c < robot.contacts.size(); ++c) {
