@@ -61,6 +61,11 @@ DriveForce::DriveForce(const Multibody& multibody)
       start_(Eigen::VectorXd::Zero(multibody.joint_count())),
       end_(Eigen::VectorXd::Zero(multibody.joint_count())) {}
 
+void DriveForce::hold(const Eigen::VectorXd& torque) {
+  start_ = torque;
+  end_ = torque;
+}
+
 void DriveForce::ramp(double from, double to, const Eigen::VectorXd& command) {
   start_ = torque(from);
   end_ = command;

@@ -59,6 +59,8 @@ class DriveForce : public WorkingForce {
  public:
   explicit DriveForce(const Multibody& multibody);
 
+  /// These torques (N m, n) at all times, until there is a ramp.
+  void hold(const Eigen::VectorXd& torque);
   /// From the torque at time `from` straight to `command` (N m, n) at time `to`. What acts at
   /// `from` stays as it is.
   void ramp(double from, double to, const Eigen::VectorXd& command);

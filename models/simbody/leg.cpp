@@ -48,6 +48,28 @@ Eigen::Matrix3d Leg::jacobian(const Eigen::Vector3d& q) const {
   return J;
 }
 
+Eigen::Vector3d Leg::holding_torque(const Eigen::Vector3d& q,
+                                    const Eigen::Vector3d& gravity) const {
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d origins, axes;
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 3; ++i) {
+    const int j = joints_[static_cast<std::size_t>(i)];
+    const Joint& joint = robot_->joint(j);
+    frame = frame * joint.placement;
+    origins.col(i) = frame.translation();
+    axes.col(i) = frame.linear() * joint.axis;
+    frame.rotate(Eigen::AngleAxisd(q[i], joint.axis));
+    const InertialParameters& body = robot_->links[static_cast<std::size_t>(j) + 1].inertia;
+    const Eigen::Vector3d centre = frame * body.centre_of_mass();
+    for (int k = 0; k <= i; ++k) {
+      const Eigen::Vector3d arm = centre - origins.col(k);
+      torque[k] -= body.mass() * axes.col(k).dot(arm.cross(gravity));
+    }
+  }
+  return torque;
+}
+
 Eigen::Vector3d Leg::reach(const Eigen::Vector3d& target, const Eigen::Vector3d& guess) const {
   constexpr int rounds = 50;
   constexpr double close = 1e-10;  // m

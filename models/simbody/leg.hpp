@@ -25,6 +25,9 @@ class Leg {
   [[nodiscard]] Eigen::Vector3d position(const Eigen::Vector3d& q) const;
   /// d position / d q, m/rad.
   [[nodiscard]] Eigen::Matrix3d jacobian(const Eigen::Vector3d& q) const;
+  /// N m at the joints that hold the leg's own weight, for gravity (m/s^2) in base axes.
+  [[nodiscard]] Eigen::Vector3d holding_torque(const Eigen::Vector3d& q,
+                                               const Eigen::Vector3d& gravity) const;
   /// The joints that put the foot at `target` (base axes, m), by Newton's method from `guess`.
   /// Throws InputError if it is out of reach.
   [[nodiscard]] Eigen::Vector3d reach(const Eigen::Vector3d& target,

@@ -33,7 +33,9 @@ class World {
     integrator_.setAllowInterpolation(false);  // every sample is a state that was integrated to
   }
 
-  void start(const RobotState& robot_state) {
+  /// With these torques (N m, n) from the first instant on.
+  void start(const RobotState& robot_state, const Eigen::VectorXd& torque) {
+    drives_->hold(torque);
     SimTK::State state = multibody_.system.realizeTopology();
     multibody_.set(state, robot_state);
     integrator_.initialize(state);
@@ -121,7 +123,8 @@ SimulationReport simulate(const Robot& robot, const SimulationOptions& options,
   const Robot loaded = options.load ? with_load(robot, *options.load) : robot;
   TrotController controller(robot, options.trot, options.seed);
   World world(loaded, options);
-  world.start(standing(loaded, options, controller));
+  const RobotState start = standing(loaded, options, controller);
+  world.start(start, controller.torque(0.0, start));
 
   // The controller runs at its own pace, a whole number of times a sample.
   constexpr double slowest_control = 500.0;  // Hz

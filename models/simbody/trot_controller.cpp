@@ -20,7 +20,7 @@ const Eigen::Vector3d attitude_gain(40.0, 60.0, 40.0);  // N m / rad
 const Eigen::Vector3d turn_gain(4.0, 6.0, 4.0);         // N m s / rad
 constexpr double swing_stiffness = 900.0;               // N / m
 constexpr double swing_damping = 22.0;                  // N s / m
-constexpr double raibert_gain = 0.06;                   // s
+constexpr double raibert_gain = 0.1;                    // s
 constexpr double press_down = 0.004;   // m: a swing aims below the ground, so that it does land
 constexpr double lightest_step = 4.0;  // N: a standing foot pushes at least so much
 
@@ -232,8 +232,10 @@ Eigen::VectorXd TrotController::torque(double time, const RobotState& state) {
     const Eigen::Vector3d force = foot.standing
                                       ? Eigen::Vector3d(-pushes[i])
                                       : swing_force(foot, progress[i], remaining, state, w);
+    const Eigen::Vector3d q = foot.leg.own(state.q);
     const Eigen::Vector3d leg_tau =
-        foot.leg.jacobian(foot.leg.own(state.q)).transpose() * (R.transpose() * force);
+        foot.leg.jacobian(q).transpose() * (R.transpose() * force) +
+        foot.leg.holding_torque(q, R.transpose() * Eigen::Vector3d(0.0, 0.0, -gravity));
     for (int k = 0; k < 3; ++k) {
       const int j = foot.leg.joints()[static_cast<std::size_t>(k)];
       const double limit = robot_->joint(j).effort;

@@ -1,0 +1,243 @@
+#include "shapeid/models/simbody/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/shape.hpp"
+#include "shapeid/models/simbody/simbody_robot.hpp"
+#include "shapeid/tests/simulation/quadruped.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+
+namespace shapeid {
+namespace {
+
+using test::few_hundred_eps;
+using test::scaled;
+
+std::vector<SimulatedSample> run(const SimulationOptions& options) {
+  std::vector<SimulatedSample> samples;
+  simulate(test::quadruped(), options,
+           [&](const SimulatedSample& sample) { samples.push_back(sample); });
+  return samples;
+}
+
+SimulationOptions short_run(std::uint64_t seed) {
+  SimulationOptions options;
+  options.duration = 2.0;
+  options.seed = seed;
+  return options;
+}
+
+Load corner_load(double x, double y) {
+  Load load;
+  load.centre << x, y, 0.078;
+  return load;
+}
+
+/// Both sides of the equation of motion, H qddot + C qdot + G and S^T tau + J^T f.
+struct Balance {
+  Eigen::VectorXd motion, forces;
+};
+
+Balance balance(const SimbodyRobot& simbody, const Robot& robot, const Sample& s) {
+  Eigen::VectorXd f(3 * static_cast<Eigen::Index>(s.contact_force.size()));
+  for (std::size_t c = 0; c < s.contact_force.size(); ++c) {
+    f.segment<3>(3 * static_cast<Eigen::Index>(c)) = s.contact_force[c];
+  }
+  Balance b{simbody.inverse_dynamics(s), simbody.contact_point_jacobian(s.q).transpose() * f};
+  b.forces.tail(robot.joint_count()) += s.tau;
+  return b;
+}
+
+// The heart of the simulator: its samples satisfy the declared model exactly, load included.
+TEST(Simulation, EquationOfMotionHoldsToRounding) {
+  SimulationOptions options = short_run(3);
+  options.load = corner_load(0.18, -0.08);
+  const Robot loaded = with_load(test::quadruped(), *options.load);
+  const SimbodyRobot simbody(loaded);
+  double weight = 0.0;
+  for (const Link& link : loaded.links) weight += 9.81 * link.inertia.mass();
+  for (const SimulatedSample& sample : run(options)) {
+    const Balance b = balance(simbody, loaded, sample.sample);
+    ASSERT_LT(scaled((b.motion - b.forces).norm(), weight + b.forces.norm(), loaded.dof()),
+              few_hundred_eps)
+        << "at " << sample.sample.time;
+  }
+}
+
+// The residual of the model without the load is the load's own Newton-Euler wrench.
+TEST(Simulation, ModelWithoutTheLoadMissesExactlyTheLoad) {
+  SimulationOptions options = short_run(3);
+  options.duration = 0.2;
+  options.load = corner_load(0.18, -0.08);
+  const InertialParameters load = inertia_of(*options.load);
+  const Eigen::Vector3d h = load.first_moment();
+  const Robot robot = test::quadruped();
+  const SimbodyRobot simbody(robot);
+  for (const SimulatedSample& sample : run(options)) {
+    const Sample& s = sample.sample;
+    const Eigen::Vector3d& w = s.base_angular_velocity;
+    const Eigen::Vector3d& dw = s.base_angular_acceleration;
+    const Eigen::Vector3d& a = s.base_specific_force;
+    Eigen::VectorXd expected = Eigen::VectorXd::Zero(robot.dof());
+    expected.head<6>() << load.mass() * a + dw.cross(h) + w.cross(w.cross(h)),
+        h.cross(a) + load.tensor() * dw + w.cross(load.tensor() * w);
+    const Balance b = balance(simbody, robot, s);
+    ASSERT_LT(scaled((b.forces - b.motion - expected).norm(), 14.0 * 9.81 + b.forces.norm(), 18),
+              few_hundred_eps);
+    ASSERT_GT(expected.head<3>().norm(), 5.0);  // N, of a weight of 9.81
+  }
+}
+
+TEST(Simulation, LoadIsACuboidOfUniformDensity) {
+  Load load = corner_load(0.1, -0.05);
+  load.mass = 1.7;
+  load.sides << 0.03, 0.05, 0.08;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = load.centre;
+  const InertialParameters expected = load.mass * unit_parameters(make_cuboid(load.sides, pose));
+  EXPECT_LT(test::scaled_difference(inertia_of(load).values, expected.values, 10), few_hundred_eps);
+  const Robot robot = test::quadruped();
+  const Eigen::VectorXd grown =
+      stacked_parameters(with_load(robot, load)) - stacked_parameters(robot);
+  EXPECT_LT(scaled((grown.head<10>() - expected.values).norm(), 5.48, 10), few_hundred_eps);
+  EXPECT_TRUE(grown.tail(grown.size() - 10).isZero(0.0));
+}
+
+TEST(Simulation, ContactsPushWithinFrictionAndFlagsSayWhen) {
+  const SimulationOptions options = short_run(5);
+  std::vector<std::size_t> touching(4, 0);
+  const auto samples = run(options);
+  for (const SimulatedSample& sample : samples) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Eigen::Vector3d force =
+          sample.state.base.linear() * sample.sample.contact_force[c];  // world axes
+      if (!sample.sample.in_contact[c]) {
+        ASSERT_EQ(force.norm(), 0.0);
+        continue;
+      }
+      ++touching[c];
+      ASSERT_GT(force.z(), 0.0);
+      ASSERT_LE(force.head<2>().norm(), options.ground.friction * force.z() * (1.0 + 1e-12));
+    }
+  }
+  // Standing for 0.4 s of 2 s, then a duty of 0.55: every foot swings and every foot stands.
+  for (const std::size_t count : touching) {
+    EXPECT_GT(count, samples.size() / 2);
+    EXPECT_LT(count, samples.size() * 4 / 5);
+  }
+}
+
+/// Largest error of: change of energy = work of the joints + work of the ground; and the work.
+struct Audit {
+  double error = 0.0, work = 0.0;
+};
+
+Audit audit(double accuracy) {
+  SimulationOptions options = short_run(2);
+  options.accuracy = accuracy;
+  const SimbodyRobot simbody(test::quadruped());
+  Audit result;
+  double start = 0.0;
+  for (const SimulatedSample& sample : run(options)) {
+    const double energy =
+        simbody.kinetic_energy(sample.state) + simbody.potential_energy(sample.state);
+    if (sample.sample.time == 0.0) start = energy;
+    const double work = sample.drive_work + sample.ground_work;
+    result.error = std::max(result.error, std::abs(energy - start - work));
+    result.work = std::max(result.work, std::abs(sample.drive_work));
+  }
+  return result;
+}
+
+TEST(Simulation, WorkOfJointsAndGroundIsTheChangeOfEnergy) {
+  const Audit coarse = audit(1e-3);
+  const Audit fine = audit(1e-6);
+  EXPECT_GT(fine.work, 1.0);                    // J: there is something to audit
+  EXPECT_LT(coarse.error, 1e-3 * coarse.work);  // the accuracy asked of the integrator
+  EXPECT_LT(fine.error, 1e-6 * fine.work);
+}
+
+TEST(Simulation, SameSeedSameSamplesBitForBit) {
+  SimulationOptions options = short_run(4);
+  options.duration = 0.8;
+  const auto once = run(options);
+  const auto again = run(options);
+  options.seed = 6;
+  const auto other = run(options);
+  ASSERT_EQ(once.size(), again.size());
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    ASSERT_EQ(once[i].sample.q, again[i].sample.q);
+    ASSERT_EQ(once[i].sample.ddq, again[i].sample.ddq);
+    ASSERT_EQ(once[i].sample.tau, again[i].sample.tau);
+    ASSERT_EQ(once[i].sample.base_specific_force, again[i].sample.base_specific_force);
+  }
+  EXPECT_NE(once.back().sample.q, other.back().sample.q);
+}
+
+TEST(Simulation, TrotsWithAndWithoutLoad) {
+  const Robot robot = test::quadruped();
+  for (const std::optional<Load>& load :
+       {std::optional<Load>(), std::optional<Load>(corner_load(0.18, 0.08)),
+        std::optional<Load>(corner_load(-0.18, -0.08))}) {
+    SimulationOptions options;
+    options.duration = 3.0;
+    options.seed = 11;
+    options.load = load;
+    double steepest = 0.0;
+    const SimulationReport report = simulate(robot, options, [&](const SimulatedSample& s) {
+      steepest = std::max(steepest, std::acos(s.state.base.linear()(2, 2)));
+    });
+    EXPECT_FALSE(report.fell_at);
+    EXPECT_EQ(report.samples, 1501u);
+    EXPECT_GT(report.distance, 0.2);
+    EXPECT_GT(steepest, 0.05);  // rad: it is asked to tilt by 0.08
+    EXPECT_LT(steepest, 0.30);
+  }
+}
+
+TEST(Simulation, SamplesComeAtTheRateAskedFor) {
+  SimulationOptions options = short_run(1);
+  options.duration = 0.1;
+  options.rate = 100.0;
+  const auto slow = run(options);
+  options.rate = 1000.0;
+  const auto fast = run(options);
+  ASSERT_EQ(slow.size(), 11u);
+  ASSERT_EQ(fast.size(), 101u);
+  EXPECT_DOUBLE_EQ(slow[7].sample.time, 0.07);
+  EXPECT_DOUBLE_EQ(fast[73].sample.time, 0.073);
+}
+
+TEST(Simulation, OnIceItFallsAndSaysWhen) {
+  SimulationOptions options;
+  options.duration = 10.0;
+  options.ground.friction = 0.02;
+  const SimulationReport report = simulate(test::quadruped(), options, [](const auto&) {});
+  ASSERT_TRUE(report.fell_at);
+  EXPECT_LT(*report.fell_at, 10.0);
+  EXPECT_LT(report.samples, 5001u);
+}
+
+TEST(Simulation, RefusesWhatCannotTrot) {
+  const auto ignore = [](const SimulatedSample&) {};
+  Robot robot = test::quadruped();
+  robot.contacts.pop_back();
+  EXPECT_THROW(simulate(robot, {}, ignore), InputError);
+  robot = test::quadruped();
+  robot.root = Root::fixed;
+  EXPECT_THROW(simulate(robot, {}, ignore), InputError);
+  SimulationOptions options;
+  options.rate = 0.0;
+  EXPECT_THROW(simulate(test::quadruped(), options, ignore), InputError);
+  options = {};
+  options.trot.height = 0.9;  // longer than the legs
+  EXPECT_THROW(simulate(test::quadruped(), options, ignore), InputError);
+}
+
+}  // namespace
+}  // namespace shapeid
