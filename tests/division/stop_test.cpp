@@ -1,9 +1,13 @@
 // When divisions end, and what the run says about it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+#include <iostream>
 #include <limits>
 
 #include "shapeid/reference/division.hpp"
+#include "shapeid/reference/mass_solver.hpp"
 #include "shapeid/tests/division/any_model.hpp"
 #include "shapeid/tests/support/load_problem.hpp"
 
@@ -21,8 +25,9 @@ test::ModelWithRows load_in_region() {
   return given;
 }
 
-DivisionRun run(const test::ModelWithRows& given, const DivisionOptions& options) {
-  return divide_and_solve(given.model, given.problem, options);
+DivisionRun run(const test::ModelWithRows& given, const DivisionOptions& options,
+                const std::function<void(const DivisionRun&)>& watch = {}) {
+  return divide_and_solve(given.model, given.problem, options, watch);
 }
 
 TEST(Stop, AtTheLimit) {
@@ -93,14 +98,40 @@ TEST(Split, FirstPartReplacesSecondIsAppended) {
   EXPECT_EQ(split.start, Eigen::Vector3d(1.5, 1.0, 1.5));
 }
 
+// Mass, first moment and tensor of one link, each relative to its own size, worked out again.
+TEST(Step, IsRelativeInEveryGroup) {
+  const test::ModelWithRows given = load_in_region();
+  Eigen::VectorXd before = solve_masses(given.problem).Phi;
+  const auto check = [&](const DivisionRun& now) {
+    const Eigen::VectorXd Phi = now.solution.Phi, change = Phi - before;
+    const double mass = Phi[0], tensor = Phi.tail<6>().norm();
+    const Eigen::Vector3d& step = now.history.back().step;
+    EXPECT_DOUBLE_EQ(step[0], std::abs(change[0]) / mass);
+    EXPECT_DOUBLE_EQ(step[1], change.segment<3>(1).norm() / std::sqrt(mass * tensor));
+    EXPECT_DOUBLE_EQ(step[2], change.tail<6>().norm() / tensor);
+    before = Phi;
+  };
+  (void)run(given, {.most_divisions = 8, .expected_mass = 1.0}, check);
+}
+
+TEST(WarmStart, SavesSystems) {
+  int warm = 0, cold = 0;
+  (void)run(load_in_region(), {.step = 0.0, .most_divisions = 40, .expected_mass = 1.0},
+            [&](const DivisionRun& now) {
+              warm += now.history.back().iterations;
+              cold += solve_masses(now.problem).iterations;
+            });
+  std::cout << warm << " KKT systems warm, " << cold << " cold\n";
+  EXPECT_LT(2 * warm, cold);
+}
+
 TEST(Watch, SeesEveryDivision) {
   const test::ModelWithRows given = load_in_region();
   std::size_t seen = 0;
-  (void)divide_and_solve(given.model, given.problem, {.most_divisions = 5, .expected_mass = 1.0},
-                         [&](const DivisionRun& now) {
-                           EXPECT_EQ(now.history.size(), ++seen);
-                           EXPECT_EQ(now.solution.m.size(), now.problem.shapes());
-                         });
+  (void)run(given, {.most_divisions = 5, .expected_mass = 1.0}, [&](const DivisionRun& now) {
+    EXPECT_EQ(now.history.size(), ++seen);
+    EXPECT_EQ(now.solution.m.size(), now.problem.shapes());
+  });
   EXPECT_EQ(seen, 5U);
 }
 

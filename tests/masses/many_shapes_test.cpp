@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <tuple>
 
 #include "shapeid/reference/mass_solver.hpp"
@@ -52,6 +53,12 @@ TEST_P(ManyShapes, ThreeHundredColdAndWarm) {
              warm.iterations, (cold.m.array() > 0.0).count(), p.shapes(),
              (cold.m - warm.m).lpNorm<Eigen::Infinity>());
   EXPECT_LT(test::scaled_mass_difference(p, cold.m, warm.m), few_hundred_eps);
+  // Sharper: lambda is 1e-12 of || b ||^2 V0 / M0^2, so a rounding of the gradient moves a mass by
+  // up to 1e12 roundings of M0, and sums are formed in long double.
+  constexpr double amplification = 1e12, M0 = 1.0;
+  const double rounding = static_cast<double>(std::numeric_limits<long double>::epsilon());
+  EXPECT_LT((cold.m - warm.m).lpNorm<Eigen::Infinity>(),
+            few_hundred_eps * amplification * rounding * M0);
 }
 
 TEST_P(ManyShapes, WithoutDensityTermColdAndWarmAgreeOnTheObjective) {
