@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "shapeid/models/channels.hpp"
+#include "shapeid/models/contact_margin.hpp"
 #include "shapeid/models/differences.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/plausibility.hpp"
@@ -19,8 +20,8 @@ namespace {
 // Rows from which the median steps are taken. A stream must not wait for as many.
 constexpr std::size_t head_of_log = 4096;
 constexpr std::size_t head_of_stream = 256;
-// The impulse response of two passes has fallen below a tenth of its peak a quarter of the cutoff's
-// period away (docs/derivations/filtering.md).
+// A quarter of the cutoff's period away the impulse response of two passes of second order has
+// fallen to a few percent of its peak (docs/derivations/filtering.md).
 constexpr double margin_periods = 0.25;
 
 double median(std::vector<double> values) {
@@ -29,22 +30,17 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Median time between measurements: of the rows, and of every channel.
-struct Steps {
-  double row = 0.0;
-  Eigen::VectorXd channel;
-};
+/// Median time between the rows, 0 for a single one.
+double median_row_step(const std::deque<MeasuredRow>& head) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < head.size(); ++i) steps.push_back(head[i].time - head[i - 1].time);
+  return steps.empty() ? 0.0 : median(std::move(steps));
+}
 
-Steps median_steps(const std::deque<MeasuredRow>& head, const MeasuredRows& source) {
-  if (head.size() < 2) {
-    throw InputError({source.path()}, fmt::format("has {} rows of measurements", head.size()),
-                     "a motion takes at least some tenths of a second");
-  }
-  std::vector<double> rows;
-  for (std::size_t i = 1; i < head.size(); ++i) rows.push_back(head[i].time - head[i - 1].time);
-  Steps steps{median(std::move(rows)),
-              Eigen::VectorXd(static_cast<Eigen::Index>(source.plan().channels.size()))};
-  for (Eigen::Index c = 0; c < steps.channel.size(); ++c) {
+/// Median time between the measurements of every channel.
+Eigen::VectorXd median_steps(const std::deque<MeasuredRow>& head, const MeasuredRows& source) {
+  Eigen::VectorXd steps(static_cast<Eigen::Index>(source.plan().channels.size()));
+  for (Eigen::Index c = 0; c < steps.size(); ++c) {
     std::vector<double> own;
     std::optional<double> last;
     for (const MeasuredRow& row : head) {
@@ -58,7 +54,7 @@ Steps median_steps(const std::deque<MeasuredRow>& head, const MeasuredRows& sour
                        channel.hold_group < 0 ? "is empty" : "is held and never changes",
                        fmt::format("{} needs measurements from the log's beginning", channel.name));
     }
-    steps.channel[c] = median(std::move(own));
+    steps[c] = median(std::move(own));
   }
   return steps;
 }
@@ -80,7 +76,8 @@ struct MotionReader::State {
         imu(notes.imu),
         options(o),
         source(path, r, mapping),
-        margin(o.exact_derivatives ? 0.0 : o.contact_margin.value_or(margin_periods / o.cutoff)) {
+        margin(o.at_contact_change,
+               o.exact_derivatives ? 0.0 : o.contact_margin.value_or(margin_periods / o.cutoff)) {
     const ChannelPlan& plan = source.plan();
     if (options.exact_derivatives) check_exact(plan, path);
     if (options.use_logged_velocity && plan.dq < 0) {
@@ -128,16 +125,29 @@ struct MotionReader::State {
       if (!row) break;
       head.push_back(std::move(*row));
     }
-    const Steps steps = median_steps(head, source);
-    const double logged_rate = 1.0 / steps.row;
-    report.rate = options.rate > 0.0 ? options.rate : logged_rate;
-    if (options.exact_derivatives) return;
-    check_clock(source.path(), source.plan().time.from, steps.row);
+    const double row_step = median_row_step(head);
+    if (options.exact_derivatives) {
+      report.rate = row_step > 0.0 ? 1.0 / row_step : 0.0;
+    } else {
+      prepare(row_step);
+    }
+  }
+
+  /// Sets up all that stands between measured rows and samples.
+  void prepare(double row_step) {
+    if (head.size() < 2) {
+      throw InputError({source.path()}, fmt::format("has {} rows of measurements", head.size()),
+                       "a motion takes at least some tenths of a second");
+    }
+    check_clock(source.path(), source.plan().time.from, row_step);
     plausibility.emplace(source.path(), robot, source.plan(),
-                         Plausibility::Options{options.gap * steps.row, options.expect_gravity,
+                         Plausibility::Options{options.gap * row_step, options.expect_gravity,
                                                options.refuse_frozen});
     for (const MeasuredRow& row : head) plausibility->add(row);
     plausibility->judge();
+    const Eigen::VectorXd steps = median_steps(head, source);
+    const double logged_rate = 1.0 / row_step;
+    report.rate = options.rate > 0.0 ? options.rate : logged_rate;
     constexpr double rate_slack = 0.99;  // a median of jittered stamps
     if (report.rate < rate_slack * logged_rate) {
       throw InputError(
@@ -146,8 +156,8 @@ struct MotionReader::State {
     }
     const Butterworth design(options.order, options.cutoff, report.rate);
     if (options.smoothing == Smoothing::causal) report.group_delay = design.group_delay(0.0);
-    grid.emplace(report.rate, options.gap * steps.channel.cwiseMax(steps.row));
-    filter.emplace(options.smoothing, design, steps.channel.size());
+    grid.emplace(report.rate, options.gap * steps.cwiseMax(row_step));
+    filter.emplace(options.smoothing, design, steps.size());
   }
 
   std::optional<MeasuredRow> next_row() {

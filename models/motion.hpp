@@ -20,6 +20,12 @@ namespace shapeid {
 /// empty if it cannot be told, and the sample is dropped.
 using ContactRule = std::function<std::optional<std::vector<bool>>(const Sample&)>;
 
+/// The filter mixes what was before a change of contact with what came after.
+enum class ContactChange {
+  widen,  ///< near a touch the contact counts as touching: this costs rows, and is never wrong
+  drop    ///< samples near any change are left out
+};
+
 struct MotionOptions {
   Smoothing smoothing = Smoothing::zero_phase;
   double cutoff = 20.0;  ///< Hz, -3 dB of one pass; the same for joints, IMU, torque and force
@@ -34,9 +40,11 @@ struct MotionOptions {
   bool exact_derivatives = false;
   /// Decides contacts when the log has no contact columns, e.g. from -J^-T (tau - given model).
   ContactRule derive_contacts;
-  /// s before and after a change of any contact in which samples are dropped, because the filter
-  /// mixes both sides there. Empty: 1 / (4 cutoff), where the impulse response of two passes has
-  /// fallen below a tenth of its peak; 0 drops nothing.
+  /// What becomes of samples near a change of contact.
+  ContactChange at_contact_change = ContactChange::widen;
+  /// s before and after a change that count as near. Empty: 1 / (4 cutoff), where the impulse
+  /// response of two passes has fallen to a few percent of its peak; 0: every sample keeps its
+  /// flags.
   std::optional<double> contact_margin;
   /// Refuse a floating log whose accelerometer does not read about 9.81 m/s^2 on average while
   /// something carries the robot. Turn off for free fall without contact flags.
@@ -54,9 +62,9 @@ struct MotionReport {
   std::size_t dropped_rows = 0;  ///< by the mapping's row filter
   /// Grid rows lost at the ends of segments, and in segments too short to filter.
   std::size_t dropped_at_ends = 0;
-  /// Samples lost because a contact is not known, or changes within the margin.
+  /// Samples lost because a contact is not known, or (with drop) changes within the margin.
   std::size_t dropped_at_contacts = 0;
-  double rate = 0.0;         ///< Hz
+  double rate = 0.0;         ///< Hz; 0 for a single row with exact derivatives
   double group_delay = 0.0;  ///< s, at low frequency, of all channels alike; 0 for zero_phase
   bool floating = false;     ///< the log has base.* columns
   bool contacts_logged = false, contacts_derived = false, forces_logged = false;

@@ -2,9 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-#include <utility>
-
 namespace shapeid {
 
 void set_base(const Eigen::Isometry3d& imu, const Eigen::Vector3d& gyro,
@@ -62,46 +59,6 @@ Sample make_exact_sample(const ChannelPlan& plan, const Robot& robot, const Eige
     set_base(imu, row.values.segment<3>(plan.gyro), row.values.segment<3>(plan.gyrodot),
              row.values.segment<3>(plan.accel), sample);
   }
-  return sample;
-}
-
-void ContactMargin::push(FlaggedSample sample) {
-  const double now = sample.sample.time;
-  if (last_contacts_ && *last_contacts_ != sample.contacts) {
-    blocked_until_ = last_time_ + margin_;
-    while (!held_.empty() && held_.back().sample.time > now - margin_) {
-      held_.pop_back();
-      ++dropped_;
-    }
-  }
-  last_contacts_ = sample.contacts;
-  last_time_ = now;
-  const bool known =
-      std::find(sample.contacts.begin(), sample.contacts.end(), -1) == sample.contacts.end();
-  if (known && now >= blocked_until_) {
-    held_.push_back(std::move(sample));
-  } else {
-    ++dropped_;
-  }
-  while (!held_.empty() && held_.front().sample.time <= now - margin_) release();
-}
-
-void ContactMargin::finish() {
-  while (!held_.empty()) release();
-  last_contacts_.reset();
-}
-
-void ContactMargin::release() {
-  Sample sample = std::move(held_.front().sample);
-  for (const int flag : held_.front().contacts) sample.in_contact.push_back(flag == 1);
-  held_.pop_front();
-  ready_.push_back(std::move(sample));
-}
-
-std::optional<Sample> ContactMargin::next() {
-  if (ready_.empty()) return std::nullopt;
-  Sample sample = std::move(ready_.front());
-  ready_.pop_front();
   return sample;
 }
 

@@ -1,6 +1,8 @@
 #include "shapeid/models/motion.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <numbers>
@@ -23,6 +25,7 @@ using test::message_of;
 using test::read_motion;
 using test::ReadMotion;
 using test::regular_times;
+using test::scaled;
 using test::scaled_difference;
 using test::Scratch;
 using test::smooth_motion;
@@ -141,6 +144,181 @@ TEST(Motion, CausalIsLateByTheStatedDelayInEveryChannel) {
   EXPECT_LT(shifted.omega, left * prompt.omega);
   EXPECT_LT(shifted.alpha, left * prompt.alpha);
   EXPECT_LT(shifted.force, left * prompt.force);
+}
+
+TEST(Motion, WithoutSmoothingValuesAreThoseLogged) {
+  const Robot robot = chain(2, Root::fixed);
+  const Scratch scratch;
+  const auto path = scratch.path("a.csv");
+  write_log(path, robot, regular_times(0.0, 500.0, 2000),
+            [&](double t) { return smooth_motion(robot, t); });
+  MotionOptions options;
+  options.smoothing = Smoothing::none;
+  const auto [samples, report] = read_motion(path, robot, options);
+  ASSERT_GE(samples.size(), 1995u);  // two rows a side, and perhaps the last
+  // h^4 / 30 and h^4 / 90 of the fifth and sixth derivative, plus roundings of q over h^2
+  const double w = 2.0 * std::numbers::pi * highest, h = 0.002;
+  const Errors e = errors(robot, samples);
+  EXPECT_LT(scaled(e.q, 0.6 + 0.6 * w * 10.0, 10), few_hundred_eps);
+  EXPECT_LT(scaled(e.tau, 6.0 + 1.8 * w * w * w * 10.0, 10), few_hundred_eps);
+  EXPECT_LT(e.dq, 0.6 * std::pow(w * h, 4) * w / 30.0);
+  EXPECT_LT(e.ddq, 0.6 * std::pow(w * h, 4) * w * w / 90.0 + 1e3 * 2.2e-16 / (h * h));
+}
+
+TEST(Motion, LoggedVelocityIsUsedWhenTrusted) {
+  const Robot robot = chain(2, Root::fixed);
+  const Scratch scratch;
+  const auto path = scratch.path("a.csv");
+  // 10 percent off: below what is refused, and easy to tell from the derivative.
+  write_log(path, robot, regular_times(0.0, 500.0, 4000), [&](double t) {
+    Sample s = smooth_motion(robot, t);
+    s.dq *= 1.1;
+    return s;
+  });
+  MotionOptions options;
+  options.use_logged_velocity = true;
+  for (const Sample& s : read_motion(path, robot, options).samples) {
+    const Sample truth = smooth_motion(robot, s.time);
+    EXPECT_LT((s.dq - 1.1 * truth.dq).norm(), 0.01);
+    EXPECT_LT((s.ddq - 1.1 * truth.ddq).norm(), 0.2);
+  }
+}
+
+// The IMU sits turned and off the base origin: what it reads there is rigid-body kinematics.
+class ImuPose : public testing::Test {
+ protected:
+  ImuPose() : robot_(chain(2, Root::floating)) {
+    notes_.imu.linear() = Eigen::Quaterniond(0.5, -0.7, 0.3, 0.9).normalized().toRotationMatrix();
+    notes_.imu.translation() = Eigen::Vector3d(0.12, -0.07, 0.2);
+  }
+
+  [[nodiscard]] Sample seen_by_imu(Sample s) const {
+    const Eigen::Vector3d r = notes_.imu.translation();
+    const Eigen::Vector3d omega = s.base_angular_velocity, alpha = s.base_angular_acceleration;
+    const Eigen::Matrix3d into_imu = notes_.imu.linear().transpose();
+    s.base_specific_force =
+        into_imu * (s.base_specific_force + alpha.cross(r) + omega.cross(omega.cross(r)));
+    s.base_angular_velocity = into_imu * omega;
+    s.base_angular_acceleration = into_imu * alpha;
+    return s;
+  }
+
+  std::string write() {
+    const auto path = scratch_.path("a.csv");
+    write_log(path, robot_, regular_times(0.0, 500.0, 4000),
+              [&](double t) { return seen_by_imu(smooth_motion(robot_, t)); });
+    return path;
+  }
+
+  Robot robot_;
+  RobotNotes notes_;
+  Scratch scratch_;
+};
+
+TEST_F(ImuPose, ExactRowsComeBackInTheBaseFrame) {
+  MotionOptions options;
+  options.exact_derivatives = true;
+  const ReadMotion motion = read_motion(write(), robot_, options, {}, notes_);
+  for (const Sample& s : motion.samples) {
+    const Sample truth = smooth_motion(robot_, s.time);
+    EXPECT_LT(scaled_difference(s.base_angular_velocity, truth.base_angular_velocity, 3),
+              few_hundred_eps);
+    EXPECT_LT(scaled_difference(s.base_angular_acceleration, truth.base_angular_acceleration, 3),
+              few_hundred_eps);
+    EXPECT_LT(scaled_difference(s.base_specific_force, truth.base_specific_force, 3),
+              few_hundred_eps);
+  }
+}
+
+TEST_F(ImuPose, SmoothedRowsComeBackInTheBaseFrame) {
+  const ReadMotion motion = read_motion(write(), robot_, {}, {}, notes_);
+  const std::span<const Sample> inner(motion.samples.begin() + 500, motion.samples.end() - 500);
+  const Errors e = errors(robot_, inner);
+  // omega x (omega x r) doubles the frequency: 16 times the attenuation of its part.
+  const double w = 2.0 * std::numbers::pi * highest, a = attenuation({}, 500.0), reach = 0.25;
+  EXPECT_LT(e.omega, 2.0 * 0.6 * a);
+  EXPECT_LT(e.alpha, 2.0 * 0.6 * w * a);
+  EXPECT_LT(e.force, 2.0 * (0.6 + reach * 0.6 * w) * a + 16.0 * a * reach * 3.0 * 0.36);
+}
+
+// 200 000 rows of 13 columns are 20 MB as doubles, and more as samples.
+TEST(Motion, LogsOfAnyLengthTakeFixedMemory) {
+#ifdef __SANITIZE_ADDRESS__
+  fmt::print("skipped: the address sanitizer keeps freed memory\n");
+#else
+  const Robot robot = chain(3, Root::fixed);
+  const Scratch scratch;
+  const auto path = scratch.path("a.csv");
+  write_log(path, robot, regular_times(0.0, 1000.0, 200000),
+            [&](double t) { return smooth_motion(robot, t); });
+  const auto peak_kilobytes = [] {
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  const long before = peak_kilobytes();
+  MotionReader reader(path, robot, {}, {}, {});
+  std::size_t samples = 0;
+  while (reader.next()) ++samples;
+  const long grown = peak_kilobytes() - before;
+  fmt::print("{} samples, peak memory grew by {} kB\n", samples, grown);
+  EXPECT_GT(samples, 199800u);
+  EXPECT_LT(grown, 10000);
+#endif
+}
+
+TEST(Motion, SaysWhatItCannotDoWithALog) {
+  Robot robot = chain(1, Root::fixed);
+  const Scratch scratch;
+  const auto good = scratch.path("x.csv");
+  write_log(good, robot, regular_times(0.0, 500.0, 1000),
+            [&](double t) { return smooth_motion(robot, t); });
+  const auto reception = [&](const std::string& path, const MotionOptions& options,
+                             const std::optional<Mapping>& mapping = {}) {
+    return message_of<InputError>(
+        [&] { static_cast<void>(read_motion(path, robot, options, mapping)); }, path);
+  };
+  MotionOptions options;
+  options.rate = 100.0;
+  EXPECT_EQ(reception(good, options),
+            "a grid of 100 Hz for a log of 500 Hz; leave the log's rate: picking rows would fold "
+            "noise into the motion");
+  options = {};
+  options.cutoff = 300.0;
+  EXPECT_EQ(reception(good, options),
+            "cutoff of 300 Hz for data at 500 Hz; choose a cutoff between 0 and 250 Hz");
+  options = {};
+  options.order = 0;
+  EXPECT_EQ(reception(good, options), "filter of order 0; choose an order from 1 to 8");
+
+  const auto bare = scratch.file("x.csv", "time,q.j0,tau.j0\n0,1,2\n0.1,1,2\n");
+  options = {};
+  options.exact_derivatives = true;
+  EXPECT_EQ(reception(bare, options),
+            "x.csv: lacks derivatives; exact derivatives need dq.* and ddq.*");
+  options = {};
+  options.use_logged_velocity = true;
+  EXPECT_EQ(reception(bare, options),
+            "x.csv: has no dq.* columns; log them, or do not ask to use them");
+  const auto hole = scratch.file("x.csv", "time,q.j0,dq.j0,ddq.j0,tau.j0\n0,1,1,1,1\n1,1,1,,1\n");
+  options = {};
+  options.exact_derivatives = true;
+  EXPECT_EQ(reception(hole, options),
+            "x.csv:3: has an empty field; exact derivatives need every value in every row");
+  EXPECT_EQ(reception(scratch.file("x.csv", "time,q.j0,tau.j0\n0,1,2\n"), {}),
+            "x.csv: has 1 rows of measurements; a motion takes at least some tenths of a second");
+  EXPECT_EQ(reception(scratch.file("x.csv", "time,q.j0,tau.j0\n0,1,\n0.1,2,\n0.2,3,\n"), {}),
+            "x.csv, column tau.j0: is empty; tau.j0 needs measurements from the log's beginning");
+  Mapping held;
+  held.columns["q.j0"] = {.from = "q.j0", .hold = "q"};
+  EXPECT_EQ(reception(scratch.file("x.csv", "time,q.j0,tau.j0\n0,1,1\n0.1,1,2\n"), {}, held),
+            "x.csv, column q.j0: is held and never changes; q.j0 needs measurements from the log's "
+            "beginning");
+  robot.contacts.push_back({"l0", 1, ContactKind::point, Eigen::Isometry3d::Identity()});
+  EXPECT_EQ(
+      reception(bare, {}),
+      "x.csv: has no contact.* columns, but the robot has contacts; log a flag for each (0 in "
+      "the air), or have them derived");
 }
 
 }  // namespace

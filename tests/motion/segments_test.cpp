@@ -220,8 +220,9 @@ class Contacts : public testing::Test {
   Scratch scratch_;
 };
 
-TEST_F(Contacts, UnknownFlagsAndTheirSurroundingsAreDropped) {
+TEST_F(Contacts, DropLeavesOutWhatIsNearAChangeOrNotKnown) {
   MotionOptions options;
+  options.at_contact_change = ContactChange::drop;
   options.contact_margin = 0.1;
   const auto [samples, report] = read_motion(write_flags(), robot_, options);
   EXPECT_TRUE(report.contacts_logged);
@@ -241,6 +242,22 @@ TEST_F(Contacts, UnknownFlagsAndTheirSurroundingsAreDropped) {
   // The grid may end a rounding error behind the last stamp.
   EXPECT_GE(report.dropped_at_contacts + report.samples + report.dropped_at_ends, 2999u);
   EXPECT_LE(report.dropped_at_contacts + report.samples + report.dropped_at_ends, 3000u);
+}
+
+TEST_F(Contacts, WidenLetsAFootTouchEarlierAndLonger) {
+  MotionOptions options;
+  options.contact_margin = 0.1;
+  const auto [samples, report] = read_motion(write_flags(), robot_, options);
+  // The stance lasts from 1 to 1.998 s; from 4.002 s on nothing is known, so a touch may come then.
+  constexpr double half_step = 0.001;
+  for (const Sample& s : samples) {
+    const double t = s.time;
+    EXPECT_LT(t, 4.0 + half_step);
+    if (std::abs(t - 0.9) < half_step || std::abs(t - 2.098) < half_step) continue;  // on the edge
+    if (std::abs(t - 3.902) < half_step) continue;
+    EXPECT_EQ(s.in_contact[0], (t > 0.9 && t < 2.098) || t > 3.902) << t;
+  }
+  EXPECT_GT(report.samples, 1950u);
 }
 
 TEST_F(Contacts, NoMarginKeepsAllThatIsKnown) {

@@ -1,0 +1,53 @@
+#include "shapeid/models/contact_margin.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace shapeid {
+
+void ContactMargin::push(FlaggedSample sample) {
+  const double newest = sample.sample.time;
+  near_.push_back(std::move(sample));
+  while (decided_ < near_.size() && newest >= near_[decided_].sample.time + margin_) decide();
+}
+
+void ContactMargin::finish() {
+  while (decided_ < near_.size()) decide();
+  near_.clear();
+  decided_ = 0;
+}
+
+/// The next sample: everything within the margin around it is in near_.
+void ContactMargin::decide() {
+  const double time = near_[decided_].sample.time;
+  while (near_.front().sample.time < time - margin_) {
+    near_.pop_front();
+    --decided_;
+  }
+  FlaggedSample& here = near_[decided_++];
+  const std::vector<int>& flags = here.contacts;
+  std::vector<bool> touches(flags.size(), false);
+  bool wanted = std::find(flags.begin(), flags.end(), -1) == flags.end();
+  for (const FlaggedSample& other : near_) {
+    if (other.sample.time > time + margin_) break;
+    if (change_ == ContactChange::drop && other.contacts != flags) wanted = false;
+    for (std::size_t c = 0; c < flags.size(); ++c) {
+      if (other.contacts[c] != 0) touches[c] = true;
+    }
+  }
+  if (!wanted) {
+    ++dropped_;
+    return;
+  }
+  here.sample.in_contact = std::move(touches);
+  ready_.push_back(here.sample);
+}
+
+std::optional<Sample> ContactMargin::next() {
+  if (ready_.empty()) return std::nullopt;
+  Sample sample = std::move(ready_.front());
+  ready_.pop_front();
+  return sample;
+}
+
+}  // namespace shapeid

@@ -1,0 +1,44 @@
+// What becomes of samples near a change of contact, where a filter mixes both sides.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "shapeid/models/motion.hpp"
+#include "shapeid/models/sample.hpp"
+
+namespace shapeid {
+
+/// A sample with its contact flags still as numbers: 1, 0, or -1 for not known.
+struct FlaggedSample {
+  Sample sample;
+  std::vector<int> contacts;
+};
+
+/// Holds samples back until the contacts within the margin after them are known. A contact that is
+/// not known may touch: its samples are dropped, and it counts as touching for those near it.
+class ContactMargin {
+ public:
+  /// `margin` in s; 0 only drops samples whose contacts are not known.
+  ContactMargin(ContactChange change, double margin) : change_(change), margin_(margin) {}
+
+  void push(FlaggedSample sample);
+  /// The segment has ended: nothing after it counts for what came before.
+  void finish();
+  [[nodiscard]] std::optional<Sample> next();
+  [[nodiscard]] std::size_t dropped() const { return dropped_; }
+
+ private:
+  void decide();
+
+  ContactChange change_;
+  double margin_;
+  std::deque<FlaggedSample> near_;  ///< all that lies within the margin of the next to decide
+  std::size_t decided_ = 0;         ///< of these, from the front
+  std::deque<Sample> ready_;
+  std::size_t dropped_ = 0;
+};
+
+}  // namespace shapeid
