@@ -50,9 +50,10 @@ struct IdentifiedLink {
   InertialParameters inertia;
 };
 
-/// The text of the original URDF with the <inertial> of the given links replaced. The moving link
-/// takes the whole lumped inertia, its fixed members lose theirs (a comment says so). All else
-/// stays as it was. Throws Defect rather than write an inertia that the reader would refuse.
+/// The text of the original URDF with the <inertial> of the given links replaced, all else byte for
+/// byte as it was. The whole lumped inertia goes to the first member that has one in the file, the
+/// other members lose theirs (a comment says so). Throws Defect rather than write an inertia that
+/// the reader would refuse, or for a robot that was not read from this file.
 [[nodiscard]] std::string write_urdf(const std::string& original_path, const Robot& robot,
                                      const std::vector<IdentifiedLink>& identified);
 

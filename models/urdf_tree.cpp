@@ -88,8 +88,10 @@ void drop_world(const Document& document, Tree& tree) {
     const bool empty = (!root.inertial || root.inertial->mass == 0.0) && root.collision.empty();
     if (joint.parent != root.name || !empty || tree.outward[world].size() != 1) {
       throw InputError({document.file, joint.line, {}},
-                       fmt::format("joint {} floats inside the robot", joint.joint.name),
-                       "a floating joint is understood from an empty root link only");
+                       fmt::format("joint {} is floating, but {} is not an empty root link that "
+                                   "carries nothing else",
+                                   joint.joint.name, joint.parent),
+                       "a floating joint ties the whole robot to the world, or is not understood");
     }
     tree.root = tree.child[static_cast<std::size_t>(tree.outward[world].front())];
   }

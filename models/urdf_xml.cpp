@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <set>
 #include <string_view>
 #include <vector>
 
@@ -19,15 +18,18 @@ using tinyxml2::XMLNode;
 
 namespace {
 
-/// tinyxml2 keeps the first of two attributes of the same name and says nothing.
-void refuse_repeated_attributes(const XMLElement& element, const std::string& file) {
-  std::set<std::string_view> seen;
-  for (const XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
-    if (!seen.insert(a->Name()).second) {
-      throw InputError({file, a->GetLineNum(), {}},
-                       fmt::format("<{}> has two attributes \"{}\"", element.Name(), a->Name()),
-                       "keep one");
-    }
+std::string explain(const tinyxml2::XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "the file is empty";
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "not well-formed XML: an element is not closed, or another one is";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "not well-formed XML: an attribute is malformed, or given twice";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements are nested more than 100 deep";
+    default:
+      return fmt::format("not well-formed XML ({})", document.ErrorName());
   }
 }
 
@@ -40,7 +42,6 @@ void refuse_declarations(const XMLNode& node, const std::string& file) {
                        "a document type or entity declaration (\"<!\")",
                        "a URDF needs none: remove it");
     }
-    if (const XMLElement* element = child->ToElement()) refuse_repeated_attributes(*element, file);
     refuse_declarations(*child, file);
   }
 }
@@ -60,11 +61,7 @@ const XMLElement& parse_robot(const std::string& text, const std::string& file,
                      "give a URDF");
   }
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
-    throw InputError({file, document.ErrorLineNum(), {}},
-                     deep ? std::string("elements are nested more than 100 deep")
-                          : fmt::format("not well-formed XML ({})", document.ErrorName()),
-                     deep ? "a URDF nests fewer than ten" : "give a URDF");
+    throw InputError({file, document.ErrorLineNum(), {}}, explain(document), "give a URDF");
   }
   refuse_declarations(document, file);
 

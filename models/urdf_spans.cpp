@@ -1,0 +1,77 @@
+#include "shapeid/models/urdf_spans.hpp"
+
+#include <algorithm>
+
+namespace shapeid::urdf {
+namespace {
+
+/// The end of something that begins at `begin` and is closed by `closing`.
+std::size_t after(std::string_view text, std::size_t begin, std::string_view closing) {
+  const std::size_t found = text.find(closing, begin);
+  return found == std::string_view::npos ? text.size() : found + closing.size();
+}
+
+/// The end of a tag; a '>' between quotes does not close it.
+std::size_t after_tag(std::string_view text, std::size_t begin) {
+  char quote = 0;
+  for (std::size_t i = begin; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '>') {
+      return i + 1;
+    }
+  }
+  return text.size();
+}
+
+bool starts_with(std::string_view text, std::size_t at, std::string_view what) {
+  return text.substr(at, what.size()) == what;
+}
+
+}  // namespace
+
+std::vector<LinkSpan> find_links(std::string_view text) {
+  constexpr int inside_robot = 1;
+  constexpr int inside_link = 2;
+  std::vector<LinkSpan> links;
+  int depth = 0;
+  bool in_link = false;
+  std::size_t at = text.find('<');
+  while (at != std::string_view::npos) {
+    std::size_t end = 0;
+    if (starts_with(text, at, "<!--")) {
+      end = after(text, at, "-->");
+    } else if (starts_with(text, at, "<![CDATA[")) {
+      end = after(text, at, "]]>");
+    } else if (starts_with(text, at, "<?")) {
+      end = after(text, at, "?>");
+    } else if (starts_with(text, at, "</")) {
+      end = after_tag(text, at);
+      --depth;
+      if (depth == inside_robot) in_link = false;
+      if (in_link && depth == inside_link && starts_with(text, at, "</inertial")) {
+        links.back().inertial->end = end;
+      }
+    } else {
+      end = after_tag(text, at);
+      const std::size_t name_end = std::min(text.find_first_of(" \t\r\n/>", at), end);
+      const std::string_view name = text.substr(at + 1, name_end - at - 1);
+      const bool self_closed = text[end - 2] == '/';
+      if (depth == inside_robot && name == "link") {
+        links.push_back({{at, end}, self_closed, std::nullopt});
+        in_link = !self_closed;
+      }
+      if (in_link && depth == inside_link && name == "inertial") {
+        links.back().inertial = Span{at, end};
+      }
+      if (!self_closed) ++depth;
+    }
+    at = text.find('<', end);
+  }
+  return links;
+}
+
+}  // namespace shapeid::urdf

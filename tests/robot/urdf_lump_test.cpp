@@ -1,0 +1,213 @@
+// Lumping conserves mass, centre of mass and tensor, and keeps where everything is: held to sums
+// over point masses that know nothing of links.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/urdf.hpp"
+#include "shapeid/tests/robot/urdf_text.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+
+namespace shapeid {
+namespace {
+
+using test::few_hundred_eps;
+using test::scaled_difference;
+using test::WrittenRobot;
+
+std::size_t index_of(const std::string& name) { return std::stoul(name.substr(1)); }
+
+/// Coordinates of each lumped link to the root's, all joints at zero.
+std::vector<Eigen::Isometry3d> poses(const Robot& robot) {
+  std::vector<Eigen::Isometry3d> result;
+  for (const Link& link : robot.links) {
+    const bool root = link.parent < 0;
+    result.push_back(root ? Eigen::Isometry3d::Identity()
+                          : result[static_cast<std::size_t>(link.parent)] * link.joint.placement);
+  }
+  return result;
+}
+
+RC_GTEST_PROP(UrdfLump, ConservesMassCentreAndTensor, ()) {
+  const WrittenRobot written = *test::written_robot();
+  const Robot robot = parse_urdf(written.text(), "written.urdf").robot;
+  std::size_t members = 0;
+  for (const Link& link : robot.links) {
+    std::vector<std::size_t> which;
+    for (const Member& member : link.members) which.push_back(index_of(member.name));
+    members += which.size();
+    const InertialParameters expected = written.summed(which, index_of(link.name));
+    RC_ASSERT(scaled_difference(link.inertia.values, expected.values, 10) < few_hundred_eps);
+  }
+  RC_ASSERT(members == written.links.size());
+}
+
+RC_GTEST_PROP(UrdfLump, MembersJoinExactlyWhereTheirJointIsFixed, ()) {
+  const WrittenRobot written = *test::written_robot();
+  const Robot robot = parse_urdf(written.text(), "written.urdf").robot;
+  for (std::size_t i = 1; i < written.links.size(); ++i) {
+    const auto& link = written.links[i];
+    const int own = robot.find_link(fmt::format("l{}", i)).value();
+    const int parent = robot.find_link(fmt::format("l{}", link.parent)).value();
+    RC_ASSERT((own == parent) == (link.joint == "fixed"));
+    if (own == parent) continue;
+    RC_ASSERT(robot.links[static_cast<std::size_t>(own)].parent == parent);
+    RC_ASSERT(robot.links[static_cast<std::size_t>(own)].name == fmt::format("l{}", i));
+  }
+}
+
+RC_GTEST_PROP(UrdfLump, EveryFrameAndCollisionBodyStaysWhereItWas, ()) {
+  const WrittenRobot written = *test::written_robot();
+  const Robot robot = parse_urdf(written.text(), "written.urdf").robot;
+  const std::vector<Eigen::Isometry3d> pose = poses(robot);
+  for (std::size_t k = 0; k < robot.links.size(); ++k) {
+    const Link& link = robot.links[k];
+    RC_ASSERT(link.collision.size() == link.members.size());
+    for (std::size_t i = 0; i < link.members.size(); ++i) {
+      const std::size_t index = index_of(link.members[i].name);
+      const Eigen::Matrix4d frame = (pose[k] * link.members[i].pose).matrix();
+      RC_ASSERT(scaled_difference(frame, written.pose(index), 12) < few_hundred_eps);
+      // The test's sphere sits at the link's centre of mass and carries the link's number.
+      const CollisionBody& body = link.collision[i];
+      const Eigen::Vector3d centre = (pose[k] * body.pose).translation();
+      const Eigen::Vector3d expected =
+          (written.pose(index) * written.links[index].inertial_xyz.homogeneous()).head<3>();
+      RC_ASSERT(scaled_difference(centre, expected, 12) < few_hundred_eps);
+      RC_ASSERT(std::get<SphereGeometry>(body.geometry).radius == 1.0 + static_cast<double>(index));
+    }
+  }
+}
+
+// The promised order, checked against its definition: whenever a joint was placed, no joint that
+// stands earlier in the file was ready.
+RC_GTEST_PROP(UrdfLump, JointsFollowTheDocumentAmongThoseReady, ()) {
+  const WrittenRobot written = *test::written_robot();
+  const Robot robot = parse_urdf(written.text(), "written.urdf").robot;
+  std::map<std::string, std::size_t> place;
+  for (std::size_t k = 0; k < written.joint_order.size(); ++k) {
+    place[fmt::format("j{}", written.joint_order[k])] = k;
+  }
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    for (int later = j + 1; later < robot.joint_count(); ++later) {
+      const int parent = robot.links[static_cast<std::size_t>(later) + 1].parent;
+      const bool was_ready = parent <= j;
+      RC_ASSERT(!was_ready || place.at(robot.joint(j).name) < place.at(robot.joint(later).name));
+    }
+  }
+}
+
+RC_GTEST_PROP(UrdfLump, JointsKeepKindAxisAndLimits, ()) {
+  const WrittenRobot written = *test::written_robot();
+  const Robot robot = parse_urdf(written.text(), "written.urdf").robot;
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    const Joint& joint = robot.joint(j);
+    const auto& link = written.links[index_of(joint.name)];
+    const std::map<std::string, JointKind> kinds = {{"revolute", JointKind::revolute},
+                                                    {"continuous", JointKind::continuous},
+                                                    {"prismatic", JointKind::prismatic}};
+    RC_ASSERT(joint.kind == kinds.at(link.joint));
+    RC_ASSERT(scaled_difference(joint.axis, link.axis, 3) < few_hundred_eps);
+    RC_ASSERT(joint.effort == 30.0);
+    RC_ASSERT(joint.velocity == 7.0);
+    const bool limited = joint.kind != JointKind::continuous;
+    RC_ASSERT(joint.lower == (limited ? -1.0 : -std::numeric_limits<double>::infinity()));
+    RC_ASSERT(joint.upper == (limited ? 2.0 : std::numeric_limits<double>::infinity()));
+  }
+}
+
+constexpr const char* gripper = R"(<robot name="gripper">
+  <link name="hand"/>
+  <link name="finger">
+    <inertial><origin xyz="0.1 0 0"/><mass value="2"/>
+      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.015"/></inertial>
+  </link>
+  <link name="tip">
+    <inertial><mass value="1"/>
+      <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial>
+  </link>
+  <joint name="close" type="revolute">
+    <origin xyz="0 0 1"/><parent link="hand"/><child link="finger"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+  <joint name="slide" type="prismatic">
+    <origin xyz="0.2 0 0"/><parent link="finger"/><child link="tip"/><axis xyz="0 2 0"/>
+    <mimic joint="close" multiplier="0.1" offset="0.05"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+</robot>)";
+
+// At close = 90 degrees the finger's x axis is the hand's y axis. By hand: finger's centre at
+// (0, 0.1, 1); tip slid 0.05 along finger y, at finger (0.2, 0.05, 0), hand (-0.05, 0.2, 1).
+TEST(UrdfLump, LockedJointsStandWhereTheyAreTold) {
+  UrdfOptions options;
+  options.lock_mimic = true;
+  options.locked = {{"close", std::acos(0.0)}};
+  const Robot robot = parse_urdf(gripper, "gripper.urdf", options).robot;
+  ASSERT_EQ(robot.link_count(), 1);
+  EXPECT_EQ(robot.links[0].inertia.mass(), 3.0);
+  const Eigen::Vector3d expected(-0.05, 0.2 + 2 * 0.1, 3.0);
+  EXPECT_LT(scaled_difference(robot.links[0].inertia.first_moment(), expected, 3), few_hundred_eps);
+  EXPECT_EQ(robot.notes, (std::vector<std::string>{
+                             "axis scaled to length one: slide", "joints locked at 1.5708: close",
+                             "mimic joints locked at 0.05: slide",
+                             "hand also carries what is fixed to it: finger, tip"}));
+}
+
+TEST(UrdfLump, LockOfAnUnknownJointIsRefused) {
+  UrdfOptions options;
+  options.locked = {{"opne", 0.0}};
+  try {
+    static_cast<void>(parse_urdf(gripper, "gripper.urdf", options));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "joint opne cannot be locked at 0: gripper.urdf has no such moving joint; name a "
+                 "joint of the URDF");
+  }
+}
+
+TEST(UrdfLump, FloatingJointFromAnEmptyWorldMakesItsChildTheRoot) {
+  const std::string text = R"(<robot name="r"><link name="world"/>
+<link name="body"><inertial><mass value="2"/>
+<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1.5"/></inertial></link>
+<joint name="free" type="floating"><parent link="world"/><child link="body"/></joint></robot>)";
+  const Robot floating = parse_urdf(text, "r.urdf").robot;
+  ASSERT_EQ(floating.link_count(), 1);
+  EXPECT_EQ(floating.links[0].name, "body");
+  EXPECT_EQ(floating.root, Root::floating);
+  EXPECT_EQ(floating.notes,
+            std::vector<std::string>{"floating joint free left out: body is the floating root"});
+  const Robot fixed = parse_urdf(text, "r.urdf", {.root = Root::fixed, .locked = {}}).robot;
+  EXPECT_EQ(fixed.root, Root::fixed);
+  EXPECT_EQ(fixed.notes, std::vector<std::string>{
+                             "floating joint free left out: body is the fixed (as asked) root"});
+}
+
+TEST(UrdfLump, SaysWhatItTookForGranted) {
+  const std::string text = R"(<robot name="r"><link name="a"/><link name="b"/><link name="c">
+<collision><geometry><capsule radius="1" length="2"/></geometry></collision></link>
+<link name="d"/>
+<joint name="j" type="revolute"><parent link="a"/><child link="b"/></joint>
+<joint name="k" type="revolute"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/>
+<limit effort="0" velocity="3"/></joint>
+<joint name="l" type="fixed"><parent link="c"/><child link="d"/><axis xyz="0 0 0"/></joint>
+</robot>)";
+  const std::vector<std::string> expected = {
+      "collision geometry that is no box, cylinder, sphere or mesh left out: c",
+      "no <axis>, taken as x: j",
+      "no <limit>, taken as none: j",
+      "effort limit is 0, taken as none: k",
+      "lower and upper limit are equal or missing, taken as none: k",
+      "c also carries what is fixed to it: d",
+      "moves but has no mass: a, b, c"};
+  EXPECT_EQ(parse_urdf(text, "r.urdf").robot.notes, expected);
+}
+
+}  // namespace
+}  // namespace shapeid
