@@ -7,15 +7,20 @@
 
 namespace shapeid {
 
-std::optional<int> Robot::find_link(const std::string& wanted) const {
+std::optional<LinkSite> Robot::find_site(const std::string& wanted) const {
   for (int i = 0; i < link_count(); ++i) {
     const Link& link = links[static_cast<std::size_t>(i)];
-    const bool here =
-        link.name == wanted || std::any_of(link.members.begin(), link.members.end(),
-                                           [&](const Member& m) { return m.name == wanted; });
-    if (here) return i;
+    for (const Member& member : link.members) {
+      if (member.name == wanted) return LinkSite{i, member.pose};
+    }
+    if (link.name == wanted) return LinkSite{i, Eigen::Isometry3d::Identity()};
   }
   return std::nullopt;
+}
+
+std::optional<int> Robot::find_link(const std::string& wanted) const {
+  const std::optional<LinkSite> site = find_site(wanted);
+  return site ? std::optional<int>(site->link) : std::nullopt;
 }
 
 std::optional<int> Robot::find_joint(const std::string& wanted) const {

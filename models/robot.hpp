@@ -80,6 +80,12 @@ struct Contact {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< in the lumped link's frame
 };
 
+/// A URDF link's place after lumping.
+struct LinkSite {
+  int link = 0;                                            ///< index in Robot::links
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< its frame in the lumped link's
+};
+
 enum class Root { fixed, floating };
 
 /// Links stand parents first; link 0 is the root. Joint j moves link j + 1, and this is the
@@ -101,6 +107,8 @@ struct Robot {
     return links[static_cast<std::size_t>(j) + 1].joint;
   }
 
+  /// Where the URDF link `name` went; empty if there is none.
+  [[nodiscard]] std::optional<LinkSite> find_site(const std::string& name) const;
   /// Index of the lumped link that the URDF link `name` belongs to; empty if there is none.
   [[nodiscard]] std::optional<int> find_link(const std::string& name) const;
   [[nodiscard]] std::optional<int> find_joint(const std::string& name) const;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -58,15 +59,17 @@ std::string read_small_file(const std::string& path, std::size_t limit) {
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(place, "cannot be opened", "check its permissions");
+  // In blocks, and the size that the file system states is not asked: it may change meanwhile.
   std::string text;
-  // One byte more than the limit tells "too large" apart without trusting a size that may change.
-  text.resize(limit + 1);
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw InputError(place, "reading failed", "check the disk");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > limit) {
-    throw InputError(place, fmt::format("larger than {} bytes", limit), "is this the right file?");
+  std::array<char, 65536> block{};
+  while (in.read(block.data(), block.size()), in.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(in.gcount()));
+    if (text.size() > limit) {
+      throw InputError(place, fmt::format("larger than {} bytes", limit),
+                       "is this the right file?");
+    }
   }
+  if (in.bad()) throw InputError(place, "reading failed", "check the disk");
   return text;
 }
 

@@ -1,0 +1,148 @@
+#include "shapeid/models/robot_yaml.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "shapeid/models/yaml_input.hpp"
+
+namespace shapeid {
+namespace {
+
+LinkSite site_of(const YamlInput& in, const YAML::Node& node, const std::string& name,
+                 const Robot& robot) {
+  const std::optional<LinkSite> site = robot.find_site(name);
+  if (!site) in.refuse(node, fmt::format("{} has no link {}", robot.name, name), "name a link");
+  return *site;
+}
+
+ContactKind kind_of(const YamlInput& in, const YAML::Node& node) {
+  const std::string kind = in.text(node, "kind");
+  if (kind == "point") return ContactKind::point;
+  if (kind == "line") return ContactKind::line;
+  if (kind == "plane") return ContactKind::plane;
+  in.refuse(node, fmt::format("there is no contact of kind {}", kind), "point, line or plane");
+}
+
+/// A rotation whose x axis is `axis`.
+Eigen::Matrix3d frame_along(const Eigen::Vector3d& axis) {
+  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), axis).toRotationMatrix();
+}
+
+Contact read_contact(const YamlInput& in, const YAML::Node& node, const Robot& robot) {
+  in.check_keys(node, "a contact", {"link"}, {"point", "kind", "axis"});
+  Contact contact;
+  contact.name = in.text(node["link"], "link");
+  const LinkSite site = site_of(in, node["link"], contact.name, robot);
+  contact.link = site.link;
+  if (node["kind"]) contact.kind = kind_of(in, node["kind"]);
+  if (node["point"]) contact.frame.translation() = in.three(node["point"], "point");
+  const bool line = contact.kind == ContactKind::line;
+  if (line && !node["axis"]) {
+    in.refuse(node, fmt::format("the line contact of {} does not say which line", contact.name),
+              "write axis: [x, y, z], the direction about which no moment acts");
+  }
+  if (!line && node["axis"]) {
+    in.refuse(node["axis"], fmt::format("the contact of {} is no line", contact.name),
+              "an axis belongs to kind: line");
+  }
+  if (line) {
+    const Eigen::Vector3d axis = in.three(node["axis"], "axis");
+    if (axis.norm() == 0.0) in.refuse(node["axis"], "the axis is zero", "write a direction");
+    contact.frame.linear() = frame_along(axis.normalized());
+  }
+  contact.frame = site.pose * contact.frame;
+  return contact;
+}
+
+/// A channel of the log, or a quantity that stands for all of its channels.
+bool is_channel(const std::string& name, const Robot& robot) {
+  const auto begins = [&](std::string_view prefix) { return name.starts_with(prefix); };
+  for (const std::string_view quantity : {"q", "dq", "ddq", "tau"}) {
+    if (name == quantity) return true;
+    if (begins(fmt::format("{}.", quantity))) {
+      return robot.find_joint(name.substr(quantity.size() + 1)).has_value();
+    }
+  }
+  for (const std::string_view quantity : {"base.gyro", "base.accel", "base.quat"}) {
+    if (name == quantity) return true;
+  }
+  // What remains is one component of a vector.
+  if (name.size() < 3 || name[name.size() - 2] != '.') return false;
+  const std::string vector = name.substr(0, name.size() - 2);
+  const char component = name.back();
+  if (vector == "base.quat") return component >= 'w' && component <= 'z';
+  if (component < 'x' || component > 'z') return false;
+  if (vector == "base.gyro" || vector == "base.accel") return true;
+  return vector.starts_with("force.") && robot.find_link(vector.substr(6)).has_value();
+}
+
+void read_noise(const YamlInput& in, const YAML::Node& node, const Robot& robot,
+                RobotNotes& notes) {
+  for (const std::string& channel : in.keys(node, "noise")) {
+    if (!is_channel(channel, robot)) {
+      in.refuse(node[channel], fmt::format("{} is no channel of a log of {}", channel, robot.name),
+                "write q, dq, ddq or tau, alone or with .<joint>, base.gyro or base.accel, alone "
+                "or with .x, or force.<link>.x");
+    }
+    notes.noise_sigma[channel] = in.positive(node[channel], "the sigma of " + channel);
+  }
+}
+
+void read_rotors(const YamlInput& in, const YAML::Node& node, const Robot& robot,
+                 RobotNotes& notes) {
+  for (const std::string& joint : in.keys(node, "rotors")) {
+    const YAML::Node rotor = node[joint];
+    if (!robot.find_joint(joint)) {
+      in.refuse(rotor, fmt::format("{} has no moving joint {}", robot.name, joint), "name a joint");
+    }
+    in.check_keys(rotor, "the rotor of " + joint, {"inertia", "gear"}, {});
+    notes.rotors[joint] = {in.positive(rotor["inertia"], "inertia"),
+                           in.positive(rotor["gear"], "gear")};
+  }
+}
+
+void read_masses(const YamlInput& in, const YAML::Node& node, const Robot& robot,
+                 RobotNotes& notes) {
+  for (const std::string& name : in.keys(node, "expected_mass")) {
+    const YAML::Node range = node[name];
+    std::string key = name;
+    if (name != "load") {
+      const int link = site_of(in, range, name, robot).link;
+      key = robot.links[static_cast<std::size_t>(link)].name;
+    }
+    const Eigen::VectorXd bounds = in.numbers(range, "the mass of " + name, 2);
+    if (bounds[0] < 0.0 || bounds[1] <= bounds[0]) {
+      in.refuse(range,
+                fmt::format("the mass of {} lies from {:g} to {:g}", name, bounds[0], bounds[1]),
+                "write [lower, upper] in kg, 0 <= lower < upper");
+    }
+    if (!notes.expected_mass.emplace(key, RobotNotes::MassRange{bounds[0], bounds[1]}).second) {
+      in.refuse(range, fmt::format("{} is one rigid body with a link named before", name),
+                "give the mass of the whole once");
+    }
+  }
+}
+
+}  // namespace
+
+RobotNotes read_robot_yaml(const std::string& path, Robot& robot) {
+  const YamlInput in(path);
+  const YAML::Node& root = in.root();
+  in.check_keys(root, "robot.yaml", {}, {"imu", "contacts", "noise", "rotors", "expected_mass"});
+  RobotNotes notes;
+  if (root["imu"]) notes.imu = in.pose(root["imu"], "imu");
+  std::vector<Contact> contacts;
+  if (const YAML::Node list = root["contacts"]) {
+    if (!list.IsSequence()) in.refuse(list, "contacts is not a list", "write - {link: NAME}");
+    for (const YAML::Node& node : list) contacts.push_back(read_contact(in, node, robot));
+  }
+  if (root["noise"]) read_noise(in, root["noise"], robot, notes);
+  if (root["rotors"]) read_rotors(in, root["rotors"], robot, notes);
+  if (root["expected_mass"]) read_masses(in, root["expected_mass"], robot, notes);
+  // Nothing has been refused: only now does the robot change.
+  if (root["contacts"]) robot.contacts = std::move(contacts);
+  return notes;
+}
+
+}  // namespace shapeid

@@ -1,0 +1,113 @@
+#include "shapeid/models/yaml_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "shapeid/models/number.hpp"
+#include "shapeid/models/text.hpp"
+
+namespace shapeid {
+namespace {
+
+/// Our files are pages, not data: a thousand links with ten shapes each fit.
+constexpr std::size_t largest_yaml = std::size_t{1} << 20;
+
+}  // namespace
+
+YamlInput::YamlInput(std::string path) : path_(std::move(path)) {
+  try {
+    root_ = YAML::Load(read_small_file(path_, largest_yaml));
+  } catch (const YAML::Exception& error) {
+    throw InputError({path_, error.mark.line + 1, {}}, "not YAML: " + error.msg, "write YAML");
+  }
+}
+
+void YamlInput::refuse(const YAML::Node& node, const std::string& wrong,
+                       const std::string& right) const {
+  throw InputError(at(node), wrong, right);
+}
+
+std::vector<std::string> YamlInput::keys(const YAML::Node& node, const std::string& what) const {
+  if (!node.IsMap()) refuse(node, what + " is not a map", "write lines of key: value");
+  std::vector<std::string> result;
+  for (const auto& entry : node) {
+    const std::string key = text(entry.first, "a key of " + what);
+    if (std::find(result.begin(), result.end(), key) != result.end()) {
+      refuse(entry.first, fmt::format("{} is named twice in {}", key, what), "name it once");
+    }
+    result.push_back(key);
+  }
+  return result;
+}
+
+void YamlInput::check_keys(const YAML::Node& node, const std::string& what,
+                           const std::vector<std::string>& needed,
+                           const std::vector<std::string>& optional) const {
+  std::vector<std::string> known = needed;
+  known.insert(known.end(), optional.begin(), optional.end());
+  const std::vector<std::string> found = keys(node, what);
+  for (const auto& entry : node) {
+    if (std::find(known.begin(), known.end(), entry.first.Scalar()) == known.end()) {
+      refuse(entry.first, fmt::format("{} has no key {}", what, entry.first.Scalar()),
+             fmt::format("it has {}", fmt::join(known, ", ")));
+    }
+  }
+  for (const std::string& key : needed) {
+    if (std::find(found.begin(), found.end(), key) == found.end()) {
+      refuse(node, fmt::format("{} does not give its {}", what, key),
+             fmt::format("it needs {}", fmt::join(needed, ", ")));
+    }
+  }
+}
+
+std::string YamlInput::text(const YAML::Node& node, const std::string& what) const {
+  if (!node.IsScalar()) refuse(node, what + " is not a word", "write one word");
+  if (const Violation why = why_no_name(node.Scalar())) {
+    refuse(node, fmt::format("{} {}", what, *why), "write one word");
+  }
+  return node.Scalar();
+}
+
+double YamlInput::number(const YAML::Node& node, const std::string& what) const {
+  if (!node.IsScalar()) refuse(node, what + " is not a number", "write a decimal number");
+  const std::optional<double> value = parse_number(node.Scalar());
+  if (!value) {
+    refuse(node, fmt::format("{} {}", what, why_no_number(node.Scalar())),
+           "write a finite decimal number");
+  }
+  return *value;
+}
+
+double YamlInput::positive(const YAML::Node& node, const std::string& what) const {
+  const double value = number(node, what);
+  if (value <= 0.0) refuse(node, fmt::format("{} is {:g}", what, value), "it must be above zero");
+  return value;
+}
+
+Eigen::VectorXd YamlInput::numbers(const YAML::Node& node, const std::string& what,
+                                   Eigen::Index count) const {
+  if (!node.IsSequence() || node.size() != static_cast<std::size_t>(count)) {
+    refuse(node, fmt::format("{} is not a list of {} numbers", what, count),
+           "write them in brackets, with commas between them");
+  }
+  Eigen::VectorXd result(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    result[i] = number(node[static_cast<std::size_t>(i)], what);
+  }
+  return result;
+}
+
+Eigen::Vector3d YamlInput::three(const YAML::Node& node, const std::string& what) const {
+  return numbers(node, what, 3);
+}
+
+Eigen::Isometry3d YamlInput::pose(const YAML::Node& node, const std::string& what) const {
+  check_keys(node, what, {}, {"xyz", "rpy"});
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  if (node["xyz"]) result.translation() = three(node["xyz"], what + " xyz");
+  if (node["rpy"]) result.linear() = rotation_from_rpy(three(node["rpy"], what + " rpy"));
+  return result;
+}
+
+}  // namespace shapeid
