@@ -17,6 +17,12 @@ struct Workspace {
   cholmod_common common;
 };
 
+// What is left of a dependent column is rounding. SPQR orders columns for sparsity and not by size,
+// so a small pivot before it may have amplified that: at SPQR's default of a few 1e-13 one
+// redundant contact in some thousands was taken for independent, with forces of 1e15 N. Columns are
+// of size one here, and a column independent by less than this would hardly move the objective.
+constexpr double dependent = 1e-9;
+
 struct Entry {
   Eigen::Index row, column;
   double value;
@@ -59,8 +65,7 @@ Eigen::VectorXd least_squares(const std::vector<Entry>& entries, Eigen::Index co
       cholmod_l_allocate_dense(size(b.size()), 1, size(b.size()), CHOLMOD_REAL, &common);
   Eigen::Map<Eigen::VectorXd>(static_cast<double*>(rhs->x), b.size()) = b;
 
-  cholmod_dense* z =
-      SuiteSparseQR<double>(SPQR_ORDERING_DEFAULT, SPQR_DEFAULT_TOL, A, rhs, &common);
+  cholmod_dense* z = SuiteSparseQR<double>(SPQR_ORDERING_DEFAULT, dependent, A, rhs, &common);
   Eigen::VectorXd answer;
   if (z) answer = Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(z->x), columns);
   cholmod_l_free_dense(&z, &common);
@@ -70,17 +75,29 @@ Eigen::VectorXd least_squares(const std::vector<Entry>& entries, Eigen::Index co
   return answer;
 }
 
+/// Norms of the weighted columns of x over all samples; one for a column of zeros.
+Eigen::VectorXd column_sizes(const std::vector<RowsWithForces>& samples) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(samples.front().Y.cols());
+  for (const RowsWithForces& s : samples) {
+    squares += s.Y.cwiseAbs2().transpose() * s.weight;
+  }
+  return (squares.array() > 0.0).select(squares.cwiseSqrt(), 1.0);
+}
+
 }  // namespace
 
 ForceAugmentedAnswer solve_with_forces(const std::vector<RowsWithForces>& samples) {
   const Eigen::Index unknowns = samples.front().Y.cols();
+  // SPQR takes a column as dependent by what is left of it against the largest of all. Columns of Y
+  // are accelerations, up to thousands times those of J: they are brought to the same size.
+  const Eigen::VectorXd unit = column_sizes(samples).cwiseInverse();
   std::vector<Entry> entries;
   Eigen::VectorXd b(0);
   Eigen::Index columns = unknowns;
   for (const RowsWithForces& s : samples) {
     const Eigen::VectorXd root = s.weight.cwiseSqrt();
     const Eigen::Index row = b.size();
-    add_block(entries, row, 0, root.asDiagonal() * s.Y);
+    add_block(entries, row, 0, root.asDiagonal() * s.Y * unit.asDiagonal());
     add_block(entries, row, columns, -(root.asDiagonal() * s.J.transpose()));
     columns += s.J.rows();
     b.conservativeResize(row + s.F.size());
@@ -89,7 +106,7 @@ ForceAugmentedAnswer solve_with_forces(const std::vector<RowsWithForces>& sample
 
   const Eigen::VectorXd z = least_squares(entries, columns, b);
   ForceAugmentedAnswer answer;
-  answer.x = z.head(unknowns);
+  answer.x = unit.cwiseProduct(z.head(unknowns));
   Eigen::Index column = unknowns;
   for (const RowsWithForces& s : samples) {
     answer.f.push_back(z.segment(column, s.J.rows()));
