@@ -6,6 +6,7 @@
 namespace shapeid {
 
 void ContactMargin::push(FlaggedSample sample) {
+  if (sample.starts_segment) finish();
   const double newest = sample.sample.time;
   near_.push_back(std::move(sample));
   while (decided_ < near_.size() && newest >= near_[decided_].sample.time + margin_) decide();

@@ -15,6 +15,7 @@ namespace shapeid {
 struct FlaggedSample {
   Sample sample;
   std::vector<int> contacts;
+  bool starts_segment = false;  ///< the first one after a gap
 };
 
 /// Holds samples back until the contacts within the margin after them are known. A contact that is
@@ -24,8 +25,9 @@ class ContactMargin {
   /// `margin` in s; 0 only drops samples whose contacts are not known.
   ContactMargin(ContactChange change, double margin) : change_(change), margin_(margin) {}
 
+  /// Nothing counts across the start of a segment.
   void push(FlaggedSample sample);
-  /// The segment has ended: nothing after it counts for what came before.
+  /// No more samples will come.
   void finish();
   [[nodiscard]] std::optional<Sample> next();
   [[nodiscard]] std::size_t dropped() const { return dropped_; }

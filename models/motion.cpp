@@ -8,11 +8,11 @@
 
 #include "shapeid/models/channels.hpp"
 #include "shapeid/models/contact_margin.hpp"
-#include "shapeid/models/differences.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/plausibility.hpp"
 #include "shapeid/models/resampler.hpp"
 #include "shapeid/models/sample_builder.hpp"
+#include "shapeid/models/segment_samples.hpp"
 
 namespace shapeid {
 namespace {
@@ -20,9 +20,9 @@ namespace {
 // Rows from which the median steps are taken. A stream must not wait for as many.
 constexpr std::size_t head_of_log = 4096;
 constexpr std::size_t head_of_stream = 256;
-// A quarter of the cutoff's period away the impulse response of two passes of second order has
-// fallen to a few percent of its peak (docs/derivations/filtering.md).
-constexpr double margin_periods = 0.25;
+// From half a period of the cutoff on, the impulse response of two passes of second order stays
+// below 5 percent of its peak (docs/derivations/filtering.md).
+constexpr double margin_periods = 0.5;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -103,18 +103,8 @@ struct MotionReader::State {
   std::deque<MeasuredRow> head;
   std::optional<Plausibility> plausibility;
   std::optional<Resampler> grid;
-  std::optional<SegmentFilter> filter;
+  std::optional<SegmentSamples> segments;
   ContactMargin margin;
-
-  struct Stamp {
-    double time;
-    std::vector<int> contacts;
-  };
-  std::deque<Stamp> stamps;             ///< of rows that are inside the filter
-  std::deque<Eigen::VectorXd> around;   ///< filtered rows around the one to differentiate
-  std::deque<Stamp> around_stamps;      ///< of these
-  std::deque<FlaggedSample> unsettled;  ///< samples that a segment's end would take away
-  Eigen::Index since_start = 0;         ///< samples since the segment's beginning
   bool ended = false;
 
   void read_head() {
@@ -157,7 +147,9 @@ struct MotionReader::State {
     const Butterworth design(options.order, options.cutoff, report.rate);
     if (options.smoothing == Smoothing::causal) report.group_delay = design.group_delay(0.0);
     grid.emplace(report.rate, options.gap * steps.cwiseMax(row_step));
-    filter.emplace(options.smoothing, design, steps.size());
+    segments.emplace(
+        source.plan(), robot, imu, design,
+        SegmentSamples::Options{options.smoothing, report.rate, options.use_logged_velocity});
   }
 
   std::optional<MeasuredRow> next_row() {
@@ -178,22 +170,13 @@ struct MotionReader::State {
     if (options.exact_derivatives) {
       if (row) take_exact(*row);
     } else {
-      if (row) grid->push(*row);
-      if (!row) grid->finish();
-      while (const std::optional<GridRow> point = grid->next()) take(*point);
+      row ? grid->push(*row) : grid->finish();
+      while (const std::optional<GridRow> point = grid->next()) segments->push(*point);
+      if (!row) segments->finish();
+      while (std::optional<FlaggedSample> sample = segments->next()) take(std::move(*sample));
     }
     if (!row) end_log();
     return true;
-  }
-
-  void end_log() {
-    ended = true;
-    if (plausibility) plausibility->judge();
-    if (!options.exact_derivatives) end_segment();
-    margin.finish();
-    report.rows = source.rows();
-    report.dropped_rows = source.filtered();
-    report.dropped_at_contacts = margin.dropped();
   }
 
   void take_exact(const MeasuredRow& row) {
@@ -201,53 +184,10 @@ struct MotionReader::State {
       throw InputError({source.path(), row.line}, "has an empty field",
                        "exact derivatives need every value in every row");
     }
-    flag({make_exact_sample(source.plan(), robot, imu, row), row.contacts});
+    take({make_exact_sample(source.plan(), robot, imu, row), row.contacts, false});
   }
 
-  void take(const GridRow& row) {
-    if (row.starts_segment && !first_segment) {
-      end_segment();
-      ++report.gaps;
-    }
-    first_segment = false;
-    stamps.push_back({row.time, row.contacts});
-    ++rows_of_segment;
-    filter->push(row.values);
-    drain();
-  }
-
-  void drain() {
-    while (std::optional<Eigen::VectorXd> row = filter->next()) {
-      around.push_back(std::move(*row));
-      around_stamps.push_back(std::move(stamps.front()));
-      stamps.pop_front();
-      constexpr std::size_t width = 2 * difference_reach + 1;
-      if (around.size() < width) continue;
-      Stencil f;
-      std::copy(around.begin(), around.end(), f.begin());
-      Stamp& centre = around_stamps[difference_reach];
-      settle({make_sample(source.plan(), robot, imu, centre.time, f[difference_reach],
-                          first_derivative(f, report.rate), second_derivative(f, report.rate),
-                          options.use_logged_velocity),
-              centre.contacts});
-      around.pop_front();
-      around_stamps.pop_front();
-    }
-  }
-
-  /// Hands on what is far enough from both ends of the segment.
-  void settle(FlaggedSample sample) {
-    const Eigen::Index edge = filter->unsettled();
-    if (since_start++ < edge) return;
-    unsettled.push_back(std::move(sample));
-    const Eigen::Index held = options.smoothing == Smoothing::zero_phase ? edge : 0;
-    if (std::cmp_less_equal(unsettled.size(), held)) return;
-    ++handed_on;
-    flag(std::move(unsettled.front()));
-    unsettled.pop_front();
-  }
-
-  void flag(FlaggedSample sample) {
+  void take(FlaggedSample sample) {
     if (report.contacts_derived) {
       const std::optional<std::vector<bool>> derived = options.derive_contacts(sample.sample);
       sample.contacts.assign(robot.contacts.size(), -1);
@@ -256,22 +196,17 @@ struct MotionReader::State {
     margin.push(std::move(sample));
   }
 
-  void end_segment() {
-    filter->finish();
-    drain();
+  void end_log() {
+    ended = true;
+    if (plausibility) plausibility->judge();
     margin.finish();
-    report.dropped_at_ends += rows_of_segment - handed_on;
-    filter->reset();
-    stamps.clear();
-    around.clear();
-    around_stamps.clear();
-    unsettled.clear();
-    since_start = 0;
-    rows_of_segment = handed_on = 0;
+    report.rows = source.rows();
+    report.dropped_rows = source.filtered();
+    report.dropped_at_contacts = margin.dropped();
+    if (!segments) return;
+    report.gaps = std::max<std::size_t>(segments->segments(), 1) - 1;
+    report.dropped_at_ends = segments->lost();
   }
-
-  bool first_segment = true;
-  std::size_t rows_of_segment = 0, handed_on = 0;
 };
 
 MotionReader::MotionReader(const std::string& path, const Robot& robot, const RobotNotes& notes,

@@ -42,9 +42,9 @@ struct MotionOptions {
   ContactRule derive_contacts;
   /// What becomes of samples near a change of contact.
   ContactChange at_contact_change = ContactChange::widen;
-  /// s before and after a change that count as near. Empty: 1 / (4 cutoff), where the impulse
-  /// response of two passes has fallen to a few percent of its peak; 0: every sample keeps its
-  /// flags.
+  /// s before and after a change that count as near. Empty: 1 / (2 cutoff), from where on
+  /// the impulse response of two passes of second order stays below 5 percent of its peak; 0: every
+  /// sample keeps its flags.
   std::optional<double> contact_margin;
   /// Refuse a floating log whose accelerometer does not read about 9.81 m/s^2 on average while
   /// something carries the robot. Turn off for free fall without contact flags.

@@ -164,6 +164,31 @@ TEST(SegmentFilter, GainOfTwoPassesIsThatOfOneSquared) {
   }
 }
 
+// What the default margin around changes of contact rests on: the autocorrelation of the impulse
+// response sqrt(2) exp(-t / sqrt 2) sin(t / sqrt 2), in units of the cutoff's angular frequency.
+TEST(SegmentFilter, ImpulseResponseOfTwoPassesIsShort) {
+  const double rate = 8000.0, cutoff = 20.0;  // fine against the cutoff: the analog closed form
+  SegmentFilter filter(Smoothing::zero_phase, Butterworth(2, cutoff, rate), 1);
+  constexpr int middle = 3000;
+  for (int k = 0; k <= 2 * middle; ++k) {
+    filter.push(Eigen::VectorXd::Constant(1, k == middle ? 1.0 : 0.0));
+  }
+  filter.finish();
+  std::vector<double> response;
+  while (const auto row = filter.next()) response.push_back((*row)[0]);
+  const double peak = response[middle];
+  for (const double periods : {0.1, 0.25, 0.5, 0.75}) {
+    const double x = 2.0 * pi * periods / std::sqrt(2.0);
+    const double closed = std::exp(-x) * (std::cos(x) + std::sin(x));
+    const auto at = static_cast<std::size_t>(middle + std::lround(periods * rate / cutoff));
+    // The bilinear transform is off by (pi cutoff / rate)^2 in relative terms.
+    EXPECT_LT(std::abs(response[at] / peak - closed), std::pow(pi * cutoff / rate, 2) * 10.0);
+    if (periods >= 0.5) {
+      EXPECT_LT(std::abs(response[at]), 0.05 * peak);
+    }
+  }
+}
+
 TEST(SegmentFilter, ShortSegmentsAreLost) {
   SegmentFilter filter(Smoothing::zero_phase, Butterworth(2, 20.0, 500.0), 1);
   for (Eigen::Index k = 0; k < filter.unsettled(); ++k) filter.push(Eigen::VectorXd::Ones(1));
