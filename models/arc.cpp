@@ -41,8 +41,7 @@ double largest_on_arc(double a, double b, double lower, double upper) {
 
 double turned_to(double angle, double lower, double upper) {
   const double turns = std::round((0.5 * (lower + upper) - angle) / (2.0 * pi));
-  const double turned = angle + 2.0 * pi * turns;
-  return upper - lower >= 2.0 * pi ? std::clamp(turned, lower, upper) : turned;
+  return angle + 2.0 * pi * turns;
 }
 
 }  // namespace shapeid

@@ -46,7 +46,6 @@ struct Arc {
 [[nodiscard]] double largest_on_arc(double a, double b, double lower, double upper);
 
 /// `angle` plus the number of whole turns that brings it nearest to the middle of [lower, upper].
-/// Every angle lies in an interval of a whole turn, roundings included.
 [[nodiscard]] double turned_to(double angle, double lower, double upper);
 
 }  // namespace shapeid

@@ -143,8 +143,8 @@ std::optional<std::pair<Polyhedron, Polyhedron>> cut(const Polyhedron& p,
   const double volume = moments(p).volume;
 
   // The volume below a level grows monotonically, cubic between levels of vertices, and its
-  // derivative is the section's area. Newton's steps, halving where they leave the bracket or do
-  // not halve the last step: each step or the one after it halves something, so few are needed.
+  // derivative is the section's area. Newton's steps, and halving where they leave the bracket or
+  // do not halve the last step (at an apex they only shrink by a third), so that few are needed.
   constexpr int most_steps = 200;
   double level = low + fraction * (high - low);
   double last_step = high - low;

@@ -25,7 +25,7 @@ concept Cellular = requires(const Kind& kind) {
 Moments moments_of(const Cellular auto& shape) {
   const Moments canonical = canonical_moments(shape);
   const Eigen::Matrix3d L = shape.frame.linear();
-  return {canonical.volume * std::abs(L.determinant()), shape.frame * canonical.centroid,
+  return {canonical.volume * L.determinant(), shape.frame * canonical.centroid,
           L * canonical.covariance * L.transpose()};
 }
 Moments moments_of(const Polyhedron& polyhedron) { return moments(polyhedron); }

@@ -77,9 +77,17 @@ TEST(Makers, RefuseMeshesThatAreInsideOut) {
   EXPECT_NE(refusal(corner, reversed).find("inside out"), std::string::npos);
 }
 
-TEST(Makers, RefuseMeshesWithoutVolumeOrWithWrongIndices) {
-  EXPECT_NE(refusal({{0, 0, 0}, {1, 0, 0.1}, {0, 1, 0.1}, {1, 1, 0.2}}, tetrahedron).find("volume"),
-            std::string::npos);
+TEST(Makers, RefuseMeshesWithoutVolume) {
+  // In most poses rounding gives the flat surface a volume of some sign.
+  for (int i = 0; i < 50; ++i) {
+    const auto turn = Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d(3, -1, 2).normalized());
+    Vertices flat = {{0, 0, 0}, {1, 0, 0.1}, {0, 1, 0.1}, {1, 0.9, 0.19}};
+    for (Eigen::Vector3d& v : flat) v = turn * v + Eigen::Vector3d(0.3, 0.1, -0.2);
+    EXPECT_NE(refusal(flat, tetrahedron).find("no volume"), std::string::npos);
+  }
+}
+
+TEST(Makers, RefuseMeshesWithWrongIndices) {
   Faces wrong = tetrahedron;
   wrong[0][0] = 4;
   EXPECT_NE(refusal(corner, wrong).find("none of the 4"), std::string::npos);
@@ -173,6 +181,13 @@ TEST(LongestSide, OfABall) {
   const Shape half = divide(ball).first;
   EXPECT_EQ(axis_cut<Ellipsoid>(half), 1);
   EXPECT_EQ(axis_cut<Ellipsoid>(divide(half).first), 2);
+}
+
+// The cap that holds a thousandth of a ball reaches 0.063 rad down: its widest parallel measures
+// 0.04.
+TEST(LongestSide, OfACap) {
+  const Shape cap = divide(make_ellipsoid({0.1, 0.1, 0.1}, here), 1, 0.001).first;
+  EXPECT_EQ(axis_cut<Ellipsoid>(cap), 0);
 }
 
 // A cigar along z: its meridians are long, its parallels short.

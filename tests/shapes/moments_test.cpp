@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 #include "shapeid/models/shape.hpp"
 #include "shapeid/tests/shapes/quadrature.hpp"
@@ -41,6 +42,39 @@ RC_GTEST_PROP(Moments, EllipsoidSectorsAgreeWithQuadrature, ()) {
 }
 RC_GTEST_PROP(Moments, PolyhedraAgreeWithQuadrature, ()) {
   check_against_quadrature(*test::convex_polyhedron());
+}
+
+// All widths alike and small, so that nothing but the part's own size can hide an error; at the
+// poles and the axis, where polar angle and azimuth degenerate, as well as anywhere else.
+RC_GTEST_PROP(Moments, SliversAgreeWithQuadrature, ()) {
+  const double width = *test::magnitude(1e-4, 1e-2);
+  const auto start = [&](double range) {
+    return *rc::gen::oneOf(rc::gen::just(0.0), test::real(0.0, range - width),
+                           rc::gen::just(range - width));
+  };
+  const Eigen::Vector3d w = Eigen::Vector3d::Constant(width);
+  Eigen::Affine3d frame(*test::pose(0.5));
+  const Eigen::Vector3d sector(start(1.0), start(6.0), start(1.0));
+  check_against_quadrature(Cylinder{frame, {sector, sector + w}});
+
+  // At a pole the whole turn of azimuths is as narrow as the cell's polar angle.
+  const bool turn = *rc::gen::arbitrary<bool>();
+  const Eigen::Vector3d lower(start(1.0), start(std::numbers::pi), 0.0);
+  const Eigen::Vector3d upper = lower + w;
+  check_against_quadrature(
+      Ellipsoid{frame, {lower, {upper[0], upper[1], turn ? 2.0 * std::numbers::pi : upper[2]}}});
+}
+
+// All of the polar angles but a little at one pole.
+RC_GTEST_PROP(Moments, NearlyWholeBallsAgreeWithQuadrature, ()) {
+  Ellipsoid ball = std::get<Ellipsoid>(make_ellipsoid({0.2, 0.3, 0.4}, *test::pose(0.5)));
+  const double missing = *test::magnitude(1e-8, 1e-1);
+  if (*rc::gen::arbitrary<bool>()) {
+    ball.cell.lower[1] += missing;
+  } else {
+    ball.cell.upper[1] -= missing;
+  }
+  check_against_quadrature(ball);
 }
 
 // Equations (10)-(14) put the moments together about the link origin: undo it by the parallel axis

@@ -64,6 +64,8 @@ RC_GTEST_PROP(Polyhedron, HullOfABoxIsTheCuboid, ()) {
   const Eigen::Isometry3d pose = *test::pose(0.5);
   const Shape hull = make_convex_hull(box_points(sides, *rc::gen::inRange(1, 4)), pose);
   check_same(hull, make_cuboid(sides, pose));
+  RC_ASSERT(std::get<Polyhedron>(hull).vertices.size() == 8U);
+  RC_ASSERT(std::get<Polyhedron>(hull).faces.size() == 12U);
 }
 
 RC_GTEST_PROP(Polyhedron, PartsOfABoxAreCuboids, ()) {
@@ -127,6 +129,28 @@ RC_GTEST_PROP(Polyhedron, DivisionKeepsVertices, ()) {
   for (const Eigen::Vector3d& v : std::get<Polyhedron>(whole).vertices) {
     RC_ASSERT(holds(lower, v) || holds(upper, v));
   }
+}
+
+// Every direction ties, in any pose: link axis x wins.
+RC_GTEST_PROP(Polyhedron, DefaultDivisionOfACubeIsAcrossX, ()) {
+  const Shape cube = make_convex_hull(box_points({0.3, 0.3, 0.3}, 1), *test::pose(0.5));
+  const auto parts = divide(cube);
+  const auto across_x = divide(cube, 0, 0.5);
+  check_same(parts.first, across_x.first);
+  check_same(parts.second, across_x.second);
+}
+
+// In a turned octahedron the plane misses four vertices by roundings only: it counts as through
+// them, and no slivers appear.
+RC_GTEST_PROP(Polyhedron, CutNearlyThroughVertices, ()) {
+  const double a = 0.3 * std::sqrt(0.5);
+  const Vertices corners = {{a, a, 0},  {-a, -a, 0}, {a, -a, 0},
+                            {-a, a, 0}, {0, 0, 0.5}, {0, 0, -0.5}};
+  Eigen::Isometry3d about_z = *test::pose(0.5);
+  about_z.linear() = Eigen::AngleAxisd(*test::real(0.0, 6.0), Eigen::Vector3d::UnitZ()).matrix();
+  const auto [lower, upper] = divide(make_convex_hull(corners, about_z), 2, 0.5);
+  RC_ASSERT(std::get<Polyhedron>(lower).vertices.size() == 5U);
+  RC_ASSERT(std::get<Polyhedron>(upper).vertices.size() == 5U);
 }
 
 // An octahedron halved across an axis: the plane runs through four vertices and four edges.
