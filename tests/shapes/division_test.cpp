@@ -22,7 +22,7 @@ using test::reach;
 using test::scaled;
 
 /// What eps is relative to in the volume below a cut: cut coordinates round at their own size, not
-/// at the width of the cell; vertices at their distance from the link origin.
+/// at the width of the cell.
 double volume_scale(const Shape& shape, int axis) {
   return std::visit(
       [&](const auto& s) {
@@ -30,7 +30,7 @@ double volume_scale(const Shape& shape, int axis) {
           const double bound = std::max(std::abs(s.cell.lower[axis]), std::abs(s.cell.upper[axis]));
           return volume(shape) * (1.0 + bound / (s.cell.upper[axis] - s.cell.lower[axis]));
         } else {
-          return volume(shape) + reach(shape) * std::pow(own_size(shape), 2);
+          return volume(shape) * test::volume_rounding(shape);
         }
       },
       shape);
@@ -40,11 +40,10 @@ double volume_scale(const Shape& shape, int axis) {
 /// link origin, where eps is relative to the distance from it, and once about the part's own
 /// centroid, where a small part cannot hide behind that distance.
 void check_sums(const Shape& whole, const std::array<Shape, 2>& parts) {
-  const bool solid = std::holds_alternative<Polyhedron>(whole);
   const Moments m = moments(whole);
   const double size = own_size(whole);
   const double far = reach(whole);
-  const double rounding = solid ? volume_scale(whole, 0) / m.volume : 1.0;
+  const double rounding = test::volume_rounding(whole);
 
   double sum = 0.0;
   Vector10 u = Vector10::Zero();
@@ -142,12 +141,11 @@ RC_GTEST_PROP(Division, TwentyHalvingsDoNotDrift, ()) {
   const double share = volume(part) / volume(whole);
   const Vector10 error =
       left + share * unit_parameters(part).values - unit_parameters(whole).values;
-  const double solid =
-      std::holds_alternative<Polyhedron>(whole) ? volume_scale(whole, 0) / volume(whole) : 1.0;
-  RC_ASSERT(scaled(std::abs(left_volume + volume(part) - volume(whole)), volume(whole) * solid,
+  const double of_whole = test::volume_rounding(whole);
+  RC_ASSERT(scaled(std::abs(left_volume + volume(part) - volume(whole)), volume(whole) * of_whole,
                    depth) < few_hundred_eps);
-  RC_ASSERT(scaled(error.segment(1, 3).norm(), far * solid, depth) < few_hundred_eps);
-  RC_ASSERT(scaled(error.tail(6).norm(), far * far * solid, depth) < few_hundred_eps);
+  RC_ASSERT(scaled(error.segment(1, 3).norm(), far * of_whole, depth) < few_hundred_eps);
+  RC_ASSERT(scaled(error.tail(6).norm(), far * far * of_whole, depth) < few_hundred_eps);
 }
 
 // Cuts wherever they fall, not only the sensible ones: slivers are bodies too.

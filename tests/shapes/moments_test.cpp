@@ -15,21 +15,10 @@
 namespace shapeid {
 namespace {
 
+using test::check_against_quadrature;
 using test::few_hundred_eps;
 using test::scaled;
 using test::scaled_difference;
-
-/// The accuracy that shape.hpp promises: volume to its own size, centroid to the positions that it
-/// is a mean of, central moments to the part's own extent, however far away it lies.
-void check_against_quadrature(const Shape& shape) {
-  const Moments here = moments(shape);
-  const Moments there = test::integrated(shape);
-  RC_ASSERT(scaled(std::abs(here.volume - there.volume), there.volume, 1) < few_hundred_eps);
-  RC_ASSERT(scaled((here.centroid - there.centroid).norm(), test::reach(shape), 3) <
-            few_hundred_eps);
-  RC_ASSERT(scaled((here.covariance - there.covariance).norm(), there.covariance.trace(), 9) <
-            few_hundred_eps);
-}
 
 RC_GTEST_PROP(Moments, CuboidCellsAgreeWithQuadrature, ()) {
   check_against_quadrature(*test::cuboid_cell());

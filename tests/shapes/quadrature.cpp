@@ -1,10 +1,15 @@
 #include "shapeid/tests/shapes/quadrature.hpp"
 
+#include <rapidcheck.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
+
+#include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/shape_generators.hpp"
 
 namespace shapeid::test {
 namespace {
@@ -146,6 +151,18 @@ Moments integrated(const Shape& shape) {
         }
       },
       shape);
+}
+
+void check_against_quadrature(const Shape& shape) {
+  const Moments here = moments(shape);
+  const Moments there = integrated(shape);
+  const double rounding = volume_rounding(shape);
+  RC_ASSERT(scaled(std::abs(here.volume - there.volume), there.volume * rounding, 1) <
+            few_hundred_eps);
+  RC_ASSERT(scaled((here.centroid - there.centroid).norm(), reach(shape) * rounding, 3) <
+            few_hundred_eps);
+  RC_ASSERT(scaled((here.covariance - there.covariance).norm(), there.covariance.trace() * rounding,
+                   9) < few_hundred_eps);
 }
 
 }  // namespace shapeid::test

@@ -193,4 +193,9 @@ double reach(const Shape& shape) {
 
 double own_size(const Shape& shape) { return std::sqrt(moments(shape).covariance.trace()); }
 
+double volume_rounding(const Shape& shape) {
+  if (!std::holds_alternative<Polyhedron>(shape)) return 1.0;
+  return 1.0 + reach(shape) * std::pow(own_size(shape), 2) / volume(shape);
+}
+
 }  // namespace shapeid::test

@@ -54,4 +54,8 @@ void showValue(const Cut& cut, std::ostream& out);
 /// Root mean square distance from the centroid, m: what a part's own size is measured by.
 [[nodiscard]] double own_size(const Shape& shape);
 
+/// What eps is relative to in a volume, over the volume: 1 for cells. Vertices of polyhedra round
+/// at their distance from the link origin, which counts the more the thinner the solid is.
+[[nodiscard]] double volume_rounding(const Shape& shape);
+
 }  // namespace shapeid::test
