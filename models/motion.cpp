@@ -92,6 +92,9 @@ struct MotionReader::State {
     report.contacts_derived = !robot.contacts.empty() && plan.contacts.empty();
     report.forces_logged = plan.force >= 0;
     report.extra = plan.extra;
+    if (plan.dq < 0) {
+      report.notes.emplace_back("no dq.* columns: units of q and time are not checked by slopes");
+    }
     read_head();
   }
 

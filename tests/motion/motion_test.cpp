@@ -165,6 +165,19 @@ TEST(Motion, WithoutSmoothingValuesAreThoseLogged) {
   EXPECT_LT(e.ddq, 0.6 * std::pow(w * h, 4) * w * w / 90.0 + 1e3 * 2.2e-16 / (h * h));
 }
 
+TEST(Motion, SaysWhatCouldNotBeChecked) {
+  const Scratch scratch;
+  std::string text = "time,q.j0,tau.j0,temperature.j0\n";
+  for (int k = 0; k < 500; ++k) text += fmt::format("{},{},1,20\n", 0.002 * k, 0.001 * k);
+  MotionOptions options;
+  options.refuse_frozen = false;
+  const auto path = scratch.file("a.csv", text);
+  const MotionReport report = read_motion(path, chain(1, Root::fixed), options).report;
+  EXPECT_EQ(report.extra, std::vector<std::string>{"temperature.j0"});
+  EXPECT_EQ(report.notes, std::vector<std::string>{
+                              "no dq.* columns: units of q and time are not checked by slopes"});
+}
+
 TEST(Motion, LoggedVelocityIsUsedWhenTrusted) {
   const Robot robot = chain(2, Root::fixed);
   const Scratch scratch;
