@@ -1,0 +1,117 @@
+#include "shapeid/app/identification.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/file_output.hpp"
+#include "shapeid/models/problem_json.hpp"
+#include "shapeid/reference/residual.hpp"
+
+namespace shapeid::app {
+namespace {
+
+/// Samples of one part of the log (or all of it, when another log is for testing).
+class PartOfLog {
+ public:
+  PartOfLog(LogSamples& log, std::optional<Part> wanted) : log_(&log), wanted_(wanted) {}
+
+  std::optional<Sample> next() {
+    while (std::optional<Sample> sample = log_->next()) {
+      if (!started_) start_ = sample->time;
+      started_ = true;
+      if (!wanted_ || part_of(sample->time - start_) == *wanted_) return sample;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  LogSamples* log_;
+  std::optional<Part> wanted_;
+  bool started_ = false;
+  double start_ = 0.0;
+};
+
+Comparison compare(const RobotInputs& robot, const MotionInputs& inputs, const RunOptions& options,
+                   const Eigen::VectorXd& found) {
+  const bool same_log = options.test_log.empty();
+  LogSamples log(same_log ? inputs.log : options.test_log, robot, inputs);
+  PartOfLog samples(log, same_log ? std::optional(Part::held_out) : std::nullopt);
+  const Eigen::VectorXd given = stacked_parameters(robot.robot);
+  reference::ResidualTable table(robot.robot, log.contacts(),
+                                 {Eigen::VectorXd::Zero(given.size()), given, found});
+  while (const std::optional<Sample> sample = samples.next()) table.add(*sample);
+  const Eigen::MatrixXd rms = table.rms();
+  return {table.samples(), rms.col(0), rms.col(1), rms.col(2),
+          same_log ? "every fifth two seconds of the log" : options.test_log};
+}
+
+}  // namespace
+
+Result run_identification(const RobotInputs& robot, const BodyModel& model,
+                          const MotionInputs& inputs, const RunOptions& options,
+                          const std::function<void(const reference::DivisionRun&)>& watch) {
+  LogSamples log(inputs.log, robot, inputs);
+  PartOfLog samples(log, options.test_log.empty() ? std::optional(Part::fitted) : std::nullopt);
+  reference::IdentifySettings settings = options.settings;
+  settings.contacts = log.contacts();
+  if (settings.weight.size() == 0) settings.weight = weight(robot);
+
+  Result result;
+  result.robot_file = inputs.robot;
+  result.log_file = inputs.log;
+  result.found = identify(
+      robot.robot, model, [&] { return samples.next(); }, settings, watch);
+  result.motion = log.report();
+  result.notes = robot.robot.notes;
+  result.notes.insert(result.notes.end(), robot.warnings.begin(), robot.warnings.end());
+  result.notes.insert(result.notes.end(), result.motion.notes.begin(), result.motion.notes.end());
+  choose_written_links(result, robot.robot, options.least_mass);
+  result.heldout = compare(robot, inputs, options, result.found.Phi);
+  return result;
+}
+
+std::vector<std::string> write_results(const std::string& folder, const Result& result,
+                                       const RobotInputs& robot, const MotionInputs& inputs) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) throw InputError({folder}, "cannot be made: " + failed.message(), "another folder");
+  std::vector<std::string> paths;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    paths.push_back((std::filesystem::path(folder) / name).string());
+    write_file(paths.back(), text);
+  };
+  const reference::DivisionRun& run = result.found.run;
+  const Answer answer{problem_digest(run.problem), run.solution.m, run.solution.Phi,
+                      run.solution.value.total()};
+  write("result.json", result_json(result, robot.robot).dump(2) + "\n");
+  write("problem.json", problem_to_json(run.problem));
+  write("answer.json", answer_to_json(answer));
+  write("identified.urdf", write_urdf(inputs.robot, robot.robot, result.written));
+  return paths;
+}
+
+void add_solver_options(CLI::App& verb, RunOptions& options) {
+  reference::DivisionOptions& division = options.settings.division;
+  verb.add_option("--test", options.test_log,
+                  "log to measure the residual on (default: every fifth two seconds are held out)");
+  verb.add_option("--divisions", division.most_divisions, "most divisions; 0 does not divide")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb.add_option("--k1", division.k1, "equation (16): weight of large heavy shapes")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb.add_option("--k2", division.k2, "equation (16): weight of dense shapes")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb.add_option("--eps", division.step, "stop when a division changes Phi by less, relatively")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb.add_option("--lambda", options.settings.lambda,
+                  "weight of the density term (default: docs/derivations/mass-problem.md)")
+      ->check(CLI::NonNegativeNumber);
+}
+
+}  // namespace shapeid::app

@@ -1,0 +1,32 @@
+// The run that `identify`, `load` and `demo` share: a log in, a result and its files out.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "shapeid/app/inputs.hpp"
+#include "shapeid/app/result.hpp"
+
+namespace shapeid::app {
+
+struct RunOptions {
+  std::string test_log;  ///< held-out motion; empty: every fifth two seconds of the log
+  double least_mass = 0.0;
+  reference::IdentifySettings settings;
+};
+
+/// Fits, then measures the residual on motion that was not fitted.
+[[nodiscard]] Result run_identification(
+    const RobotInputs& robot, const BodyModel& model, const MotionInputs& inputs,
+    const RunOptions& options,
+    const std::function<void(const reference::DivisionRun&)>& watch = {});
+
+/// Writes result.json, problem.json, answer.json and identified.urdf into `folder` (made if it is
+/// not there). Returns the paths.
+std::vector<std::string> write_results(const std::string& folder, const Result& result,
+                                       const RobotInputs& robot, const MotionInputs& inputs);
+
+/// Options of the division and the mass problem, for verbs that solve.
+void add_solver_options(CLI::App& verb, RunOptions& options);
+
+}  // namespace shapeid::app

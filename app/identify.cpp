@@ -1,0 +1,152 @@
+// shapeid identify: masses, parameters and a URDF from a robot and a log.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <numeric>
+
+#include "shapeid/app/identification.hpp"
+#include "shapeid/app/verbs.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/shapes_yaml.hpp"
+#include "shapeid/reference/online.hpp"
+
+namespace shapeid::app {
+namespace {
+
+struct Options {
+  MotionInputs inputs;
+  RunOptions run;
+  std::string shapes, out;
+  std::vector<std::string> free_links;
+  bool whole_body = false, json = false, online = false;
+  double expected_mass = 0.0, alpha = 0.5;
+  std::size_t window = 10, stride = 10;
+};
+
+std::vector<int> free_links(const Options& options, const Robot& robot) {
+  std::vector<int> links;
+  if (options.whole_body) {
+    links.resize(robot.links.size());
+    std::iota(links.begin(), links.end(), 0);
+    if (robot.root == Root::fixed) links.erase(links.begin());  // a fixed root never moves
+    return links;
+  }
+  if (options.free_links.empty()) {
+    if (robot.root == Root::fixed) {
+      throw InputError("which links are sought is not said",
+                       "give --shapes, --free LINK or --whole-body (a fixed base has no dynamics)");
+    }
+    return {0};
+  }
+  for (const std::string& name : options.free_links) {
+    const auto link = robot.find_link(name);
+    if (!link) throw InputError("--free " + name + ": no such link", "a link of the URDF");
+    links.push_back(*link);
+  }
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  return links;
+}
+
+/// M0: said on the command line, else the expected range in robot.yaml, else the given masses.
+double expected_mass(const Options& options, const RobotInputs& robot, const BodyModel& model) {
+  if (options.expected_mass > 0.0) return options.expected_mass;
+  double mass = 0.0;
+  for (const int index : model.free_links) {
+    const Link& link = robot.robot.links[static_cast<std::size_t>(index)];
+    const auto range = robot.notes.expected_mass.find(link.name);
+    mass += range != robot.notes.expected_mass.end()
+                ? 0.5 * (range->second.lower + range->second.upper)
+                : link.inertia.mass();
+  }
+  if (!(mass > 0.0)) {
+    throw InputError("the free links have no mass in the URDF",
+                     "give --expected-mass, or expected_mass in robot.yaml");
+  }
+  return mass;
+}
+
+void track_windows(const Options& options, const RobotInputs& robot, const BodyModel& model,
+                   double mass) {
+  reference::OnlineSettings settings;
+  LogSamples log(options.inputs.log, robot, options.inputs);
+  settings.contacts = log.contacts();
+  settings.weight = weight(robot);
+  settings.window = options.window;
+  settings.stride = options.stride;
+  settings.alpha = options.alpha;
+  settings.expected_mass = mass;
+  settings.lambda = options.run.settings.lambda;
+  reference::OnlineIdentifier identifier(robot.robot, model, settings);
+  while (const std::optional<Sample> sample = log.next()) {
+    const auto result = identifier.feed(*sample);
+    if (!result) continue;
+    const Eigen::VectorXd& Phi = result->solution.Phi;
+    const nlohmann::json line = {
+        {"time", result->time},
+        {"objective", result->solution.value.total()},
+        {"parameters", std::vector<double>(Phi.begin(), Phi.end())},
+        {"filtered", std::vector<double>(result->filtered.begin(), result->filtered.end())}};
+    fmt::print("{}\n", line.dump());
+  }
+}
+
+void identify(Options& options) {
+  const RobotInputs robot = read_robot(options.inputs);
+  const BodyModel model = options.shapes.empty()
+                              ? default_shapes(robot.robot, free_links(options, robot.robot))
+                              : read_shapes_yaml(options.shapes, robot.robot);
+  const double mass = expected_mass(options, robot, model);
+  if (options.online) return track_windows(options, robot, model, mass);
+
+  options.run.settings.expected_mass = mass;
+  const Result result = run_identification(robot, model, options.inputs, options.run);
+  fmt::print("{}", options.json ? result_json(result, robot.robot).dump(2) + "\n"
+                                : result_text(result, robot.robot));
+  if (options.out.empty()) return;
+  for (const std::string& path : write_results(options.out, result, robot, options.inputs)) {
+    fmt::print(stderr, "wrote {}\n", path);
+  }
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("identify", "masses, parameters and a URDF from a log");
+  options->inputs.add_to(*verb);
+  add_solver_options(*verb, options->run);
+  auto* shapes = verb->add_option("--shapes", options->shapes, "shapes.yaml");
+  auto* named = verb->add_option("--free", options->free_links,
+                                 "links to identify, shapes from their collision bodies "
+                                 "(default: the floating base)");
+  verb->add_flag("--whole-body", options->whole_body, "identify every link")
+      ->excludes(shapes)
+      ->excludes(named);
+  named->excludes(shapes);
+  verb->add_option("--expected-mass", options->expected_mass,
+                   "kg, of all sought links together (default: as given)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--min-mass", options->run.least_mass,
+                   "kg: a link found lighter keeps its given inertia")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb->add_flag("--online", options->online,
+                 "a JSON line per window, as on the robot, with filter (17); no divisions");
+  verb->add_option("--window", options->window, "samples a window (--online)")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--stride", options->stride, "samples from window to window (--online)")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--alpha", options->alpha, "filter (17) (--online)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  verb->add_option("--out", options->out, "folder for result.json, identified.urdf and more");
+  verb->add_flag("--json", options->json, "print the result as JSON");
+  verb->callback([options] { identify(*options); });
+}
+
+}  // namespace shapeid::app

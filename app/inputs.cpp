@@ -1,0 +1,170 @@
+#include "shapeid/app/inputs.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/urdf.hpp"
+#include "shapeid/reference/contact_detection.hpp"
+
+namespace shapeid::app {
+namespace {
+
+/// Whether a log, as seen through its mapping, has an IMU.
+bool has_imu(const std::string& log, const std::optional<Mapping>& mapping) {
+  const auto starts_with_base = [](const std::string& name) { return name.starts_with("base."); };
+  if (mapping) {
+    return std::any_of(mapping->columns.begin(), mapping->columns.end(),
+                       [&](const auto& rule) { return starts_with_base(rule.first); });
+  }
+  const LogReader reader(log);
+  return std::any_of(reader.columns().begin(), reader.columns().end(), starts_with_base);
+}
+
+/// robot.yaml beside the URDF, under the URDF's name or plainly, if there is one.
+std::string robot_yaml_beside(const std::string& urdf) {
+  const std::filesystem::path path(urdf);
+  for (const auto& name : {path.stem().string() + ".robot.yaml", std::string("robot.yaml")}) {
+    const auto candidate = path.parent_path() / name;
+    if (std::filesystem::exists(candidate)) return candidate.string();
+  }
+  return {};
+}
+
+reference::ContactTreatment treatment(const std::string& choice, const Robot& robot) {
+  if (choice == "measured") return reference::ContactTreatment::measured;
+  if (choice == "none" || robot.root == Root::fixed || robot.contacts.empty()) {
+    return reference::ContactTreatment::ignore;
+  }
+  return reference::ContactTreatment::project;
+}
+
+}  // namespace
+
+void MotionInputs::add_to(CLI::App& verb) {
+  verb.add_option("--robot", robot, "URDF file")->required();
+  verb.add_option("--log", log, "log, CSV or CSV.gz")->required();
+  verb.add_option("--mapping", mapping, "mapping.yaml, for a log with foreign names or units");
+  verb.add_option("--robot-yaml", robot_yaml,
+                  "contacts, IMU pose, noise (default: beside the URDF, if there)");
+  verb.add_option("--cutoff", cutoff,
+                  "Hz, of the zero-phase filter over every channel; 0 does not smooth")
+      ->capture_default_str();
+  verb.add_option("--rate", rate, "Hz, of the regular grid (default: the log's)");
+  verb.add_flag("--exact", exact, "take dq, ddq and base.gyrodot from the log (simulations)");
+  verb.add_flag("--accept-impossible", accept_impossible,
+                "take given inertias that no body can have as they are, for links that are known");
+  verb.add_option("--contacts", contacts,
+                  "auto: flags as logged, else derived; measured: forces are logged; none")
+      ->check(CLI::IsMember({"auto", "measured", "none"}))
+      ->capture_default_str();
+  verb.add_option("--contact-threshold", contact_threshold,
+                  "derived contacts: share of the robot's weight that a foot must carry")
+      ->capture_default_str();
+}
+
+RobotInputs read_robot(const MotionInputs& inputs) {
+  RobotInputs result;
+  if (!inputs.mapping.empty()) result.mapping = read_mapping_yaml(inputs.mapping);
+  UrdfOptions options;
+  options.root = has_imu(inputs.log, result.mapping) ? Root::floating : Root::fixed;
+  options.reject_impossible = !inputs.accept_impossible;
+  UrdfFile file = read_urdf(inputs.robot, options);
+  for (const InertiaFinding& finding : file.findings) {
+    if (!finding.fatal) continue;
+    result.warnings.push_back(
+        fmt::format("{}: the given inertia of link {} is taken as it is, though {}",
+                    describe(finding.place), finding.link, finding.wrong));
+  }
+  result.robot = std::move(file.robot);
+  const std::string notes =
+      inputs.robot_yaml.empty() ? robot_yaml_beside(inputs.robot) : inputs.robot_yaml;
+  if (!notes.empty()) result.notes = read_robot_yaml(notes, result.robot);
+  add_default_contacts(result.robot, inputs.log, result.mapping);
+  return result;
+}
+
+Eigen::VectorXd weight(const RobotInputs& inputs) {
+  const auto sigma = [&](const std::string& name, const std::string& group) {
+    const auto& known = inputs.notes.noise_sigma;
+    if (const auto found = known.find(name); found != known.end()) return found->second;
+    if (const auto found = known.find(group); found != known.end()) return found->second;
+    return 1.0;
+  };
+  Eigen::VectorXd W(inputs.robot.dof());
+  const int base = inputs.robot.base_dof();
+  if (base > 0) {
+    W.head<3>().setConstant(std::pow(sigma("base.force", "base.force"), -2));
+    W.segment<3>(3).setConstant(std::pow(sigma("base.moment", "base.moment"), -2));
+  }
+  for (int j = 0; j < inputs.robot.joint_count(); ++j) {
+    W[base + j] = std::pow(sigma("tau." + inputs.robot.joint(j).name, "tau"), -2);
+  }
+  return W;
+}
+
+namespace {
+
+MotionOptions motion_options(const MotionInputs& inputs, const Robot& robot) {
+  MotionOptions options;
+  options.rate = inputs.rate;
+  options.exact_derivatives = inputs.exact;
+  options.smoothing =
+      inputs.exact || inputs.cutoff == 0.0 ? Smoothing::none : Smoothing::zero_phase;
+  if (inputs.cutoff != 0.0) options.cutoff = inputs.cutoff;
+  if (treatment(inputs.contacts, robot) == reference::ContactTreatment::project) {
+    options.derive_contacts = [&robot, Phi = stacked_parameters(robot),
+                               share = inputs.contact_threshold](const Sample& sample) {
+      return std::optional(reference::detect_contacts(robot, sample, Phi, share));
+    };
+  }
+  return options;
+}
+
+}  // namespace
+
+LogSamples::LogSamples(const std::string& path, const RobotInputs& robot,
+                       const MotionInputs& inputs)
+    : reader_(path, robot.robot, robot.notes, robot.mapping, motion_options(inputs, robot.robot)),
+      contacts_(treatment(inputs.contacts, robot.robot)) {
+  if (contacts_ == reference::ContactTreatment::measured && !reader_.report().forces_logged) {
+    throw InputError({path}, "--contacts measured, but there are no force.* columns",
+                     "log force.<link>.x, .y, .z for every contact, or choose another treatment");
+  }
+}
+
+std::optional<Sample> LogSamples::next() {
+  std::optional<Sample> sample = reader_.next();
+  const bool on_terminal = ::isatty(STDERR_FILENO) != 0;
+  constexpr std::size_t samples_between_reports = 2000;
+  if (!sample) {
+    if (on_terminal && count_ >= samples_between_reports) fmt::print(stderr, "\r\033[K");
+    return sample;
+  }
+  if (on_terminal && ++count_ % samples_between_reports == 0) {
+    fmt::print(stderr, "\rreading: {:.1f} s of motion", sample->time);
+  }
+  return sample;
+}
+
+Part part_of(double time_since_start) {
+  constexpr double stretch = 2.0;  // s: several strides
+  // s: the response of the default filter (20 Hz) has fallen below a thousandth well before.
+  constexpr double margin = 0.1;
+  constexpr int stretches = 5;
+  const double place = std::fmod(time_since_start, stretches * stretch);
+  const double held_out_from = (stretches - 1) * stretch;
+  if (place >= held_out_from + margin && place < stretches * stretch - margin) {
+    return Part::held_out;
+  }
+  if (place >= margin && place < held_out_from - margin) return Part::fitted;
+  return Part::neither;
+}
+
+}  // namespace shapeid::app

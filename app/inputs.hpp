@@ -1,0 +1,63 @@
+// What the verbs share: reading a robot, a log and the choices about them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/body_model.hpp"
+#include "shapeid/models/motion.hpp"
+#include "shapeid/models/robot.hpp"
+#include "shapeid/models/robot_yaml.hpp"
+#include "shapeid/reference/identify.hpp"
+
+namespace shapeid::app {
+
+/// Options that name the robot, the log and how to read them.
+struct MotionInputs {
+  std::string robot, robot_yaml, log, mapping;
+  double cutoff = 20.0, rate = 0.0, contact_threshold = 0.15;
+  std::string contacts = "auto";
+  bool exact = false, accept_impossible = false;
+
+  void add_to(CLI::App& verb);
+};
+
+/// A robot with what its files say, ready for logs.
+struct RobotInputs {
+  Robot robot;
+  RobotNotes notes;
+  std::optional<Mapping> mapping;
+  std::vector<std::string> warnings;  ///< impossible inertias that were accepted
+};
+
+/// Reads URDF, robot.yaml and mapping.yaml. The root is floating if the log has an IMU.
+[[nodiscard]] RobotInputs read_robot(const MotionInputs& inputs);
+
+/// Diagonal of W: 1 / sigma^2 of "tau.<joint>" (or "tau" for all joints) and of "base.force" (N)
+/// and "base.moment" (N m); ones where robot.yaml says nothing.
+[[nodiscard]] Eigen::VectorXd weight(const RobotInputs& inputs);
+
+/// A log as samples, with progress on a terminal. Keeps its report for the result.
+class LogSamples {
+ public:
+  LogSamples(const std::string& path, const RobotInputs& robot, const MotionInputs& inputs);
+
+  std::optional<Sample> next();
+  [[nodiscard]] const MotionReport& report() const { return reader_.report(); }
+  [[nodiscard]] reference::ContactTreatment contacts() const { return contacts_; }
+
+ private:
+  MotionReader reader_;
+  reference::ContactTreatment contacts_;
+  std::size_t count_ = 0;
+};
+
+/// Every fifth stretch of two seconds is held out; samples close to its ends are used for neither
+/// side, because the smoothing filter reaches across.
+enum class Part { fitted, held_out, neither };
+[[nodiscard]] Part part_of(double time_since_start);
+
+}  // namespace shapeid::app

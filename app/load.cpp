@@ -1,0 +1,91 @@
+// shapeid load: mass and place of an unknown load on a link, every link's inertia being known.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "shapeid/app/identification.hpp"
+#include "shapeid/app/load_text.hpp"
+#include "shapeid/app/verbs.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/shapes_yaml.hpp"
+
+namespace shapeid::app {
+namespace {
+
+struct Options {
+  MotionInputs inputs;
+  RunOptions run;
+  std::vector<std::string> area;
+  std::string out;
+  double expected_mass = 1.0;
+  bool json = false;
+};
+
+double bound(const std::string& text) {
+  try {
+    std::size_t used = 0;
+    const double value = std::stod(text, &used);
+    if (used == text.size() && std::isfinite(value)) return value;
+  } catch (const std::exception&) {
+    // reported below, together with numbers followed by rubbish
+  }
+  throw InputError("--area: '" + text + "' is not a number", "LINK x0 x1 y0 y1 z0 z1, in m");
+}
+
+BodyModel region(const Options& options, const Robot& robot) {
+  const auto link = robot.find_link(options.area.front());
+  if (!link) throw InputError("--area: no link " + options.area.front(), "a link of the URDF");
+  Eigen::Vector3d lower, upper;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<std::size_t>(1 + 2 * axis);
+    lower[axis] = bound(options.area[at]);
+    upper[axis] = bound(options.area[at + 1]);
+    if (!(lower[axis] < upper[axis])) {
+      throw InputError(fmt::format("--area: {} to {} is empty", lower[axis], upper[axis]),
+                       "the lower bound first, the larger one after it");
+    }
+  }
+  return load_region(robot, *link, lower, upper);
+}
+
+void load(Options& options) {
+  const RobotInputs robot = read_robot(options.inputs);
+  const BodyModel model = region(options, robot.robot);
+  options.run.settings.expected_mass = options.expected_mass;
+  const Result result = run_identification(robot, model, options.inputs, options.run);
+  if (options.json) {
+    nlohmann::json document = result_json(result, robot.robot);
+    document["load"] = load_json(result, robot.robot);
+    fmt::print("{}\n", document.dump(2));
+  } else {
+    fmt::print("{}{}", result_text(result, robot.robot), load_text(result, robot.robot));
+  }
+  if (options.out.empty()) return;
+  for (const std::string& path : write_results(options.out, result, robot, options.inputs)) {
+    fmt::print(stderr, "wrote {}\n", path);
+  }
+}
+
+}  // namespace
+
+void add_load(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("load", "an unknown load on a link: its mass and its place");
+  options->inputs.add_to(*verb);
+  add_solver_options(*verb, options->run);
+  verb->add_option("--area", options->area,
+                   "LINK x0 x1 y0 y1 z0 z1: where the load may be, m, in the link's frame")
+      ->required()
+      ->expected(7);
+  verb->add_option("--expected-mass", options->expected_mass,
+                   "kg, roughly: it scales the criterion")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--out", options->out, "folder for result.json, identified.urdf and more");
+  verb->add_flag("--json", options->json, "print the result as JSON");
+  verb->callback([options] { load(*options); });
+}
+
+}  // namespace shapeid::app

@@ -1,0 +1,219 @@
+#include "shapeid/app/result.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "shapeid/models/problem_json.hpp"
+#include "shapeid/models/version.hpp"
+
+namespace shapeid::app {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<const char*, 10> parameter_names = {"m",   "m rx", "m ry", "m rz", "Ixx",
+                                                         "Ixy", "Ixz",  "Iyy",  "Iyz",  "Izz"};
+constexpr std::array<const char*, 10> parameter_units = {
+    "kg", "kg m", "kg m", "kg m", "kg m^2", "kg m^2", "kg m^2", "kg m^2", "kg m^2", "kg m^2"};
+
+/// JSON has no infinity: a number that is not known is null.
+json numbers(const Eigen::VectorXd& v) {
+  json list = json::array();
+  for (const double x : v) list.push_back(std::isfinite(x) ? json(x) : json());
+  return list;
+}
+
+const Link& link_at(const Robot& robot, int index) {
+  return robot.links[static_cast<std::size_t>(index)];
+}
+
+json links_json(const Result& result, const Robot& robot) {
+  json links = json::array();
+  const auto& free_links = result.found.run.model.free_links;
+  for (std::size_t i = 0; i < free_links.size(); ++i) {
+    const Link& link = link_at(robot, free_links[i]);
+    const auto at = 10 * static_cast<Eigen::Index>(i);
+    json determined = json::array();
+    for (Eigen::Index p = at; p < at + 10; ++p) {
+      determined.push_back(
+          static_cast<bool>(result.found.data.determined[static_cast<std::size_t>(p)]));
+    }
+    links.push_back(
+        {{"name", link.name},
+         {"parameters", numbers(result.found.Phi.segment<10>(10 * free_links[i]))},
+         {"given", numbers(link.inertia.values)},
+         {"standard_error", numbers(result.found.standard_error.segment<10>(at))},
+         {"data_standard_error", numbers(result.found.data.standard_error.segment<10>(at))},
+         {"determined", determined}});
+  }
+  return links;
+}
+
+json masses_json(const reference::DivisionRun& run, const Robot& robot) {
+  json masses = json::array();
+  for (std::size_t j = 0; j < run.model.shapes.size(); ++j) {
+    const SoughtShape& s = run.model.shapes[j];
+    masses.push_back({{"id", s.id},
+                      {"link", link_at(robot, s.link).name},
+                      {"kind", kind_name(s.shape)},
+                      {"volume", volume(s.shape)},
+                      {"mass", run.solution.m[static_cast<Eigen::Index>(j)]}});
+  }
+  return masses;
+}
+
+json history_json(const reference::DivisionRun& run) {
+  json steps = json::array();
+  for (const reference::DivisionStep& step : run.history) {
+    steps.push_back({{"divided", step.divided},
+                     {"criterion", step.criterion},
+                     {"objective_before", step.objective_before},
+                     {"objective_at_split", step.objective_at_split},
+                     {"objective_after", step.objective_after},
+                     {"step", numbers(step.step)},
+                     {"iterations", step.iterations},
+                     {"shapes", step.shapes}});
+  }
+  return steps;
+}
+
+/// A link that weighs this many times what it should is not believed without a word.
+constexpr double far_from_given = 3.0;
+
+std::string shown(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : "none"; }
+
+std::string links_text(const Result& result, const Robot& robot) {
+  std::string text;
+  const auto& free_links = result.found.run.model.free_links;
+  for (std::size_t i = 0; i < free_links.size(); ++i) {
+    const Link& link = link_at(robot, free_links[i]);
+    text += fmt::format("\nlink {}\n  {:<6}{:>12}{:>12}{:>12}{:>14}  {:<7} {}\n", link.name, "",
+                        "given", "found", "s.e.", "data's s.e.", "unit", "determined by");
+    for (Eigen::Index p = 0; p < 10; ++p) {
+      const Eigen::Index at = 10 * static_cast<Eigen::Index>(i) + p;
+      const auto k = static_cast<std::size_t>(p);
+      text += fmt::format("  {:<6}{:>12.5g}{:>12.5g}{:>12}{:>14}  {:<7} {}\n", parameter_names[k],
+                          link.inertia.values[p], result.found.Phi[10 * free_links[i] + p],
+                          shown(result.found.standard_error[at]),
+                          shown(result.found.data.standard_error[at]), parameter_units[k],
+                          result.found.data.determined[static_cast<std::size_t>(at)]
+                              ? "data"
+                              : "shapes and bounds");
+    }
+  }
+  return text;
+}
+
+std::string comparison_text(const Comparison& c, const Robot& robot) {
+  if (c.samples == 0) return "\nno samples were held out: the log is too short\n";
+  std::string text = fmt::format(
+      "\nresidual on {} samples that were not fitted ({}), rms\n  {:<20}{:>12}{:>12}{:>12}  unit\n",
+      c.samples, c.where, "", "zero", "given", "found");
+  const auto names = row_names(robot);
+  for (Eigen::Index row = 0; row < c.zero.size(); ++row) {
+    const bool force = row < 3 && robot.base_dof() > 0;
+    text += fmt::format("  {:<20}{:>12.4g}{:>12.4g}{:>12.4g}  {}\n",
+                        names[static_cast<std::size_t>(row)], c.zero[row], c.given[row],
+                        c.found[row], force ? "N" : "N m");
+  }
+  text += fmt::format("  {:<20}{:>12.4g}{:>12.4g}{:>12.4g}  N m\n", "all joints",
+                      overall(c.zero, robot), overall(c.given, robot), overall(c.found, robot));
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> row_names(const Robot& robot) {
+  std::vector<std::string> names;
+  if (robot.base_dof() > 0) {
+    names = {"base force x",  "base force y",  "base force z",
+             "base moment x", "base moment y", "base moment z"};
+  }
+  for (int j = 0; j < robot.joint_count(); ++j) names.push_back(robot.joint(j).name);
+  return names;
+}
+
+double overall(const Eigen::VectorXd& rms, const Robot& robot) {
+  return rms.tail(robot.joint_count()).norm();
+}
+
+void choose_written_links(Result& result, const Robot& robot, double least_mass) {
+  for (const int index : result.found.run.model.free_links) {
+    const InertialParameters inertia{result.found.Phi.segment<10>(10 * index)};
+    const std::string& name = link_at(robot, index).name;
+    const double given = link_at(robot, index).inertia.mass();
+    if (given > 0.0 && inertia.mass() > far_from_given * given) {
+      result.notes.push_back(
+          fmt::format("link {} was found with {:.3g} kg, given {:.3g}: some effect that is not a "
+                      "rigid body may "
+                      "hide in it (friction, for a link that turns about a vertical axis)",
+                      name, inertia.mass(), given));
+    }
+    if (!(inertia.mass() > least_mass)) {
+      result.notes.push_back(
+          fmt::format("link {} is undetermined: it was left with {:g} kg (limit {:g}); it keeps "
+                      "the given inertia",
+                      name, inertia.mass(), least_mass));
+    } else if (const Violation why = why_impossible(inertia)) {
+      result.notes.push_back(fmt::format(
+          "link {} keeps the given inertia: what was found cannot be written ({})", name, *why));
+    } else {
+      result.written.push_back({index, inertia});
+    }
+  }
+}
+
+json result_json(const Result& result, const Robot& robot) {
+  const reference::DivisionRun& run = result.found.run;
+  return {{"format", "shapeid-result-1"},
+          {"software", fmt::format("shapeid {}", version)},
+          {"robot", result.robot_file},
+          {"log", result.log_file},
+          {"samples", result.found.samples},
+          {"seconds", result.found.seconds},
+          {"rate", result.motion.rate},
+          {"gaps", result.motion.gaps},
+          {"contacts_derived", result.motion.contacts_derived},
+          {"problem_digest", problem_digest(run.problem)},
+          {"lambda", run.problem.lambda},
+          {"mass_bound", run.problem.mass_bound},
+          {"objective",
+           {{"undivided", result.found.undivided_objective},
+            {"data", run.solution.value.data},
+            {"density", run.solution.value.density}}},
+          {"masses", masses_json(run, robot)},
+          {"links", links_json(result, robot)},
+          {"divisions", history_json(run)},
+          {"stopped_by", run.stopped_by},
+          {"heldout",
+           {{"samples", result.heldout.samples},
+            {"where", result.heldout.where},
+            {"rows", row_names(robot)},
+            {"rms_zero", numbers(result.heldout.zero)},
+            {"rms_before", numbers(result.heldout.given)},
+            {"rms_after", numbers(result.heldout.found)}}},
+          {"notes", result.notes}};
+}
+
+std::string result_text(const Result& result, const Robot& robot) {
+  const reference::DivisionRun& run = result.found.run;
+  std::string text = fmt::format(
+      "robot {}: {} links, {} joints, {} base\n"
+      "log {}: {} samples ({:.1f} s fitted) at {:.0f} Hz, {} gaps\n"
+      "{} shapes after {} divisions (stopped by: {}); objective {:.6g} -> {:.6g}, density term's "
+      "share {:.2g}\n",
+      robot.name, robot.link_count(), robot.joint_count(),
+      robot.root == Root::floating ? "floating" : "fixed", result.log_file, result.found.samples,
+      result.found.seconds, result.motion.rate, result.motion.gaps, run.model.shapes.size(),
+      run.history.size(), run.stopped_by, result.found.undivided_objective,
+      run.solution.value.total(), run.solution.value.density / run.solution.value.total());
+  text += links_text(result, robot);
+  text += comparison_text(result.heldout, robot);
+  for (const std::string& note : result.notes) text += fmt::format("note: {}\n", note);
+  text += "note: standard errors do not contain the shrinkage that noise in the motion causes\n";
+  return text;
+}
+
+}  // namespace shapeid::app

@@ -1,0 +1,46 @@
+// What `identify` and `load` found, as JSON (docs/formats/result.md) and as text.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "shapeid/app/inputs.hpp"
+#include "shapeid/models/urdf.hpp"
+#include "shapeid/reference/identify.hpp"
+
+namespace shapeid::app {
+
+/// Residuals of three models on samples that were not fitted.
+struct Comparison {
+  std::size_t samples = 0;
+  Eigen::VectorXd zero, given, found;  ///< rms per generalised row, N, N m
+  std::string where;                   ///< "every fifth two seconds of LOG", or the test log
+};
+
+struct Result {
+  std::string robot_file, log_file;
+  reference::Identification found;
+  Comparison heldout;
+  MotionReport motion;
+  /// Links whose identified inertia is written; the others keep what was given, with the reason.
+  std::vector<IdentifiedLink> written;
+  std::vector<std::string> notes;
+};
+
+/// Which free links get a new inertia: those with more than `least_mass` (kg) that a URDF reader,
+/// ours included, accepts. Adds a note for each link that keeps the given one.
+void choose_written_links(Result& result, const Robot& robot, double least_mass);
+
+[[nodiscard]] nlohmann::json result_json(const Result& result, const Robot& robot);
+[[nodiscard]] std::string result_text(const Result& result, const Robot& robot);
+
+/// "base force x", ..., then the joints' names: the generalised rows.
+[[nodiscard]] std::vector<std::string> row_names(const Robot& robot);
+
+/// sqrt of the sum of squares over the joint rows, N m: one number for a whole robot.
+[[nodiscard]] double overall(const Eigen::VectorXd& rms, const Robot& robot);
+
+}  // namespace shapeid::app

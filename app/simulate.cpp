@@ -1,0 +1,85 @@
+// shapeid simulate: a trotting quadruped, with or without a block on its back, writes a log.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "shapeid/app/bundled.hpp"
+#include "shapeid/app/recording.hpp"
+#include "shapeid/app/verbs.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/urdf.hpp"
+
+namespace shapeid::app {
+namespace {
+
+struct Options {
+  std::string robot, robot_yaml, out;
+  SimulationOptions simulation;
+  SensorOptions sensors;
+  std::vector<double> load;
+  bool exact = false, json = false;
+};
+
+void simulate_log(Options& options) {
+  if (options.robot.empty()) {
+    options.robot = bundled("quadruped.urdf");
+    if (options.robot_yaml.empty()) options.robot_yaml = bundled("quadruped.robot.yaml");
+  }
+  Robot robot = read_urdf(options.robot).robot;
+  if (options.robot_yaml.empty()) {
+    throw InputError("--robot without --robot-yaml", "its contacts must be named: give both");
+  }
+  const RobotNotes notes = read_robot_yaml(options.robot_yaml, robot);
+  if (!options.load.empty()) {
+    Load load;
+    load.mass = options.load[0];
+    load.centre = {options.load[1], options.load[2], options.load[3]};
+    if (options.load.size() == 5) load.sides.setConstant(options.load[4]);
+    if (!(load.mass > 0.0) || !(load.sides[0] > 0.0)) {
+      throw InputError("--load: mass and side must be positive", "MASS X Y Z [SIDE], kg and m");
+    }
+    options.simulation.load = load;
+  }
+  options.sensors.noise = !options.exact;
+  options.sensors.exact_extras = options.exact;
+  options.sensors.seed = options.simulation.seed;
+  const SimulationReport report =
+      record(robot, notes, options.simulation, options.sensors, options.out);
+  if (options.json) {
+    const nlohmann::json document = {
+        {"log", options.out}, {"samples", report.samples}, {"distance", report.distance}};
+    fmt::print("{}\n", document.dump());
+  } else {
+    fmt::print("wrote {}: {} samples, walked {:.2f} m\n", options.out, report.samples,
+               report.distance);
+  }
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("simulate", "a trotting quadruped in Simbody writes a log");
+  verb->add_option("--out", options->out, "log to write, .csv or .csv.gz")->required();
+  verb->add_option("--robot", options->robot, "URDF of a quadruped (default: the bundled one)");
+  verb->add_option("--robot-yaml", options->robot_yaml, "its contacts, IMU pose and noise");
+  verb->add_option("--seconds", options->simulation.duration, "s")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  verb->add_option("--rate", options->simulation.rate, "Hz, of the samples")
+      ->check(CLI::Range(50.0, 5000.0))
+      ->capture_default_str();
+  verb->add_option("--seed", options->simulation.seed, "of the wanted motion and of the noise")
+      ->capture_default_str();
+  verb->add_option("--load", options->load,
+                   "MASS X Y Z [SIDE]: a block fixed to the base, kg and m (side 0.04)")
+      ->expected(4, 5);
+  verb->add_flag("--exact", options->exact,
+                 "no noise; accelerations and contact forces are logged as well");
+  verb->add_flag("--json", options->json, "print JSON");
+  verb->callback([options] { simulate_log(*options); });
+}
+
+}  // namespace shapeid::app

@@ -1,0 +1,24 @@
+// Runs the command as a user would.
+#pragma once
+
+#include <string>
+
+namespace shapeid::test {
+
+struct CommandRun {
+  int status = -1;
+  std::string out, err;
+};
+
+/// `shapeid ARGUMENTS` through the shell, in a folder of its own for files.
+[[nodiscard]] CommandRun shapeid(const std::string& arguments);
+
+/// A folder that is made anew for every test program and that tests may write into.
+[[nodiscard]] const std::string& scratch();
+
+/// Writes a file into scratch() and returns its path.
+std::string scratch_file(const std::string& name, const std::string& text);
+
+[[nodiscard]] std::string read_file(const std::string& path);
+
+}  // namespace shapeid::test

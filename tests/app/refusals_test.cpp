@@ -1,0 +1,93 @@
+// Bad input of every kind: one clear line, exit status 2 (or 1 where the answer is no), no file.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "shapeid/tests/app/command.hpp"
+
+namespace shapeid::test {
+namespace {
+
+constexpr const char* pendulum = R"(<robot name="pendulum">
+  <link name="world"/>
+  <link name="arm">
+    <inertial><origin xyz="0.1 0.02 -0.3"/><mass value="1.5"/>
+      <inertia ixx="0.05" ixy="0.001" ixz="0.002" iyy="0.06" iyz="-0.003" izz="0.02"/></inertial>
+    <collision><origin xyz="0.1 0 -0.3"/><geometry><box size="0.2 0.1 0.5"/></geometry></collision>
+  </link>
+  <joint name="hinge" type="revolute"><parent link="world"/><child link="arm"/>
+    <axis xyz="0 1 0"/><limit lower="-3" upper="3" effort="50" velocity="20"/></joint>
+</robot>
+)";
+
+std::string still_log() {
+  std::string text = "time,q.hinge,tau.hinge\n";
+  for (int i = 0; i < 2000; ++i) text += fmt::format("{},0.0,0.0\n", 0.002 * i);
+  return text;
+}
+
+struct Refused {
+  std::string arguments;
+  int status;
+  std::string says;
+};
+
+TEST(Refusals, OneLineThatSaysWhatIsWrongAndWhatWouldBeRight) {
+  const std::string robot = scratch_file("pendulum.urdf", pendulum);
+  const std::string log = scratch_file("still.csv", still_log());
+  const std::string no_robot = scratch_file("broken.urdf", "<robot name='x'><link name='a'>");
+  const std::string empty = scratch_file("empty.csv", "");
+  const std::string letters = scratch_file("letters.csv", "time,q.hinge,tau.hinge\n0,1,x\n");
+  const std::vector<Refused> table = {
+      {"", 2, "subcommand is required"},
+      {"frobnicate", 2, "subcommand"},
+      {"identify", 2, "--robot is required"},
+      {"identify --robot missing.urdf --log " + log, 2, "missing.urdf"},
+      {fmt::format("identify --robot {} --log missing.csv", robot), 2, "missing.csv"},
+      {fmt::format("identify --robot {} --log {} --free arm", no_robot, log), 2, "broken.urdf"},
+      {fmt::format("identify --robot {} --log {} --free arm", robot, empty), 2, "empty.csv"},
+      {fmt::format("identify --robot {} --log {} --free arm", robot, letters), 2, "letters.csv:2"},
+      {fmt::format("identify --robot {} --log {}", robot, log), 2, "--whole-body"},
+      {fmt::format("identify --robot {} --log {} --free leg", robot, log), 2, "no such link"},
+      {fmt::format("identify --robot {} --log {} --free arm --lambda -1", robot, log), 2, "lambda"},
+      {fmt::format("identify --robot {} --log {} --free arm --divisions x", robot, log), 2,
+       "divisions"},
+      {fmt::format("load --robot {} --log {} --area arm 0 1 0 1 1 0", robot, log), 2, "empty"},
+      {fmt::format("load --robot {} --log {} --area arm 0 1 0 1 0 nan", robot, log), 2, "nan"},
+      {fmt::format("load --robot {} --log {} --area leg 0 1 0 1 0 1", robot, log), 2, "leg"},
+      {"convert --from pinocchio --to nonsense 1 2 3", 2, "nonsense"},
+      {"convert --from pinocchio --to drake 1 2 3", 2, "10"},
+      {"convert --from pinocchio --to drake 1 0 0 0 1 0 1 0 0 1e999", 2, "1e999"},
+      {"simulate --out missing_folder/log.csv --seconds 0.2", 2, "missing_folder"},
+      {"simulate --out log.csv --load 1 2", 2, "--load"},
+      {"simulate --out log.csv --load -1 0 0 0.08", 2, "positive"},
+      {"inspect missing.csv", 2, "missing.csv"},
+      {"inspect " + no_robot, 2, "broken.urdf"},
+  };
+  for (const Refused& r : table) {
+    SCOPED_TRACE("shapeid " + r.arguments);
+    const CommandRun run = shapeid(r.arguments);
+    EXPECT_EQ(run.status, r.status) << run.err;
+    EXPECT_NE(run.err.find(r.says), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_TRUE(run.out.empty()) << run.out;
+  }
+}
+
+// A pendulum that hangs still: gravity acts along the link, no torque ever, nothing to learn from.
+TEST(Refusals, DataThatCannotAnswerAreRefusedWithTheirReason) {
+  const std::string robot = scratch_file("pendulum.urdf", pendulum);
+  const std::string log = scratch_file("still.csv", still_log());
+  const CommandRun run =
+      shapeid(fmt::format("identify --robot {} --log {} --free arm --out answers", robot, log));
+  EXPECT_EQ(run.status, 1) << run.err;
+  EXPECT_NE(run.err.find("not-excited"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch() + "/answers"));
+}
+
+}  // namespace
+}  // namespace shapeid::test

@@ -1,0 +1,109 @@
+// The verbs on the bundled robot, as the README shows them.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "shapeid/models/problem_json.hpp"
+#include "shapeid/models/urdf.hpp"
+#include "shapeid/models/version.hpp"
+#include "shapeid/tests/app/command.hpp"
+
+namespace shapeid::test {
+namespace {
+
+const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
+
+TEST(Verbs, VersionIsThatOfTheProject) {
+  const CommandRun run = shapeid("--version");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out, std::string(version) + "\n");
+  const std::string project = read_file(SHAPEID_SOURCE_DIR "/CMakeLists.txt");
+  EXPECT_NE(project.find(fmt::format("project(shapeid VERSION {} ", version)), std::string::npos);
+}
+
+TEST(Verbs, ConvertGoesThereAndBack) {
+  const std::string numbers = "2 0.2 -0.4 0.6 1 0.1 1.2 -0.2 0.3 1.4";
+  const CommandRun there = shapeid("convert --from pinocchio --to idyntree " + numbers);
+  EXPECT_EQ(there.status, 0) << there.err;
+  // iDynTree keeps Ixz before Iyy, Pinocchio Iyy before Ixz: the two must have changed places.
+  EXPECT_EQ(there.out, "2 0.2 -0.4 0.6 1 0.1 -0.2 1.2 0.3 1.4\n");
+}
+
+TEST(Verbs, InspectSeesTheBundledRobot) {
+  const CommandRun run = shapeid("inspect --json " + robots + "quadruped.urdf");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto document = nlohmann::json::parse(run.out);
+  EXPECT_EQ(document["links"].size(), 13U);
+  EXPECT_TRUE(document["findings"].empty()) << document["findings"].dump(2);
+}
+
+// Simulate, inspect, identify, reread: the files of one verb are the input of the next.
+TEST(Verbs, FromSimulationToAnIdentifiedUrdf) {
+  const std::string files =
+      fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
+  const CommandRun simulated = shapeid("simulate --seconds 6 --out trot.csv.gz");
+  ASSERT_EQ(simulated.status, 0) << simulated.err;
+
+  const CommandRun seen = shapeid("inspect trot.csv.gz --json " + files);
+  ASSERT_EQ(seen.status, 0) << seen.err;
+  const auto motion = nlohmann::json::parse(seen.out);
+  EXPECT_TRUE(motion["floating"].get<bool>());
+  EXPECT_EQ(motion["gaps"], 0);
+
+  const CommandRun found =
+      shapeid(fmt::format("identify {} --log trot.csv.gz --shapes {}quadruped.shapes.yaml "
+                          "--divisions 3 --out found --json",
+                          files, robots));
+  ASSERT_EQ(found.status, 0) << found.err;
+  const auto result = nlohmann::json::parse(found.out);
+  EXPECT_EQ(result["format"], "shapeid-result-1");
+  EXPECT_EQ(result["divisions"].size(), 3U);
+  EXPECT_EQ(result["masses"].size(), 14U);
+  EXPECT_GT(result["heldout"]["samples"].get<int>(), 0);
+
+  // The identified URDF reads back to the parameters that the result names.
+  const Robot reread = read_urdf(scratch() + "/found/identified.urdf").robot;
+  const auto& numbers = result["links"][0]["parameters"];
+  for (Eigen::Index p = 0; p < 10; ++p) {
+    const double expected = numbers[static_cast<std::size_t>(p)].get<double>();
+    // Written about the centre of mass, read back about the origin: a few roundings of the whole.
+    EXPECT_NEAR(
+        reread.links[0].inertia.values[p], expected,
+        64 * std::numeric_limits<double>::epsilon() * reread.links[0].inertia.values.norm());
+  }
+
+  // problem.json and answer.json are what the library's own readers accept, and they agree.
+  const std::string folder = scratch() + "/found/";
+  const MassProblem problem = problem_from_json(read_file(folder + "problem.json"), "problem.json");
+  const Answer answer = answer_from_json(read_file(folder + "answer.json"), "answer.json");
+  EXPECT_EQ(answer.problem_digest, problem_digest(problem));
+  EXPECT_EQ(objective(problem, answer.masses).total(), answer.objective);
+  EXPECT_GE(answer.masses.minCoeff(), 0.0);
+}
+
+TEST(Verbs, OnlinePrintsALinePerWindow) {
+  const std::string files =
+      fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
+  ASSERT_EQ(shapeid("simulate --seconds 2 --out short.csv").status, 0);
+  const CommandRun run = shapeid(fmt::format(
+      "identify {} --log short.csv --shapes {}quadruped.shapes.yaml --online", files, robots));
+  ASSERT_EQ(run.status, 0) << run.err;
+  std::istringstream lines(run.out);
+  int windows = 0;
+  double last = -1.0;
+  for (std::string line; std::getline(lines, line); ++windows) {
+    const auto window = nlohmann::json::parse(line);
+    EXPECT_GT(window["time"].get<double>(), last);
+    last = window["time"].get<double>();
+    EXPECT_EQ(window["filtered"].size(), 10U);
+    EXPECT_GE(window["filtered"][0].get<double>(), 0.0);
+  }
+  EXPECT_GT(windows, 50);  // two seconds, a window every 20 ms, less what the filter loses at ends
+}
+
+}  // namespace
+}  // namespace shapeid::test
