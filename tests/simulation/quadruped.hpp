@@ -4,24 +4,17 @@
 #include <string>
 
 #include "shapeid/models/robot.hpp"
+#include "shapeid/models/robot_yaml.hpp"
 #include "shapeid/models/urdf.hpp"
 
 namespace shapeid::test {
 
 inline const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
 
-/// quadruped.urdf with a point contact at each foot.
+/// quadruped.urdf with the contacts of quadruped.robot.yaml.
 inline Robot quadruped() {
   Robot robot = read_urdf(robots + "quadruped.urdf").robot;
-  robot.contacts.clear();
-  for (const std::string foot : {"FR_foot", "FL_foot", "RR_foot", "RL_foot"}) {
-    const int link = robot.find_link(foot).value();
-    for (const Member& member : robot.links[static_cast<std::size_t>(link)].members) {
-      if (member.name == foot) {
-        robot.contacts.push_back({foot, link, ContactKind::point, member.pose});
-      }
-    }
-  }
+  static_cast<void>(read_robot_yaml(robots + "quadruped.robot.yaml", robot));
   return robot;
 }
 

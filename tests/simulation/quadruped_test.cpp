@@ -6,6 +6,7 @@
 #include <array>
 
 #include "shapeid/models/shape.hpp"
+#include "shapeid/models/shapes_yaml.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid {
@@ -66,6 +67,45 @@ TEST(Quadruped, LeftLegsMirrorRightLegs) {
       EXPECT_LT(scaled_difference(mirrored(body).values, other.values, 10), few_hundred_eps);
       EXPECT_GT(scaled_difference(body.values, other.values, 10), 1e6) << "no side at all";
     }
+  }
+}
+
+TEST(Quadruped, NotesNameFourFeetAtTheTipsOfTheShanks) {
+  Robot robot = read_urdf(test::robots + "quadruped.urdf").robot;
+  const RobotNotes notes = read_robot_yaml(test::robots + "quadruped.robot.yaml", robot);
+  ASSERT_EQ(robot.contacts.size(), 4u);
+  for (const Contact& contact : robot.contacts) {
+    EXPECT_EQ(contact.kind, ContactKind::point);
+    EXPECT_EQ(contact.frame.translation().z(), -0.2) << contact.name;
+  }
+  EXPECT_FALSE(notes.imu.translation().isZero());
+  EXPECT_TRUE(notes.rotors.empty());
+}
+
+// The shapes that are sought are the collision bodies, in their order.
+TEST(Quadruped, ShapesAreItsElevenBodies) {
+  const Robot robot = test::quadruped();
+  const BodyModel model = read_shapes_yaml(test::robots + "quadruped.shapes.yaml", robot);
+  ASSERT_EQ(model.free_links, std::vector<int>{0});
+  const std::vector<CollisionBody>& bodies = robot.links[0].collision;
+  ASSERT_EQ(model.shapes.size(), bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    EXPECT_EQ(unit_parameters(model.shapes[i].shape).values,
+              unit_parameters(shape_of(bodies[i])).values);
+  }
+}
+
+TEST(Quadruped, FiftyFourPointsFillTheBoxAroundTheBase) {
+  const Robot robot = test::quadruped();
+  const BodyModel model = read_shapes_yaml(test::robots + "quadruped.points.yaml", robot);
+  EXPECT_EQ(model.shapes.size(), 54u);
+  Eigen::AlignedBox3d box;
+  for (const CollisionBody& body : robot.links[0].collision) {
+    const auto [lower, upper] = bounds(shape_of(body));
+    box.extend(lower).extend(upper);
+  }
+  for (const SoughtShape& sought : model.shapes) {
+    EXPECT_TRUE(box.contains(std::get<Point>(sought.shape).position));
   }
 }
 

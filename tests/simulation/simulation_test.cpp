@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "shapeid/models/error.hpp"
@@ -106,6 +107,52 @@ TEST(Simulation, LoadIsACuboidOfUniformDensity) {
       stacked_parameters(with_load(robot, load)) - stacked_parameters(robot);
   EXPECT_LT(scaled((grown.head<10>() - expected.values).norm(), 5.48, 10), few_hundred_eps);
   EXPECT_TRUE(grown.tail(grown.size() - 10).isZero(0.0));
+}
+
+/// The largest entry of the central difference of `value` minus `slope`, and of `slope` itself.
+template <typename Value, typename Slope>
+std::pair<double, double> slope_error(const std::vector<SimulatedSample>& samples, double rate,
+                                      Value value, Slope slope) {
+  double error = 0.0;
+  double size = 0.0;
+  for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+    const Eigen::VectorXd difference =
+        0.5 * rate * (Eigen::VectorXd(value(samples[i + 1])) - value(samples[i - 1]));
+    const Eigen::VectorXd expected = slope(samples[i]);
+    error = std::max(error, (difference - expected).cwiseAbs().maxCoeff());
+    size = std::max(size, expected.cwiseAbs().maxCoeff());
+  }
+  return {error, size};
+}
+
+// Positions, velocities and accelerations belong to one motion. Through take-off and landing
+// accelerations turn within milliseconds, so central differences at 5 kHz are good to a percent.
+TEST(Simulation, VelocitiesAndAccelerationsAreTheDerivatives) {
+  SimulationOptions options = short_run(8);
+  options.rate = 5000.0;
+  options.duration = 0.5;
+  options.trot.stand = 0.1;
+  const auto samples = run(options);
+  using S = const SimulatedSample&;
+  constexpr double percent = 0.01;
+  const auto joints = slope_error(
+      samples, options.rate, [](S s) { return s.sample.q; }, [](S s) { return s.sample.dq; });
+  EXPECT_LT(joints.first, percent * joints.second);
+  const auto velocities = slope_error(
+      samples, options.rate, [](S s) { return s.sample.dq; }, [](S s) { return s.sample.ddq; });
+  EXPECT_LT(velocities.first, percent * velocities.second);
+  const auto gyro = slope_error(
+      samples, options.rate, [](S s) { return s.sample.base_angular_velocity; },
+      [](S s) { return s.sample.base_angular_acceleration; });
+  EXPECT_LT(gyro.first, percent * gyro.second);
+  // The specific force plus gravity is what changes the base's velocity in the world.
+  const auto base = slope_error(
+      samples, options.rate,
+      [](S s) -> Eigen::Vector3d { return s.state.base.linear() * s.state.base_linear_velocity; },
+      [](S s) -> Eigen::Vector3d {
+        return s.state.base.linear() * s.sample.base_specific_force + SimbodyRobot::gravity();
+      });
+  EXPECT_LT(base.first, percent * base.second);
 }
 
 TEST(Simulation, ContactsPushWithinFrictionAndFlagsSayWhen) {
