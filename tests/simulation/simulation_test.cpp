@@ -109,30 +109,35 @@ TEST(Simulation, LoadIsACuboidOfUniformDensity) {
   EXPECT_TRUE(grown.tail(grown.size() - 10).isZero(0.0));
 }
 
-/// The largest entry of the central difference of `value` minus `slope`, and of `slope` itself.
+/// The largest entry of the rise of `value` from sample to sample minus the trapezoid of `slope`,
+/// as a slope, and the largest entry of `slope` itself.
 template <typename Value, typename Slope>
 std::pair<double, double> slope_error(const std::vector<SimulatedSample>& samples, double rate,
                                       Value value, Slope slope) {
   double error = 0.0;
   double size = 0.0;
-  for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
-    const Eigen::VectorXd difference =
-        0.5 * rate * (Eigen::VectorXd(value(samples[i + 1])) - value(samples[i - 1]));
-    const Eigen::VectorXd expected = slope(samples[i]);
-    error = std::max(error, (difference - expected).cwiseAbs().maxCoeff());
-    size = std::max(size, expected.cwiseAbs().maxCoeff());
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    const Eigen::VectorXd rise =
+        rate * (Eigen::VectorXd(value(samples[i + 1])) - value(samples[i]));
+    const Eigen::VectorXd before = slope(samples[i]);
+    const Eigen::VectorXd after = slope(samples[i + 1]);
+    error = std::max(error, (rise - 0.5 * (before + after)).cwiseAbs().maxCoeff());
+    size = std::max(size, after.cwiseAbs().maxCoeff());
   }
   return {error, size};
 }
 
-// Positions, velocities and accelerations belong to one motion. Through take-off and landing
-// accelerations turn within milliseconds, so central differences at 5 kHz are good to a percent.
+// Positions, velocities and accelerations belong to one motion. Torques are straight lines between
+// samples, so trapezoids of accelerations miss only what the compliant ground bends them at
+// take-off and landing, within milliseconds: at 5 kHz below a percent of the largest.
 TEST(Simulation, VelocitiesAndAccelerationsAreTheDerivatives) {
   SimulationOptions options = short_run(8);
   options.rate = 5000.0;
   options.duration = 0.5;
   options.trot.stand = 0.1;
-  const auto samples = run(options);
+  auto samples = run(options);
+  // Feet at rest have no friction yet: it builds up within 0.1 ms of the start.
+  samples.erase(samples.begin(), samples.begin() + 5);
   using S = const SimulatedSample&;
   constexpr double percent = 0.01;
   const auto joints = slope_error(
