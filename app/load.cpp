@@ -35,8 +35,8 @@ double bound(const std::string& text) {
 }
 
 BodyModel region(const Options& options, const Robot& robot) {
-  const auto link = robot.find_link(options.area.front());
-  if (!link) throw InputError("--area: no link " + options.area.front(), "a link of the URDF");
+  const auto site = robot.find_site(options.area.front());
+  if (!site) throw InputError("--area: no link " + options.area.front(), "a link of the URDF");
   Eigen::Vector3d lower, upper;
   for (int axis = 0; axis < 3; ++axis) {
     const auto at = static_cast<std::size_t>(1 + 2 * axis);
@@ -47,7 +47,7 @@ BodyModel region(const Options& options, const Robot& robot) {
                        "the lower bound first, the larger one after it");
     }
   }
-  return load_region(robot, *link, lower, upper);
+  return load_region(robot, site->link, lower, upper, site->pose);
 }
 
 void load(Options& options) {

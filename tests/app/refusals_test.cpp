@@ -78,9 +78,11 @@ TEST(Refusals, OneLineThatSaysWhatIsWrongAndWhatWouldBeRight) {
   }
 }
 
-// A pendulum that hangs still: gravity acts along the link, no torque ever, nothing to learn from.
+// A turntable at rest: its axis is vertical, so gravity never reaches the joint either.
 TEST(Refusals, DataThatCannotAnswerAreRefusedWithTheirReason) {
-  const std::string robot = scratch_file("pendulum.urdf", pendulum);
+  std::string turntable = pendulum;
+  turntable.replace(turntable.find("0 1 0"), 5, "0 0 1");
+  const std::string robot = scratch_file("turntable.urdf", turntable);
   const std::string log = scratch_file("still.csv", still_log());
   const CommandRun run =
       shapeid(fmt::format("identify --robot {} --log {} --free arm --out answers", robot, log));

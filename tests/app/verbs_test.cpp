@@ -45,7 +45,7 @@ TEST(Verbs, InspectSeesTheBundledRobot) {
 TEST(Verbs, FromSimulationToAnIdentifiedUrdf) {
   const std::string files =
       fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
-  const CommandRun simulated = shapeid("simulate --seconds 6 --out trot.csv.gz");
+  const CommandRun simulated = shapeid("simulate --seconds 10 --out trot.csv.gz");
   ASSERT_EQ(simulated.status, 0) << simulated.err;
 
   const CommandRun seen = shapeid("inspect trot.csv.gz --json " + files);
