@@ -117,7 +117,8 @@ std::string trace_picture(const DivisionTrace& trace) {
       "set ylabel 'error'\nset key top right\n"
       "plot $mass with linespoints pt 7 ps 0.4 lc rgb '#d62728' title 'mass (g)', "
       "$place with linespoints pt 7 ps 0.4 lc rgb '#2ca02c' title 'place (mm)'\n"
-      "unset logscale y\nset ylabel 'time (ms)'\nset xlabel 'divisions'\n"
+      "unset logscale y\nset format y '%g'\nset yrange [0:*]\nset ylabel 'time (ms)'\nset xlabel "
+      "'divisions'\n"
       "plot $time with linespoints pt 7 ps 0.4 lc rgb '#7f7f7f' notitle\n"
       "unset multiplot\n";
   return gnuplot(script);

@@ -22,7 +22,7 @@ struct DivisionTrace {
   std::vector<double> objective;
   std::vector<double> mass_error;   ///< kg, against the truth
   std::vector<double> place_error;  ///< m
-  std::vector<double> seconds;      ///< since the first solve began
+  std::vector<double> seconds;      ///< since the undivided problem was solved
 };
 
 /// Objective, errors and time against the number of divisions, one under the other.

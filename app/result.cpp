@@ -82,6 +82,11 @@ json history_json(const reference::DivisionRun& run) {
 /// A link that weighs this many times what it should is not believed without a word.
 constexpr double far_from_given = 3.0;
 
+/// s of motion that was fitted: a sample stands for one step of the regular grid.
+double fitted_seconds(const Result& result) {
+  return static_cast<double>(result.found.samples) / result.motion.rate;
+}
+
 std::string shown(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : "none"; }
 
 std::string links_text(const Result& result, const Robot& robot) {
@@ -172,7 +177,7 @@ json result_json(const Result& result, const Robot& robot) {
           {"robot", result.robot_file},
           {"log", result.log_file},
           {"samples", result.found.samples},
-          {"seconds", result.found.seconds},
+          {"seconds", fitted_seconds(result)},
           {"rate", result.motion.rate},
           {"gaps", result.motion.gaps},
           {"contacts_derived", result.motion.contacts_derived},
@@ -206,7 +211,7 @@ std::string result_text(const Result& result, const Robot& robot) {
       "share {:.2g}\n",
       robot.name, robot.link_count(), robot.joint_count(),
       robot.root == Root::floating ? "floating" : "fixed", result.log_file, result.found.samples,
-      result.found.seconds, result.motion.rate, result.motion.gaps, run.model.shapes.size(),
+      fitted_seconds(result), result.motion.rate, result.motion.gaps, run.model.shapes.size(),
       run.history.size(), run.stopped_by, result.found.undivided_objective,
       run.solution.value.total(), run.solution.value.density / run.solution.value.total());
   text += links_text(result, robot);

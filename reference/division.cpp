@@ -127,6 +127,7 @@ DivisionRun divide_and_solve(const BodyModel& model, const MassProblem& problem,
   check(options);
   SHAPEID_CONTRACT(why_unrelated(model, problem));
   DivisionRun run{model, problem, solve_masses(problem), {}, {}};
+  if (watch) watch(run);
   int small_steps = 0;
   while (true) {
     if (static_cast<int>(run.history.size()) >= options.most_divisions) {

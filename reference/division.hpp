@@ -74,8 +74,9 @@ struct Split {
                                     const Split& after);
 
 /// Algorithm 1 from an undivided model, whose columns and volumes are the problem's. `watch` (may
-/// be empty) is called after every division. Only the objective converges; a small step proves no
-/// optimality. Throws std::invalid_argument for options that make no sense.
+/// be empty) is called after the first solve and after every division. Only the objective
+/// converges; a small step proves no optimality. Throws std::invalid_argument for options that make
+/// no sense.
 [[nodiscard]] DivisionRun divide_and_solve(
     const BodyModel& model, const MassProblem& problem, const DivisionOptions& options,
     const std::function<void(const DivisionRun&)>& watch = {});

@@ -106,13 +106,8 @@ Identification identify(const Robot& robot, const BodyModel& model, const Sample
   const Window window(robot, model, settings.contacts, weight);
   Blocks collected(window, settings.block_seconds);
   Identification result;
-  double previous = 0.0;
   while (const std::optional<Sample> sample = next()) {
     collected.add(*sample);
-    if (result.samples > 0) {
-      result.seconds += std::min(sample->time - previous, settings.block_seconds);
-    }
-    previous = sample->time;
     ++result.samples;
   }
   const std::vector<RowBlock> blocks = collected.finish();

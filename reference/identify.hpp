@@ -34,7 +34,6 @@ struct Identification {
   /// leaving out each block once (jackknife). Bias from noise in Y is not in them.
   Eigen::VectorXd standard_error;
   std::size_t samples = 0;
-  double seconds = 0.0;  ///< of motion used
 };
 
 /// Samples one by one; empty at the end.

@@ -129,14 +129,14 @@ TEST(WarmStart, SavesSystems) {
   EXPECT_LT(2 * warm, cold);
 }
 
-TEST(Watch, SeesEveryDivision) {
+TEST(Watch, SeesTheUndividedAndEveryDivision) {
   const test::ModelWithRows given = load_in_region();
   std::size_t seen = 0;
   (void)run(given, {.most_divisions = 5, .expected_mass = 1.0}, [&](const DivisionRun& now) {
-    EXPECT_EQ(now.history.size(), ++seen);
+    EXPECT_EQ(now.history.size(), seen++);
     EXPECT_EQ(now.solution.m.size(), now.problem.shapes());
   });
-  EXPECT_EQ(seen, 5U);
+  EXPECT_EQ(seen, 6U);
 }
 
 }  // namespace
