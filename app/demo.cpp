@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "shapeid/app/bundled.hpp"
 #include "shapeid/app/html.hpp"
@@ -29,7 +31,9 @@ constexpr std::uint64_t seed = 7;
 
 struct Demo {
   std::string folder;
+  bool json = false;  ///< print one JSON document instead of tables
   Page page{"shapeid: a quadruped's base and its load, from joints and IMU alone"};
+  nlohmann::json document = nlohmann::json::object();
 
   [[nodiscard]] std::string file(const std::string& name) const {
     return (std::filesystem::path(folder) / name).string();
@@ -80,9 +84,16 @@ Table truth_table(const InertialParameters& truth, const InertialParameters& fou
   return table;
 }
 
+/// Ten parameters each, shapeid's order.
+nlohmann::json comparison_json(const InertialParameters& truth, const InertialParameters& found) {
+  const auto list = [](const Vector10& v) { return std::vector<double>(v.begin(), v.end()); };
+  return {{"truth", list(truth.values)}, {"found", list(found.values)}};
+}
+
 void show(Demo& demo, const std::string& heading, const Table& table) {
-  fmt::print("\n{}\n", heading);
+  if (!demo.json) fmt::print("\n{}\n", heading);
   for (const auto& row : table) {
+    if (demo.json) break;
     fmt::print("  {:<18}{:<8}{:>12}{:>12}{:>12}\n", row[0], row[1], row[2], row[3], row[4]);
   }
   demo.page.heading(heading);
@@ -90,7 +101,7 @@ void show(Demo& demo, const std::string& heading, const Table& table) {
 }
 
 void say(Demo& demo, const std::string& text) {
-  fmt::print("{}\n", text);
+  if (!demo.json) fmt::print("{}\n", text);
   demo.page.paragraph(text);
 }
 
@@ -116,6 +127,7 @@ void base_link(Demo& demo) {
                    model.shapes.size(), seconds),
        truth_table(truth, {result.found.Phi.head<10>()}));
   say(demo, residual_sentence(result, robot.robot));
+  demo.document["base"] = comparison_json(truth, {result.found.Phi.head<10>()});
   write_results(demo.file("base"), result, robot, inputs);
 }
 
@@ -161,11 +173,15 @@ void unknown_load(Demo& demo) {
                    run.history.size()),
        truth_table(inertia_of(load), {run.solution.Phi}));
   say(demo, residual_sentence(result, robot.robot));
-  demo.page.picture(division_picture(run.model, run.solution.m, load.centre),
+  const std::string division = division_picture(run.model, run.solution.m, load.centre);
+  const std::string trace = trace_picture(watch.trace);
+  write_file(demo.file("division.svg"), division);
+  write_file(demo.file("trace.svg"), trace);
+  demo.page.picture(division,
                     "The plate from above after the last division, darker where denser. Cross: the "
                     "block's true centre; circle: centre of the mass that was found.");
-  demo.page.picture(trace_picture(watch.trace),
-                    "Objective, errors and time against the number of divisions.");
+  demo.page.picture(trace, "Objective, errors and time against the number of divisions.");
+  demo.document["load"] = comparison_json(inertia_of(load), {run.solution.Phi});
   write_results(demo.file("load"), result, robot, inputs);
 }
 
@@ -182,7 +198,12 @@ void run_demo(Demo& demo) {
   unknown_load(demo);
   const std::string report = demo.file("report.html");
   write_file(report, demo.page.html());
-  fmt::print("\nopen {}\n", report);
+  demo.document["report"] = report;
+  if (demo.json) {
+    fmt::print("{}\n", demo.document.dump(2));
+  } else {
+    fmt::print("\nopen {}\n", report);
+  }
 }
 
 }  // namespace
@@ -193,6 +214,7 @@ void add_demo(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("demo", "the whole story on bundled data, under a minute");
   verb->add_option("--out", demo->folder, "folder for logs, results and the report")
       ->capture_default_str();
+  verb->add_flag("--json", demo->json, "print truth and found parameters as JSON");
   verb->callback([demo] { run_demo(*demo); });
 }
 

@@ -68,10 +68,12 @@ double expected_mass(const Options& options, const RobotInputs& robot, const Bod
   return mass;
 }
 
-void track_windows(const Options& options, const RobotInputs& robot, const BodyModel& model,
-                   double mass) {
+void identify_windows(const Options& options, const RobotInputs& robot, const BodyModel& model,
+                      double mass) {
   reference::OnlineSettings settings;
-  LogSamples log(options.inputs.log, robot, options.inputs);
+  MotionInputs inputs = options.inputs;
+  inputs.causal = true;
+  LogSamples log(inputs.log, robot, inputs);
   settings.contacts = log.contacts();
   settings.weight = weight(robot);
   settings.window = options.window;
@@ -91,6 +93,8 @@ void track_windows(const Options& options, const RobotInputs& robot, const BodyM
         {"filtered", std::vector<double>(result->filtered.begin(), result->filtered.end())}};
     fmt::print("{}\n", line.dump());
   }
+  fmt::print(stderr, "smoothed forward in time; group delay {:.1f} ms\n",
+             1e3 * log.report().group_delay);
 }
 
 void identify(Options& options) {
@@ -99,7 +103,7 @@ void identify(Options& options) {
                               ? default_shapes(robot.robot, free_links(options, robot.robot))
                               : read_shapes_yaml(options.shapes, robot.robot);
   const double mass = expected_mass(options, robot, model);
-  if (options.online) return track_windows(options, robot, model, mass);
+  if (options.online) return identify_windows(options, robot, model, mass);
 
   options.run.settings.expected_mass = mass;
   const Result result = run_identification(robot, model, options.inputs, options.run);
@@ -133,8 +137,10 @@ void add_identify(CLI::App& app) {
                    "kg: a link found lighter keeps its given inertia")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  verb->add_flag("--online", options->online,
-                 "a JSON line per window, as on the robot, with filter (17); no divisions");
+  verb->add_flag(
+      "--online", options->online,
+      "a JSON line per window, as on the robot: smoothed forward in time, filter (17), no "
+      "divisions");
   verb->add_option("--window", options->window, "samples a window (--online)")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

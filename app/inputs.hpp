@@ -21,6 +21,7 @@ struct MotionInputs {
   double cutoff = 20.0, rate = 0.0, contact_threshold = 0.15;
   std::string contacts = "auto";
   bool exact = false, accept_impossible = false;
+  bool causal = false;  ///< smooth as a robot would, forward in time only
 
   void add_to(CLI::App& verb);
 };
