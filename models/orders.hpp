@@ -1,4 +1,4 @@
-// Inertial parameters in the orders and about the points that other libraries use.
+// Claim C12. Inertial parameters in the orders and about the points that other libraries use.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// The same filter over every channel of a segment without gaps, in fixed memory.
+// Claim C9. The same filter over every channel of a segment without gaps, in fixed memory.
 #pragma once
 
 #include <Eigen/Core>

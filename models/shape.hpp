@@ -1,4 +1,4 @@
-// Primitive shapes of uniform density, placed in a link frame: volume, moments up to order two,
+// Claim C6. Primitive shapes of uniform density, placed in a link frame: volume, moments up to order two,
 // division into two shapes of the same kind.
 //
 // Cuboids, cylinders and ellipsoids are cells of a canonical body under an affine map, so one

@@ -1,4 +1,4 @@
-// The mass problem (15), solved by a primal active-set method whose every step is one dense KKT
+// Claim C3. The mass problem (15), solved by a primal active-set method whose every step is one dense KKT
 // system. Slow and plain on purpose.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Equations (7)-(9): rows of the dynamics that no contact force can reach.
+// Claim C2. Equations (7)-(9): rows of the dynamics that no contact force can reach.
 #pragma once
 
 #include <Eigen/Core>

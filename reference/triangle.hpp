@@ -1,4 +1,4 @@
-// Rows reduced to a triangle: the same sum of squares for every parameter vector.
+// Claim C8. Rows reduced to a triangle: the same sum of squares for every parameter vector.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,0 +1,120 @@
+// docs/claims.md against the tree: what it names exists, and what the tree cites is in it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = SHAPEID_SOURCE_DIR;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Claim {
+  std::string promised_in;
+  std::vector<std::string> derived_in, tests;
+};
+
+std::vector<std::string> items(const std::string& cell) {
+  std::vector<std::string> list;
+  std::istringstream words(cell);
+  for (std::string word; words >> word;) {
+    if (word.back() == ',') word.pop_back();
+    list.push_back(word);
+  }
+  return list;
+}
+
+std::map<std::string, Claim> claims() {
+  std::map<std::string, Claim> found;
+  std::istringstream lines(text_of(root / "docs/claims.md"));
+  const std::regex row(R"(\| (C\d+) \| [^|]+ \| ([^|]+) \| ([^|]+) \| ([^|]+) \|)");
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch m;
+    if (std::regex_match(line, m, row)) found[m[1]] = {m[2], items(m[3]), items(m[4])};
+  }
+  return found;
+}
+
+/// Every "Suite.Name" of the test sources.
+std::set<std::string> test_names() {
+  std::set<std::string> names;
+  const std::regex macro(R"((?:TEST|TEST_F|TEST_P|RC_GTEST_PROP)\(\s*(\w+),\s*(\w+))");
+  for (const auto& file : fs::recursive_directory_iterator(root / "tests")) {
+    if (file.path().extension() != ".cpp") continue;
+    const std::string text = text_of(file.path());
+    for (std::sregex_iterator m(text.begin(), text.end(), macro), end; m != end; ++m) {
+      names.insert((*m)[1].str() + "." + (*m)[2].str());
+    }
+  }
+  return names;
+}
+
+/// Ids that the headers cite, as "Claim C3" or "Claims C4, C5", with the files that cite them.
+std::map<std::string, std::set<std::string>> citations() {
+  std::map<std::string, std::set<std::string>> found;
+  const std::regex cited(R"(Claims? (C\d+(?:, C\d+)*))"), id(R"(C\d+)");
+  for (const char* folder : {"models", "reference", "fast"}) {
+    if (!fs::exists(root / folder)) continue;
+    for (const auto& file : fs::recursive_directory_iterator(root / folder)) {
+      if (file.path().extension() != ".hpp") continue;
+      const std::string text = text_of(file.path());
+      for (std::sregex_iterator m(text.begin(), text.end(), cited), end; m != end; ++m) {
+        const std::string list = (*m)[1];
+        for (std::sregex_iterator k(list.begin(), list.end(), id); k != end; ++k) {
+          found[k->str()].insert(fs::relative(file.path(), root).string());
+        }
+      }
+    }
+  }
+  return found;
+}
+
+TEST(Claims, NamesAgreeOnBothSides) {
+  const auto stated = claims();
+  const auto names = test_names();
+  const auto cited = citations();
+  ASSERT_FALSE(stated.empty());
+  for (const auto& [id, claim] : stated) {
+    SCOPED_TRACE(id);
+    const auto found = cited.find(id);
+    ASSERT_NE(found, cited.end()) << "no header cites it";
+    EXPECT_TRUE(found->second.contains(claim.promised_in)) << claim.promised_in;
+    for (const std::string& page : claim.derived_in) {
+      EXPECT_TRUE(fs::exists(root / "docs" / page)) << page;
+    }
+    for (const std::string& test : claim.tests) EXPECT_TRUE(names.contains(test)) << test;
+  }
+  for (const auto& [id, files] : cited) {
+    EXPECT_TRUE(stated.contains(id)) << id << " is cited in " << *files.begin();
+  }
+}
+
+/// Links between the pages of docs/ and the READMEs lead somewhere.
+TEST(Documents, LinksLeadToFiles) {
+  const std::regex link(R"(\]\(([^)#:]+)\))");
+  for (const auto& file : fs::recursive_directory_iterator(root)) {
+    const std::string path = fs::relative(file.path(), root).string();
+    if (file.path().extension() != ".md" || path.starts_with("build") || path.starts_with("out")) {
+      continue;
+    }
+    const std::string text = text_of(file.path());
+    for (std::sregex_iterator m(text.begin(), text.end(), link), end; m != end; ++m) {
+      EXPECT_TRUE(fs::exists(file.path().parent_path() / (*m)[1].str()))
+          << path << " links to " << (*m)[1];
+    }
+  }
+}
+
+}  // namespace
