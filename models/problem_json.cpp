@@ -34,6 +34,8 @@ json parse(const std::string& text, const std::string& name, const char* format,
   } catch (const json::parse_error& e) {
     throw InputError({name}, fmt::format("is not JSON (at byte {})", e.byte),
                      "see docs/formats/problem.md");
+  } catch (const json::out_of_range&) {
+    throw InputError({name}, "a number is larger than any double", "write finite decimals");
   }
   if (!document.is_object() || !document.contains("format") || document["format"] != format) {
     throw InputError({name}, "has no or another format",

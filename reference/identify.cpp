@@ -1,8 +1,9 @@
 #include "shapeid/reference/identify.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "shapeid/models/error.hpp"
@@ -65,10 +66,6 @@ void set_rows(MassProblem& problem, const Eigen::MatrixXd& rows) {
 /// Delete-a-block jackknife: the spread of answers that each miss one block.
 Eigen::VectorXd jackknife(const std::vector<RowBlock>& blocks, const DivisionRun& run) {
   const auto count = static_cast<Eigen::Index>(blocks.size());
-  if (count < 2) {  // one block has no spread
-    return Eigen::VectorXd::Constant(run.solution.Phi.size(),
-                                     std::numeric_limits<double>::infinity());
-  }
   Eigen::MatrixXd Phi(run.solution.Phi.size(), count);
   MassProblem problem = run.problem;
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -112,6 +109,12 @@ Identification identify(const Robot& robot, const BodyModel& model, const Sample
   }
   const std::vector<RowBlock> blocks = collected.finish();
   if (blocks.empty()) throw Refusal("no-data", "the log has no usable sample");
+  if (blocks.size() < 2) {
+    throw Refusal("too-short",
+                  fmt::format("{} samples within one block of {:g} s have no spread to "
+                              "judge them by; log a longer motion",
+                              result.samples, settings.block_seconds));
+  }
 
   result.data = determine(blocks, natural_sizes(model, settings.expected_mass));
   if (std::none_of(result.data.determined.begin(), result.data.determined.end(),

@@ -1,4 +1,5 @@
-// Claim C10. The whole way, from samples to parameters: rows, masses, divisions, and what the data determine.
+// Claim C10. The whole way, from samples to parameters: rows, masses, divisions, and what the data
+// determine.
 #pragma once
 
 #include <functional>

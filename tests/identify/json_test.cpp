@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/problem_json.hpp"
+#include "shapeid/tests/support/load_problem.hpp"
+
+namespace shapeid {
+namespace {
+
+MassProblem some_problem() {
+  test::Draw draw(17);
+  MassProblem p = test::load_window(
+      draw, 3, test::cuboid_body(1.0, {0.1, -0.02, 0.05}, {0.04, 0.05, 0.06}), 0.01);
+  test::fill_with_cuboids(p, {-0.2, -0.1, 0.0}, {0.2, 0.1, 0.1}, {3, 2, 1});
+  p.lambda = 1.0 / 3.0;
+  p.mass_bound = 12.5;
+  p.F[0] = 5e-324;  // the smallest double
+  return p;
+}
+
+TEST(ProblemJson, ReadsBackBitForBit) {
+  const MassProblem p = some_problem();
+  const MassProblem q = problem_from_json(problem_to_json(p), "p.json");
+  EXPECT_EQ(p.Y, q.Y);
+  EXPECT_EQ(p.F, q.F);
+  EXPECT_EQ(p.W, q.W);
+  EXPECT_EQ(p.U, q.U);
+  EXPECT_EQ(p.V, q.V);
+  EXPECT_EQ(p.lambda, q.lambda);
+  EXPECT_EQ(p.mass_bound, q.mass_bound);
+  EXPECT_EQ(problem_digest(p), problem_digest(q));
+}
+
+TEST(ProblemJson, DigestSeesEveryNumber) {
+  const MassProblem p = some_problem();
+  MassProblem q = p;
+  q.Y(2, 5) = std::nextafter(q.Y(2, 5), 1e9);
+  EXPECT_NE(problem_digest(p), problem_digest(q));
+}
+
+TEST(AnswerJson, ReadsBack) {
+  const Answer a{"0123456789abcdef", Eigen::Vector3d(0.1, 0.0, 2.0 / 3.0),
+                 Eigen::VectorXd::LinSpaced(10, -1.0, 1.0 / 7.0), 1.0 / 3.0};
+  const Answer b = answer_from_json(answer_to_json(a), "a.json");
+  EXPECT_EQ(a.problem_digest, b.problem_digest);
+  EXPECT_EQ(a.masses, b.masses);
+  EXPECT_EQ(a.parameters, b.parameters);
+  EXPECT_EQ(a.objective, b.objective);
+}
+
+TEST(AnswerJson, MassesMayBeLeftOut) {
+  const Answer a{"0", {}, Eigen::VectorXd::Ones(10), 0.0};
+  EXPECT_EQ(answer_from_json(answer_to_json(a), "a.json").masses.size(), 0);
+}
+
+struct Broken {
+  std::string find, replace, says;
+};
+
+TEST(ProblemJson, SaysWhatIsWrongWithBrokenFiles) {
+  const std::string good =
+      R"({"format":"shapeid-problem-1","free_links":0,"Y":[[],[]],"F":[1.5,2.5],"W":[1.0,2.0],)"
+      R"("U":[],"V":[],"lambda":0.25,"mass_bound":3.0})";
+  ASSERT_NO_THROW((void)problem_from_json(good, "p.json"));
+  const std::vector<Broken> table = {
+      {"}", "", "p.json: is not JSON (at byte 130); see docs/formats/problem.md"},
+      {"shapeid-problem-1", "shapeid-problem-9",
+       "p.json: has no or another format; \"format\" must be \"shapeid-problem-1\""},
+      {"\"lambda\":0.25,", "", "p.json, column lambda: missing key; it is required"},
+      {"\"lambda\"", "\"lambda2\"",
+       "p.json, column lambda2: unknown key; see docs/formats/problem.md"},
+      {"0.25", "\"x\"", "p.json, column lambda: not a finite number; write finite decimals"},
+      {"0.25", "1e999", "p.json: a number is larger than any double; write finite decimals"},
+      {"0.25", "-0.25", "p.json: lambda is -0.25, must be >= 0; see docs/formats/problem.md"},
+      {"[1.0,2.0]", "[1.0]", "p.json: rows disagree: Y 2, F 2, W 1; see docs/formats/problem.md"},
+      {"[1.0,2.0]", "[1.0,-2.0]", "p.json: a weight is not positive; see docs/formats/problem.md"},
+      {"[1.5,2.5]", "[1.5,null]", "p.json, column F: not a finite number; write finite decimals"},
+      {"[[],[]]", "[[],[1]]", "p.json, column Y: row 1 has 1 numbers; every row has 0"},
+      {"[[],[]]", "3", "p.json, column Y: not a list; a list of rows"},
+      {"\"free_links\":0", "\"free_links\":-1",
+       "p.json, column free_links: not a count of links; 0, 1, 2, ..."},
+      {"\"free_links\":0", "\"free_links\":1e300",
+       "p.json, column free_links: not a count of links; 0, 1, 2, ..."},
+  };
+  for (const Broken& b : table) {
+    std::string text = good;
+    text.replace(text.find(b.find), b.find.size(), b.replace);
+    try {
+      (void)problem_from_json(text, "p.json");
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const InputError& e) {
+      EXPECT_EQ(std::string(e.what()), b.says);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace shapeid
