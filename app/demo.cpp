@@ -128,7 +128,6 @@ void base_link(Demo& demo) {
        truth_table(truth, {result.found.Phi.head<10>()}));
   say(demo, residual_sentence(result, robot.robot));
   demo.document["base"] = comparison_json(truth, {result.found.Phi.head<10>()});
-  write_results(demo.file("base"), result, robot, inputs);
 }
 
 /// Watches the divisions: how far mass and place are from the truth after each of them.
@@ -182,7 +181,6 @@ void unknown_load(Demo& demo) {
                     "block's true centre; circle: centre of the mass that was found.");
   demo.page.picture(trace, "Objective, errors and time against the number of divisions.");
   demo.document["load"] = comparison_json(inertia_of(load), {run.solution.Phi});
-  write_results(demo.file("load"), result, robot, inputs);
 }
 
 void run_demo(Demo& demo) {

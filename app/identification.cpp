@@ -73,24 +73,33 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   return result;
 }
 
-std::vector<std::string> write_results(const std::string& folder, const Result& result,
-                                       const RobotInputs& robot, const MotionInputs& inputs) {
+void deliver(const Delivery& delivery, const nlohmann::json& document, const std::string& text,
+             const Result& result, const RobotInputs& robot, const MotionInputs& inputs) {
+  const std::string json = document.dump(2) + "\n";
+  fmt::print("{}", delivery.json ? json : text);
+  if (delivery.folder.empty()) return;
   std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) throw InputError({folder}, "cannot be made: " + failed.message(), "another folder");
-  std::vector<std::string> paths;
-  const auto write = [&](const std::string& name, const std::string& text) {
-    paths.push_back((std::filesystem::path(folder) / name).string());
-    write_file(paths.back(), text);
+  std::filesystem::create_directories(delivery.folder, failed);
+  if (failed) {
+    throw InputError({delivery.folder}, "cannot be made: " + failed.message(), "another folder");
+  }
+  const auto write = [&](const std::string& name, const std::string& content) {
+    const std::string path = (std::filesystem::path(delivery.folder) / name).string();
+    write_file(path, content);
+    fmt::print(stderr, "wrote {}\n", path);
   };
   const reference::DivisionRun& run = result.found.run;
   const Answer answer{problem_digest(run.problem), run.solution.m, run.solution.Phi,
                       run.solution.value.total()};
-  write("result.json", result_json(result, robot.robot).dump(2) + "\n");
+  write("result.json", json);
   write("problem.json", problem_to_json(run.problem));
   write("answer.json", answer_to_json(answer));
   write("identified.urdf", write_urdf(inputs.robot, robot.robot, result.written));
-  return paths;
+}
+
+void add_delivery_options(CLI::App& verb, Delivery& delivery) {
+  verb.add_option("--out", delivery.folder, "folder for result.json, identified.urdf and more");
+  verb.add_flag("--json", delivery.json, "print the result as JSON");
 }
 
 void add_solver_options(CLI::App& verb, RunOptions& options) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "shapeid/app/inputs.hpp"
@@ -21,10 +22,18 @@ struct RunOptions {
     const RunOptions& options,
     const std::function<void(const reference::DivisionRun&)>& watch = {});
 
-/// Writes result.json, problem.json, answer.json and identified.urdf into `folder` (made if it is
-/// not there). Returns the paths.
-std::vector<std::string> write_results(const std::string& folder, const Result& result,
-                                       const RobotInputs& robot, const MotionInputs& inputs);
+/// Where a result goes.
+struct Delivery {
+  std::string folder;  ///< empty: no files
+  bool json = false;   ///< standard output gets the document instead of the text
+};
+
+/// Prints the result; writes result.json (the document), problem.json, answer.json and
+/// identified.urdf into the folder, made if it is not there.
+void deliver(const Delivery& delivery, const nlohmann::json& document, const std::string& text,
+             const Result& result, const RobotInputs& robot, const MotionInputs& inputs);
+
+void add_delivery_options(CLI::App& verb, Delivery& delivery);
 
 /// Options of the division and the mass problem, for verbs that solve.
 void add_solver_options(CLI::App& verb, RunOptions& options);

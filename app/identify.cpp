@@ -18,9 +18,10 @@ namespace {
 struct Options {
   MotionInputs inputs;
   RunOptions run;
-  std::string shapes, out;
+  Delivery delivery;
+  std::string shapes;
   std::vector<std::string> free_links;
-  bool whole_body = false, json = false, online = false;
+  bool whole_body = false, online = false;
   double expected_mass = 0.0, alpha = 0.5;
   std::size_t window = 10, stride = 10;
 };
@@ -107,12 +108,8 @@ void identify(Options& options) {
 
   options.run.settings.expected_mass = mass;
   const Result result = run_identification(robot, model, options.inputs, options.run);
-  fmt::print("{}", options.json ? result_json(result, robot.robot).dump(2) + "\n"
-                                : result_text(result, robot.robot));
-  if (options.out.empty()) return;
-  for (const std::string& path : write_results(options.out, result, robot, options.inputs)) {
-    fmt::print(stderr, "wrote {}\n", path);
-  }
+  deliver(options.delivery, result_json(result, robot.robot), result_text(result, robot.robot),
+          result, robot, options.inputs);
 }
 
 }  // namespace
@@ -150,8 +147,7 @@ void add_identify(CLI::App& app) {
   verb->add_option("--alpha", options->alpha, "filter (17) (--online)")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  verb->add_option("--out", options->out, "folder for result.json, identified.urdf and more");
-  verb->add_flag("--json", options->json, "print the result as JSON");
+  add_delivery_options(*verb, options->delivery);
   verb->callback([options] { identify(*options); });
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "shapeid/app/identification.hpp"
@@ -18,9 +17,8 @@ struct Options {
   MotionInputs inputs;
   RunOptions run;
   std::vector<std::string> area;
-  std::string out;
+  Delivery delivery;
   double expected_mass = 1.0;
-  bool json = false;
 };
 
 double bound(const std::string& text) {
@@ -55,17 +53,11 @@ void load(Options& options) {
   const BodyModel model = region(options, robot.robot);
   options.run.settings.expected_mass = options.expected_mass;
   const Result result = run_identification(robot, model, options.inputs, options.run);
-  if (options.json) {
-    nlohmann::json document = result_json(result, robot.robot);
-    document["load"] = load_json(result, robot.robot);
-    fmt::print("{}\n", document.dump(2));
-  } else {
-    fmt::print("{}{}", result_text(result, robot.robot), load_text(result, robot.robot));
-  }
-  if (options.out.empty()) return;
-  for (const std::string& path : write_results(options.out, result, robot, options.inputs)) {
-    fmt::print(stderr, "wrote {}\n", path);
-  }
+  nlohmann::json document = result_json(result, robot.robot);
+  document["load"] = load_json(result, robot.robot);
+  deliver(options.delivery, document,
+          result_text(result, robot.robot) + load_text(result, robot.robot), result, robot,
+          options.inputs);
 }
 
 }  // namespace
@@ -83,8 +75,7 @@ void add_load(CLI::App& app) {
                    "kg, roughly: it scales the criterion")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  verb->add_option("--out", options->out, "folder for result.json, identified.urdf and more");
-  verb->add_flag("--json", options->json, "print the result as JSON");
+  add_delivery_options(*verb, options->delivery);
   verb->callback([options] { load(*options); });
 }
 
