@@ -16,20 +16,41 @@ namespace {
 /// Contiguous blocks of rows; twice as long each time there are too many.
 class Blocks {
  public:
-  Blocks(Window window, double seconds) : window_(std::move(window)), seconds_(seconds) {}
+  Blocks(Window window, std::optional<RowFilter> filter, double seconds)
+      : window_(std::move(window)), filter_(std::move(filter)), seconds_(seconds) {}
 
   void add(const Sample& sample) {
-    if (window_.samples() > 0 && sample.time - start_ >= seconds_) close();
-    if (window_.samples() == 0) start_ = sample.time;
+    if (filter_) {
+      filter_->push(sample);
+      add_filtered();
+      return;
+    }
+    close_before(sample.time);
     window_.add(sample);
   }
 
   std::vector<RowBlock> finish() {
+    if (filter_) {
+      filter_->finish();
+      add_filtered();
+    }
     if (window_.samples() > 0) close();
     return std::move(blocks_);
   }
 
  private:
+  void add_filtered() {
+    while (const std::optional<FilteredRows> rows = filter_->next()) {
+      close_before(rows->time);
+      window_.add_rows(rows->Y, rows->F);
+    }
+  }
+
+  void close_before(double time) {
+    if (window_.samples() > 0 && time - start_ >= seconds_) close();
+    if (window_.samples() == 0) start_ = time;
+  }
+
   void close() {
     Eigen::MatrixXd rows(window_.Y().rows(), window_.Y().cols() + 1);
     rows << window_.Y(), window_.F();
@@ -44,6 +65,7 @@ class Blocks {
   }
 
   Window window_;
+  std::optional<RowFilter> filter_;
   double seconds_, start_ = 0.0;
   std::vector<RowBlock> blocks_;
 };
@@ -101,7 +123,11 @@ Identification identify(const Robot& robot, const BodyModel& model, const Sample
                                      ? settings.weight
                                      : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
   const Window window(robot, model, settings.contacts, weight);
-  Blocks collected(window, settings.block_seconds);
+  std::optional<RowFilter> filter;
+  if (settings.row_filter) {
+    filter.emplace(robot, model, settings.contacts, weight, *settings.row_filter);
+  }
+  Blocks collected(window, std::move(filter), settings.block_seconds);
   Identification result;
   while (const std::optional<Sample> sample = next()) {
     collected.add(*sample);

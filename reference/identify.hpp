@@ -12,6 +12,7 @@
 #include "shapeid/models/sample.hpp"
 #include "shapeid/reference/determination.hpp"
 #include "shapeid/reference/division.hpp"
+#include "shapeid/reference/row_filter.hpp"
 #include "shapeid/reference/window.hpp"
 
 namespace shapeid::reference {
@@ -24,6 +25,8 @@ struct IdentifySettings {
   std::optional<double> mass_bound;  ///< kg; default: ten times M0
   DivisionOptions division;          ///< most_divisions = 0 solves once and does not divide
   double block_seconds = 0.5;        ///< contiguous blocks for standard errors
+  /// Low-pass the rows in time; the samples then need little smoothing of their own.
+  std::optional<RowFilterOptions> row_filter;
 };
 
 struct Identification {

@@ -2,24 +2,11 @@
 
 #include <utility>
 
-#include "shapeid/reference/contact.hpp"
 #include "shapeid/reference/projection.hpp"
-#include "shapeid/reference/regressor.hpp"
 #include "shapeid/reference/triangle.hpp"
 
 namespace shapeid::reference {
 namespace {
-
-/// Columns of the free links, in the model's order.
-Eigen::MatrixXd columns_of(const std::vector<int>& links, const Eigen::MatrixXd& Y) {
-  Eigen::MatrixXd free(Y.rows(), 10 * static_cast<Eigen::Index>(links.size()));
-  Eigen::Index column = 0;
-  for (const int link : links) {
-    free.middleCols<10>(column) = Y.middleCols<10>(10 * link);
-    column += 10;
-  }
-  return free;
-}
 
 [[maybe_unused]] Violation why_other_links(const std::vector<int>& window_links,
                                            const BodyModel& model) {
@@ -45,21 +32,17 @@ Window::Window(const Robot& robot, const BodyModel& model, ContactTreatment cont
 }
 
 void Window::add(const Sample& sample) {
-  const Eigen::MatrixXd Y = regressor(*robot_, sample);
-  const Eigen::MatrixXd Y_free = columns_of(free_links_, Y);
-  Eigen::VectorXd F = applied_force(*robot_, sample) - Y * known_;
-  if (contacts_ == ContactTreatment::measured) F += measured_contact_force(*robot_, sample);  // (4)
-
-  const Eigen::MatrixXd J = contacts_ == ContactTreatment::project
-                                ? contact_jacobian(*robot_, sample)
-                                : Eigen::MatrixXd(0, robot_->dof());
+  const SampleRows rows = sample_rows(*robot_, known_, free_links_, contacts_, sample);
   // Without rows in J this only multiplies by W^(1/2).
-  const ContactFreeRows free = eliminate_contacts(Y_free, F, J, weight_);
+  const ContactFreeRows free = eliminate_contacts(rows.Y, rows.F, rows.J, weight_);
+  add_rows(free.Y, free.F);
+}
 
-  if (used_ + free.Y.rows() > rows_.rows()) reduce();
-  rows_.block(used_, 0, free.Y.rows(), free.Y.cols()) = free.Y;  // (5)
-  rows_.block(used_, free.Y.cols(), free.F.rows(), 1) = free.F;
-  used_ += free.Y.rows();
+void Window::add_rows(const Eigen::MatrixXd& Y, const Eigen::VectorXd& F) {
+  if (used_ + Y.rows() > rows_.rows()) reduce();
+  rows_.block(used_, 0, Y.rows(), Y.cols()) = Y;  // (5)
+  rows_.block(used_, Y.cols(), F.rows(), 1) = F;
+  used_ += Y.rows();
   ++samples_;
 }
 

@@ -9,14 +9,9 @@
 #include "shapeid/models/mass_problem.hpp"
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
+#include "shapeid/reference/sample_rows.hpp"
 
 namespace shapeid::reference {
-
-enum class ContactTreatment {
-  project,   ///< equation (9): contact forces unknown and eliminated
-  measured,  ///< equation (4): contact forces measured and moved to the right-hand side
-  ignore     ///< no contact, or a fixed base
-};
 
 /// Collects rows of the free links. The rows are kept as they are up to a limit, then reduced by QR
 /// to a triangle that has the same normal equations and the same minimum (rows = columns + 1), so
@@ -28,6 +23,8 @@ class Window {
          Eigen::VectorXd weight);
 
   void add(const Sample& sample);
+  /// One instant's rows, weighted and free of contact forces already, e.g. a RowFilter's.
+  void add_rows(const Eigen::MatrixXd& Y, const Eigen::VectorXd& F);
   void clear();
 
   [[nodiscard]] std::size_t samples() const { return samples_; }

@@ -1,0 +1,122 @@
+// Filtered rows obey the equations of motion as exactly as the rows themselves: across changes of
+// contact, gaps, and the ends of segments.
+#include "shapeid/reference/row_filter.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapeid/reference/regressor.hpp"
+#include "shapeid/reference/window.hpp"
+#include "shapeid/tests/physics/dynamics.hpp"
+#include "shapeid/tests/recovery/quadruped.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+
+namespace shapeid {
+namespace {
+
+using reference::ContactTreatment;
+using reference::FilteredRows;
+using reference::RowFilter;
+using test::bundled_quadruped;
+using test::few_hundred_eps;
+using test::Quadruped;
+using test::scaled;
+using test::scaled_difference;
+
+constexpr auto project = ContactTreatment::project;
+
+/// Base rows count less than joint rows, and no two alike.
+Eigen::VectorXd uneven_weight(const Robot& robot) {
+  return Eigen::VectorXd::LinSpaced(robot.dof(), 0.3, 4.0);
+}
+
+std::vector<FilteredRows> all_of(RowFilter& filter, const std::vector<Sample>& samples) {
+  std::vector<FilteredRows> rows;
+  for (const Sample& sample : samples) {
+    filter.push(sample);
+    while (auto row = filter.next()) rows.push_back(std::move(*row));
+  }
+  filter.finish();
+  while (auto row = filter.next()) rows.push_back(std::move(*row));
+  return rows;
+}
+
+TEST(RowFilter, KeepsTheEquationsExactAcrossContactsAndGaps) {
+  const Quadruped quadruped = bundled_quadruped();
+  const Robot& robot = quadruped.robot;
+  std::vector<Sample> samples;
+  double terms = 0.0;
+  int changes = 0;
+  for (const SimulatedSample& s : test::trot(robot, {1.5, 500.0, 1, {}})) {
+    if (s.sample.time > 0.70 && s.sample.time < 0.75) continue;  // a gap
+    if (!samples.empty() && samples.back().in_contact != s.sample.in_contact) ++changes;
+    samples.push_back(s.sample);
+    terms = std::max(terms, test::size_of_terms(reference::regressor(robot, s.sample),
+                                                stacked_parameters(robot)) +
+                                s.sample.tau.norm());
+  }
+  ASSERT_GT(changes, 3);
+  const Eigen::VectorXd weight = uneven_weight(robot);
+  RowFilter filter(robot, quadruped.base, project, weight, {});
+  const auto rows = all_of(filter, samples);
+  ASSERT_EQ(rows.size(), samples.size());
+  const Eigen::VectorXd truth = stacked_parameters(robot).head<10>();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].time, samples[i].time);
+    ASSERT_LT(scaled((rows[i].Y * truth - rows[i].F).norm(), std::sqrt(weight.maxCoeff()) * terms,
+                     robot.dof()),
+              few_hundred_eps)
+        << "at " << rows[i].time;
+  }
+}
+
+// What does not change in time passes as it is: the rows of a Window, in other words.
+TEST(RowFilter, LeavesStandstillAlone) {
+  const Quadruped quadruped = bundled_quadruped();
+  const Eigen::VectorXd weight = uneven_weight(quadruped.robot);
+  Sample sample = test::trot(quadruped.robot, {0.6, 500.0, 1, {}}).back().sample;
+  reference::Window window(quadruped.robot, quadruped.base, project, weight);
+  window.add(sample);
+  const Eigen::MatrixXd YtY = window.Y().transpose() * window.Y();
+  const Eigen::VectorXd YtF = window.Y().transpose() * window.F();
+
+  std::vector<Sample> samples;
+  for (int i = 0; i < 300; ++i) {
+    sample.time = 0.002 * i;
+    samples.push_back(sample);
+  }
+  RowFilter filter(quadruped.robot, quadruped.base, project, weight, {20.0, 2, 500.0, 7});
+  const auto rows = all_of(filter, samples);
+  EXPECT_EQ(rows.size(), 43u);  // 300 / 7, the first one included
+  for (const FilteredRows& row : rows) {
+    ASSERT_LT(scaled_difference(row.Y.transpose() * row.Y, YtY, 18), few_hundred_eps);
+    ASSERT_LT(scaled_difference(row.Y.transpose() * row.F, YtF, 18), few_hundred_eps);
+  }
+}
+
+// What alternates from sample to sample is taken out: a Butterworth has a zero there.
+TEST(RowFilter, TakesOutWhatAlternates) {
+  const Quadruped quadruped = bundled_quadruped();
+  const Sample still = test::trot(quadruped.robot, {0.6, 500.0, 1, {}}).back().sample;
+  const Eigen::VectorXd weight = uneven_weight(quadruped.robot);
+  std::vector<Sample> steady, alternating;
+  for (int i = 0; i < 400; ++i) {
+    steady.push_back(still);
+    steady.back().time = 0.002 * i;
+    alternating.push_back(steady.back());
+    alternating.back().tau.array() += i % 2 == 0 ? 1.0 : -1.0;
+  }
+  RowFilter first(quadruped.robot, quadruped.base, project, weight, {});
+  RowFilter second(quadruped.robot, quadruped.base, project, weight, {});
+  const auto expected = all_of(first, steady), found = all_of(second, alternating);
+  // Away from the ends, where the reflection has its pivot in one of the two.
+  for (std::size_t i = 100; i < 300; ++i) {
+    ASSERT_LT((found[i].F - expected[i].F).norm(), 1e-3 * expected[i].F.norm());
+  }
+}
+
+}  // namespace
+}  // namespace shapeid
