@@ -2,7 +2,6 @@
 // contact, gaps, and the ends of segments.
 #include "shapeid/reference/row_filter.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,32 +43,69 @@ std::vector<FilteredRows> all_of(RowFilter& filter, const std::vector<Sample>& s
   return rows;
 }
 
-TEST(RowFilter, KeepsTheEquationsExactAcrossContactsAndGaps) {
-  const Quadruped quadruped = bundled_quadruped();
-  const Robot& robot = quadruped.robot;
-  std::vector<Sample> samples;
-  double terms = 0.0;
-  int changes = 0;
+/// Half a second and more on either side of a gap, with twenty lonely samples in its middle.
+struct Pieces {
+  std::vector<Sample> before, lonely, after;
+  double terms = 0.0;  ///< the largest of all samples
+};
+
+Pieces trot_with_gap(const Robot& robot) {
+  Pieces pieces;
   for (const SimulatedSample& s : test::trot(robot, {1.5, 500.0, 1, {}})) {
-    if (s.sample.time > 0.70 && s.sample.time < 0.75) continue;  // a gap
-    if (!samples.empty() && samples.back().in_contact != s.sample.in_contact) ++changes;
-    samples.push_back(s.sample);
-    terms = std::max(terms, test::size_of_terms(reference::regressor(robot, s.sample),
-                                                stacked_parameters(robot)) +
-                                s.sample.tau.norm());
+    const double t = s.sample.time;
+    if (t < 0.7) pieces.before.push_back(s.sample);
+    if (t > 0.75 && t < 0.79) pieces.lonely.push_back(s.sample);
+    if (t > 0.85) pieces.after.push_back(s.sample);
+    pieces.terms = std::max(pieces.terms, test::size_of_terms(reference::regressor(robot, s.sample),
+                                                              stacked_parameters(robot)) +
+                                              s.sample.tau.norm());
   }
-  ASSERT_GT(changes, 3);
-  const Eigen::VectorXd weight = uneven_weight(robot);
-  RowFilter filter(robot, quadruped.base, project, weight, {});
-  const auto rows = all_of(filter, samples);
-  ASSERT_EQ(rows.size(), samples.size());
-  const Eigen::VectorXd truth = stacked_parameters(robot).head<10>();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    ASSERT_EQ(rows[i].time, samples[i].time);
-    ASSERT_LT(scaled((rows[i].Y * truth - rows[i].F).norm(), std::sqrt(weight.maxCoeff()) * terms,
-                     robot.dof()),
-              few_hundred_eps)
-        << "at " << rows[i].time;
+  return pieces;
+}
+
+TEST(RowFilter, KeepsTheEquationsExactAcrossContacts) {
+  const Quadruped quadruped = bundled_quadruped();
+  const Pieces pieces = trot_with_gap(quadruped.robot);
+  const Eigen::VectorXd weight = uneven_weight(quadruped.robot);
+  const Eigen::VectorXd truth = stacked_parameters(quadruped.robot).head<10>();
+  for (const std::vector<Sample>& samples : {pieces.before, pieces.after}) {
+    EXPECT_TRUE(std::any_of(samples.begin(), samples.end(), [&](const Sample& s) {
+      return s.in_contact != samples.front().in_contact;
+    }));
+    RowFilter filter(quadruped.robot, quadruped.base, project, weight, {});
+    const auto rows = all_of(filter, samples);
+    ASSERT_EQ(rows.size(), samples.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ASSERT_EQ(rows[i].time, samples[i].time);
+      ASSERT_LT(scaled((rows[i].Y * truth - rows[i].F).norm(),
+                       std::sqrt(weight.maxCoeff()) * pieces.terms, quadruped.robot.dof()),
+                few_hundred_eps)
+          << "at " << rows[i].time;
+    }
+  }
+}
+
+// A gap separates two logs; what is too short to filter is left out.
+TEST(RowFilter, BeginsAnewAfterAGap) {
+  const Quadruped quadruped = bundled_quadruped();
+  const Pieces pieces = trot_with_gap(quadruped.robot);
+  const Eigen::VectorXd weight = uneven_weight(quadruped.robot);
+  std::vector<Sample> joined;
+  for (const auto& piece : {pieces.before, pieces.lonely, pieces.after}) {
+    joined.insert(joined.end(), piece.begin(), piece.end());
+  }
+  RowFilter one(quadruped.robot, quadruped.base, project, weight, {});
+  const auto found = all_of(one, joined);
+  std::vector<FilteredRows> expected;
+  for (const auto& piece : {pieces.before, pieces.after}) {
+    RowFilter filter(quadruped.robot, quadruped.base, project, weight, {});
+    for (FilteredRows& rows : all_of(filter, piece)) expected.push_back(std::move(rows));
+  }
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    ASSERT_EQ(found[i].time, expected[i].time);
+    ASSERT_EQ(found[i].Y, expected[i].Y);
+    ASSERT_EQ(found[i].F, expected[i].F);
   }
 }
 
