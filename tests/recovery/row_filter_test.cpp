@@ -43,7 +43,7 @@ std::vector<FilteredRows> all_of(RowFilter& filter, const std::vector<Sample>& s
   return rows;
 }
 
-/// Half a second and more on either side of a gap, with twenty lonely samples in its middle.
+/// Two steps and more on either side of a gap, with twenty lonely samples in its middle.
 struct Pieces {
   std::vector<Sample> before, lonely, after;
   double terms = 0.0;  ///< the largest of all samples
@@ -51,11 +51,11 @@ struct Pieces {
 
 Pieces trot_with_gap(const Robot& robot) {
   Pieces pieces;
-  for (const SimulatedSample& s : test::trot(robot, {1.5, 500.0, 1, {}})) {
+  for (const SimulatedSample& s : test::trot(robot, {1.7, 500.0, 1, {}})) {
     const double t = s.sample.time;
-    if (t < 0.7) pieces.before.push_back(s.sample);
-    if (t > 0.75 && t < 0.79) pieces.lonely.push_back(s.sample);
-    if (t > 0.85) pieces.after.push_back(s.sample);
+    if (t < 1.1) pieces.before.push_back(s.sample);
+    if (t > 1.15 && t < 1.19) pieces.lonely.push_back(s.sample);
+    if (t > 1.25) pieces.after.push_back(s.sample);
     pieces.terms = std::max(pieces.terms, test::size_of_terms(reference::regressor(robot, s.sample),
                                                               stacked_parameters(robot)) +
                                               s.sample.tau.norm());
