@@ -13,7 +13,7 @@ SampleRows sample_rows(const Robot& robot, const Eigen::VectorXd& known,
   rows.Y.resize(Y.rows(), 10 * static_cast<Eigen::Index>(free_links.size()));
   Eigen::Index column = 0;
   for (const int link : free_links) {
-    rows.Y.middleCols<10>(column) = Y.middleCols<10>(10 * link);
+    rows.Y.middleCols<10>(column) = Y.middleCols<10>(Eigen::Index{10} * link);
     column += 10;
   }
   rows.F = applied_force(robot, sample) - Y * known;
