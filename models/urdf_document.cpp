@@ -43,9 +43,12 @@ Inertial read_inertial(const Reader& read, const XMLElement& element) {
   const double xy = read.number(inertia, "ixy");
   const double xz = read.number(inertia, "ixz");
   const double yz = read.number(inertia, "iyz");
-  result.tensor << read.number(inertia, "ixx"), xy, xz,  //
-      xy, read.number(inertia, "iyy"), yz,               //
-      xz, yz, read.number(inertia, "izz");
+  // Read before the comma initialiser starts: an exception inside it trips Eigen's own assertion.
+  const double xx = read.number(inertia, "ixx"), yy = read.number(inertia, "iyy");
+  const double zz = read.number(inertia, "izz");
+  result.tensor << xx, xy, xz,  //
+      xy, yy, yz,               //
+      xz, yz, zz;
   result.rounding = {half_last_digit(inertia.Attribute("ixx")),
                      half_last_digit(inertia.Attribute("iyy")),
                      half_last_digit(inertia.Attribute("izz"))};
