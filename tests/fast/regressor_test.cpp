@@ -1,0 +1,139 @@
+// fast::Regressor against reference::regressor, which is held against Simbody.
+#include "shapeid/fast/regressor.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "shapeid/tests/fast/first_difference.hpp"
+#include "shapeid/tests/fast/wanted.hpp"
+#include "shapeid/tests/support/generators.hpp"
+
+namespace shapeid {
+namespace {
+
+using test::all_links;
+using test::first_difference;
+
+const std::string none;  // no difference
+
+static_assert(std::is_nothrow_invocable_v<fast::Regressor, const Sample&>);
+
+/// All that a sample says about motion is zero, gravity too.
+Sample nothing_moves(const Robot& robot) {
+  Sample s;
+  s.base_specific_force.setZero();
+  s.q = s.dq = s.ddq = s.tau = Eigen::VectorXd::Zero(robot.joint_count());
+  return s;
+}
+
+/// The numbers that Y depends on, one after the other.
+std::vector<double*> inputs(Sample& s) {
+  std::vector<double*> all;
+  const auto gather = [&all](auto& v) {
+    for (Eigen::Index i = 0; i < v.size(); ++i) all.push_back(&v[i]);
+  };
+  gather(s.base_angular_velocity);
+  gather(s.base_angular_acceleration);
+  gather(s.base_specific_force);
+  gather(s.q);
+  gather(s.dq);
+  gather(s.ddq);
+  return all;
+}
+
+RC_GTEST_PROP(FastRegressor, FloatingRobotsAsTheReference, ()) {
+  const Robot robot = *test::robot({1, 20, Root::floating});
+  const Sample s = *test::sample(robot);
+  fast::Regressor regressor(robot, all_links(robot));
+  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+}
+
+RC_GTEST_PROP(FastRegressor, FixedRobotsAsTheReference, ()) {
+  const Robot robot = *test::robot({1, 20, Root::fixed});
+  const Sample s = *test::sample(robot);
+  fast::Regressor regressor(robot, all_links(robot));
+  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+}
+
+// A fixed base on a slope, or on a vehicle that turns: the base's motion counts there as well.
+RC_GTEST_PROP(FastRegressor, FixedRobotsOnMovingGround, ()) {
+  const Robot robot = *test::robot({1, 10, Root::fixed});
+  Robot floating = robot;
+  floating.root = Root::floating;
+  const Sample s = *test::sample(floating);
+  fast::Regressor regressor(robot, all_links(robot));
+  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+}
+
+RC_GTEST_PROP(FastRegressor, AnyLinksInAnyOrder, ()) {
+  const Robot robot = *test::robot({1, 20, *rc::gen::element(Root::fixed, Root::floating)});
+  const Sample s = *test::sample(robot);
+  const std::vector<int> links = test::some_links(robot);
+  fast::Regressor regressor(robot, links);
+  RC_ASSERT(first_difference(regressor(s), robot, links, s) == none);
+}
+
+// Nothing of an earlier sample stays.
+RC_GTEST_PROP(FastRegressor, SamplesDoNotDisturbEachOther, ()) {
+  const Robot robot = *test::robot({1, 10, *rc::gen::element(Root::fixed, Root::floating)});
+  const std::vector<Sample> samples =
+      *rc::gen::container<std::vector<Sample>>(4, test::sample(robot));
+  const std::vector<int> links = test::some_links(robot);
+  fast::Regressor regressor(robot, links);
+  for (const Sample& s : samples)
+    RC_ASSERT(first_difference(regressor(s), robot, links, s) == none);
+  regressor(samples.front());
+  const Sample still = nothing_moves(robot);
+  RC_ASSERT(regressor(still).isZero(0.0));
+}
+
+// Each input alone: what only one term reads is not drowned by the others.
+RC_GTEST_PROP(FastRegressor, EachInputAlone, ()) {
+  const Robot robot = *test::robot({1, 8, *rc::gen::element(Root::fixed, Root::floating)});
+  fast::Regressor regressor(robot, all_links(robot));
+  Sample s = nothing_moves(robot);
+  for (double* input : inputs(s)) {
+    *input = 1.0;
+    RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+    *input = 0.0;
+  }
+}
+
+// Each pair of inputs: the products that centrifugal and Coriolis terms are made of, one by one.
+RC_GTEST_PROP(FastRegressor, EachPairOfInputs, ()) {
+  const Robot robot = *test::robot({2, 4, *rc::gen::element(Root::fixed, Root::floating)});
+  fast::Regressor regressor(robot, all_links(robot));
+  Sample s = nothing_moves(robot);
+  const std::vector<double*> all = inputs(s);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      *all[i] = 1.0;
+      *all[j] = -0.7;
+      RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+      *all[i] = *all[j] = 0.0;
+    }
+  }
+}
+
+#ifndef NDEBUG
+TEST(FastRegressorDeathTest, SampleOfAnotherRobotEndsTheProgram) {
+  Robot robot;
+  robot.links.resize(2);
+  robot.links[1].parent = 0;
+  fast::Regressor regressor(robot, {1});
+  EXPECT_DEATH(regressor(Sample()), "does not have an entry for each of 1 joints");
+}
+
+TEST(FastRegressor, LinksThatAreNotThereAreADefect) {
+  Robot robot;
+  robot.links.resize(1);
+  EXPECT_THROW(fast::Regressor(robot, {0, 1}), Defect);
+}
+#endif
+
+}  // namespace
+}  // namespace shapeid
