@@ -68,8 +68,8 @@ std::string first_difference(const Eigen::MatrixXd& Y, const Robot& robot,
   }
   for (Eigen::Index row = 0; row < Y.rows(); ++row) {
     for (Eigen::Index column = 0; column < columns; ++column) {
-      const int link = links[static_cast<std::size_t>(column / 10)];
       const Eigen::Index parameter = column % 10;
+      const Eigen::Index link = links[static_cast<std::size_t>(column / 10)];
       const double ours = Y(row, column), theirs = expected(row, 10 * link + parameter);
       const double error = scaled(std::abs(ours - theirs),
                                   wrenches.middleCols<10>(10 * link).norm(), robot.link_count());

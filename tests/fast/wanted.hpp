@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 #include "shapeid/models/robot.hpp"
@@ -12,8 +13,8 @@
 namespace shapeid::test {
 
 [[nodiscard]] inline std::vector<int> all_links(const Robot& robot) {
-  std::vector<int> links;
-  for (int i = 0; i < robot.link_count(); ++i) links.push_back(i);
+  std::vector<int> links(robot.links.size());
+  std::iota(links.begin(), links.end(), 0);
   return links;
 }
 
