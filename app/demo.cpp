@@ -47,6 +47,8 @@ MotionInputs record_log(const Demo& demo, const std::string& name,
   inputs.robot = bundled("quadruped.urdf");
   inputs.robot_yaml = bundled("quadruped.robot.yaml");
   inputs.log = demo.file(name);
+  inputs.cutoff = 80.0;  // Hz; the best pair of docs/recovery.md for a trot of this pace
+  inputs.row_cutoff = 20.0;
   Robot robot = read_urdf(inputs.robot).robot;
   const RobotNotes notes = read_robot_yaml(inputs.robot_yaml, robot);
   SimulationOptions simulation;

@@ -58,6 +58,11 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   reference::IdentifySettings settings = options.settings;
   settings.contacts = log.contacts();
   if (settings.weight.size() == 0) settings.weight = weight(robot);
+  if (inputs.row_cutoff > 0.0) {
+    settings.row_filter.emplace();
+    settings.row_filter->cutoff = inputs.row_cutoff;
+    settings.row_filter->rate = log.report().rate;
+  }
 
   Result result;
   result.robot_file = inputs.robot;

@@ -56,6 +56,10 @@ void MotionInputs::add_to(CLI::App& verb) {
   verb.add_option("--cutoff", cutoff,
                   "Hz, of the zero-phase filter over every channel; 0 does not smooth")
       ->capture_default_str();
+  verb.add_option("--row-cutoff", row_cutoff,
+                  "Hz: filter the rows of the equations as well; then --cutoff can be high, which "
+                  "distorts less (docs/recovery.md)")
+      ->check(CLI::PositiveNumber);
   verb.add_option("--rate", rate, "Hz, of the regular grid (default: the log's)");
   verb.add_flag("--exact", exact, "take dq, ddq and base.gyrodot from the log (simulations)");
   verb.add_flag("--accept-impossible", accept_impossible,

@@ -18,7 +18,7 @@ namespace shapeid::app {
 /// Options that name the robot, the log and how to read them.
 struct MotionInputs {
   std::string robot, robot_yaml, log, mapping;
-  double cutoff = 20.0, rate = 0.0, contact_threshold = 0.15;
+  double cutoff = 20.0, row_cutoff = 0.0, rate = 0.0, contact_threshold = 0.15;
   std::string contacts = "auto";
   bool exact = false, accept_impossible = false;
   bool causal = false;  ///< smooth as a robot would, forward in time only
