@@ -83,9 +83,11 @@ void identify_windows(const Options& options, const RobotInputs& robot, const Bo
   settings.expected_mass = mass;
   settings.lambda = options.run.settings.lambda;
   reference::OnlineIdentifier identifier(robot.robot, model, settings);
+  std::size_t windows = 0;
   while (const std::optional<Sample> sample = log.next()) {
     const auto result = identifier.feed(*sample);
     if (!result) continue;
+    ++windows;
     const Eigen::VectorXd& Phi = result->solution.Phi;
     const nlohmann::json line = {
         {"time", result->time},
@@ -93,6 +95,10 @@ void identify_windows(const Options& options, const RobotInputs& robot, const Bo
         {"parameters", std::vector<double>(Phi.begin(), Phi.end())},
         {"filtered", std::vector<double>(result->filtered.begin(), result->filtered.end())}};
     fmt::print("{}\n", line.dump());
+  }
+  if (windows == 0) {
+    throw Refusal("too-short", fmt::format("the log has {} samples, a window needs {}",
+                                           log.report().samples, options.window));
   }
   fmt::print(stderr, "smoothed forward in time; group delay {:.1f} ms\n",
              1e3 * log.report().group_delay);

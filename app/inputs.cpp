@@ -119,8 +119,8 @@ MotionOptions motion_options(const MotionInputs& inputs, const Robot& robot) {
   MotionOptions options;
   options.rate = inputs.rate;
   options.exact_derivatives = inputs.exact;
-  options.smoothing =
-      inputs.exact || inputs.cutoff == 0.0 ? Smoothing::none : Smoothing::zero_phase;
+  options.smoothing = inputs.causal ? Smoothing::causal : Smoothing::zero_phase;
+  if (inputs.exact || inputs.cutoff == 0.0) options.smoothing = Smoothing::none;
   if (inputs.cutoff != 0.0) options.cutoff = inputs.cutoff;
   if (treatment(inputs.contacts, robot) == reference::ContactTreatment::project) {
     options.derive_contacts = [&robot, Phi = stacked_parameters(robot),

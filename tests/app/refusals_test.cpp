@@ -89,6 +89,11 @@ TEST(Refusals, DataThatCannotAnswerAreRefusedWithTheirReason) {
   EXPECT_EQ(run.status, 1) << run.err;
   EXPECT_NE(run.err.find("not-excited"), std::string::npos) << run.err;
   EXPECT_FALSE(std::filesystem::exists(scratch() + "/answers"));
+
+  const CommandRun online = shapeid(
+      fmt::format("identify --robot {} --log {} --free arm --online --window 100000", robot, log));
+  EXPECT_EQ(online.status, 1) << online.err;
+  EXPECT_NE(online.err.find("too-short"), std::string::npos) << online.err;
 }
 
 }  // namespace

@@ -102,6 +102,9 @@ TEST(Verbs, OnlinePrintsALinePerWindow) {
     EXPECT_EQ(window["filtered"].size(), 10U);
     EXPECT_GE(window["filtered"][0].get<double>(), 0.0);
   }
+  // One second-order Butterworth by the bilinear transform: sqrt(2) T / (2 tan(pi 20 Hz T)), T = 2
+  // ms.
+  EXPECT_NE(run.err.find("group delay 11.2 ms"), std::string::npos) << run.err;
   EXPECT_GT(windows, 50);  // two seconds, a window every 20 ms, less what the filter loses at ends
 }
 
