@@ -43,6 +43,7 @@ Path path_of(int load, double noise, double k2) {
   (void)divide_and_solve(
       model, problem, {.k2 = k2, .step = 0.0, .most_divisions = divisions, .expected_mass = 1.0},
       [&](const DivisionRun& run) {
+        if (run.history.empty()) return;
         const InertialParameters found{Vector10(run.solution.Phi)};
         const Eigen::Matrix3d I = truth.tensor_about_centre();
         path.push_back({1e3 * (found.centre_of_mass() - truth.centre_of_mass()).norm(),
