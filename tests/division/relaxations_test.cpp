@@ -18,9 +18,10 @@ namespace {
 
 constexpr double length = 0.1;  // m, about the size of everything here
 
-// What the oracle's proof may leave open, of the optimum. Divisions end a thousandth and more above
-// it (printed below), so the comparison is not blurred.
-constexpr double open_share = 1e-4;
+// What the oracle's proof may leave open, of the optimum. Divisions end a percent above it where
+// noise is 5 % (printed below), so the comparison is not blurred. Usually 1e-5 and less is open; RC
+// seed 11 found 2.9e-4 (small_load(809557393512902, 0.00671664)).
+constexpr double open_share = 1e-3;
 
 /// A small body somewhere in a region of 40 x 20 x 5 cm; noise makes the unconstrained parameters
 /// those of no body.
