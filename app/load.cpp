@@ -37,7 +37,7 @@ BodyModel region(const Options& options, const Robot& robot) {
   if (!site) throw InputError("--area: no link " + options.area.front(), "a link of the URDF");
   Eigen::Vector3d lower, upper;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto at = static_cast<std::size_t>(1 + 2 * axis);
+    const std::size_t at = 1 + 2 * static_cast<std::size_t>(axis);
     lower[axis] = bound(options.area[at]);
     upper[axis] = bound(options.area[at + 1]);
     if (!(lower[axis] < upper[axis])) {

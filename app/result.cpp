@@ -42,7 +42,7 @@ json links_json(const Result& result, const Robot& robot) {
     }
     links.push_back(
         {{"name", link.name},
-         {"parameters", numbers(result.found.Phi.segment<10>(10 * free_links[i]))},
+         {"parameters", numbers(result.found.Phi.segment<10>(Eigen::Index{10} * free_links[i]))},
          {"given", numbers(link.inertia.values)},
          {"standard_error", numbers(result.found.standard_error.segment<10>(at))},
          {"data_standard_error", numbers(result.found.data.standard_error.segment<10>(at))},
@@ -99,13 +99,13 @@ std::string links_text(const Result& result, const Robot& robot) {
     for (Eigen::Index p = 0; p < 10; ++p) {
       const Eigen::Index at = 10 * static_cast<Eigen::Index>(i) + p;
       const auto k = static_cast<std::size_t>(p);
-      text += fmt::format("  {:<6}{:>12.5g}{:>12.5g}{:>12}{:>14}  {:<7} {}\n", parameter_names[k],
-                          link.inertia.values[p], result.found.Phi[10 * free_links[i] + p],
-                          shown(result.found.standard_error[at]),
-                          shown(result.found.data.standard_error[at]), parameter_units[k],
-                          result.found.data.determined[static_cast<std::size_t>(at)]
-                              ? "data"
-                              : "shapes and bounds");
+      text += fmt::format(
+          "  {:<6}{:>12.5g}{:>12.5g}{:>12}{:>14}  {:<7} {}\n", parameter_names[k],
+          link.inertia.values[p], result.found.Phi[Eigen::Index{10} * free_links[i] + p],
+          shown(result.found.standard_error[at]), shown(result.found.data.standard_error[at]),
+          parameter_units[k],
+          result.found.data.determined[static_cast<std::size_t>(at)] ? "data"
+                                                                     : "shapes and bounds");
     }
   }
   return text;
@@ -146,7 +146,7 @@ double overall(const Eigen::VectorXd& rms, const Robot& robot) {
 
 void choose_written_links(Result& result, const Robot& robot, double least_mass) {
   for (const int index : result.found.run.model.free_links) {
-    const InertialParameters inertia{result.found.Phi.segment<10>(10 * index)};
+    const InertialParameters inertia{result.found.Phi.segment<10>(Eigen::Index{10} * index)};
     const std::string& name = link_at(robot, index).name;
     const double given = link_at(robot, index).inertia.mass();
     if (given > 0.0 && inertia.mass() > far_from_given * given) {

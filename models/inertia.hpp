@@ -1,5 +1,5 @@
-// Claim C7. The ten inertial parameters of a rigid body, and the 4x4 pseudo-inertia that decides whether a
-// body with them can exist.
+// Claim C7. The ten inertial parameters of a rigid body, and the 4x4 pseudo-inertia that decides
+// whether a body with them can exist.
 //
 // Order: m, m rx, m ry, m rz, Ixx, Ixy, Ixz, Iyy, Iyz, Izz. Units: kg, kg m, kg m^2. Frame: link
 // axes; first moment and tensor about the link frame's *origin*; products carry the tensor's sign,

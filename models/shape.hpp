@@ -1,5 +1,5 @@
-// Claim C6. Primitive shapes of uniform density, placed in a link frame: volume, moments up to order two,
-// division into two shapes of the same kind.
+// Claim C6. Primitive shapes of uniform density, placed in a link frame: volume, moments up to
+// order two, division into two shapes of the same kind.
 //
 // Cuboids, cylinders and ellipsoids are cells of a canonical body under an affine map, so one
 // formula per canonical body serves for all poses, sizes and parts: moments are integrated in

@@ -1,6 +1,6 @@
-// Claim C11. URDF in and out, strictly: every number is matched in full, every reference is resolved, every
-// inertia is linted. urdfdom reads mass="nan" as zero and accepts two parents; this reader does
-// not.
+// Claim C11. URDF in and out, strictly: every number is matched in full, every reference is
+// resolved, every inertia is linted. urdfdom reads mass="nan" as zero and accepts two parents; this
+// reader does not.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
-// Claims C4, C5. Equation (16) and Algorithm 1: divide the shape with the largest v, solve again, warm-started.
-// Derivation, and the reasons for the defaults: docs/derivations/division.md.
+// Claims C4, C5. Equation (16) and Algorithm 1: divide the shape with the largest v, solve again,
+// warm-started. Derivation, and the reasons for the defaults: docs/derivations/division.md.
 #pragma once
 
 #include <Eigen/Core>

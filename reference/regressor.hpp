@@ -1,4 +1,5 @@
-// Claim C1. Equations (1)-(3): the dynamics of a floating-base tree are linear in the inertial parameters.
+// Claim C1. Equations (1)-(3): the dynamics of a floating-base tree are linear in the inertial
+// parameters.
 #pragma once
 
 #include <Eigen/Core>
