@@ -45,7 +45,8 @@ using SampleStream = std::function<std::optional<Sample>()>;
 
 /// Identifies the free links of `model`. Memory does not grow with the stream: blocks are
 /// triangles, and neighbours merge when there are more than most_blocks of them. Throws Refusal
-/// "no-data" for an empty stream, "not-excited" if the rows determine no parameter at all.
+/// "no-data" for an empty stream, "too-short" for a single block (no spread to judge by),
+/// "not-excited" if the rows determine no parameter at all.
 [[nodiscard]] Identification identify(const Robot& robot, const BodyModel& model,
                                       const SampleStream& next, const IdentifySettings& settings,
                                       const std::function<void(const DivisionRun&)>& watch = {});
