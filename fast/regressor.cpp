@@ -2,9 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <string>
 
 #include "shapeid/models/contract.hpp"
@@ -25,177 +22,91 @@ using Eigen::Vector3d;
   return std::nullopt;
 }
 
-[[maybe_unused]] Violation why_other_joints(const Sample& sample, Eigen::Index joints) {
-  if (sample.q.size() == joints && sample.dq.size() == joints && sample.ddq.size() == joints) {
-    return std::nullopt;
-  }
-  return "q, dq or ddq does not have an entry for each of " + std::to_string(joints) + " joints";
-}
-
-/// Which links stand on the way from the root to a wanted one, the root and the wanted included.
-std::vector<bool> on_the_way(const Robot& robot, const std::vector<int>& wanted) {
-  std::vector<bool> needed(robot.links.size(), false);
-  needed.front() = true;
-  for (int link : wanted) {
-    while (!needed[static_cast<std::size_t>(link)]) {
-      needed[static_cast<std::size_t>(link)] = true;
-      link = robot.links[static_cast<std::size_t>(link)].parent;
-    }
-  }
-  return needed;
-}
-
-/// A motion's force and moment about the link origin, in base axes, for each of the ten parameters.
-/// The tensor takes no force.
+/// A motion's force and moment about the link origin for each of the ten parameters: one parameter
+/// a row, so that parameters share vector registers. The tensor takes no force.
 struct Wrench {
-  Eigen::Matrix<double, 3, 4> force;
-  Eigen::Matrix<double, 3, 10> moment;
+  Eigen::Matrix<double, 4, 3> force;
+  Eigen::Matrix<double, 10, 3> moment;
 };
 
-/// S(alpha) + S(omega) S(omega): what a first moment h is multiplied by to give a force.
-Matrix3d force_of_moment(const Vector3d& omega, const Vector3d& alpha) {
-  const double x = omega.x(), y = omega.y(), z = omega.z();
-  Matrix3d K;
-  K << -y * y - z * z, x * y - alpha.z(), x * z + alpha.y(),  //
-      x * y + alpha.z(), -x * x - z * z, y * z - alpha.x(),   //
-      x * z - alpha.y(), y * z + alpha.x(), -x * x - y * y;
-  return K;
-}
-
-/// L(alpha) + S(omega) L(omega): what (Ixx, Ixy, Ixz, Iyy, Iyz, Izz) are multiplied by to give
-/// I alpha + omega x (I omega).
-Eigen::Matrix<double, 3, 6> moment_of_tensor(const Vector3d& omega, const Vector3d& alpha) {
-  const double x = omega.x(), y = omega.y(), z = omega.z();
-  const double ax = alpha.x(), ay = alpha.y(), az = alpha.z();
-  Eigen::Matrix<double, 3, 6> L;
-  L << ax, ay - x * z, az + x * y, -y * z, y * y - z * z, y * z,  //
-      x * z, ax + y * z, z * z - x * x, ay, az - x * y, -x * z,   //
-      -x * y, x * x - y * y, ax - y * z, x * y, ay + x * z, az;
-  return L;
-}
-
-/// Equation (2). A tensor is given in link axes and so is multiplied there; the rest is done in
-/// base axes.
-Wrench body_wrench(const Matrix3d& R, const Vector3d& omega, const Vector3d& alpha,
-                   const Vector3d& a) {
+/// Equation (2), link axes.
+Wrench own_wrench(const LinkMotion& link) noexcept {
+  const Vector3d& a = link.a;
+  const double x = link.omega.x(), y = link.omega.y(), z = link.omega.z();
+  const double ax = link.alpha.x(), ay = link.alpha.y(), az = link.alpha.z();
+  const double xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z;
   Wrench w;
-  w.force.col(0) = a;
-  w.force.rightCols<3>().noalias() = force_of_moment(omega, alpha) * R;
-  w.moment.col(0).setZero();
-  for (int k = 0; k < 3; ++k) w.moment.col(1 + k) = R.col(k).cross(a);
-  w.moment.rightCols<6>().noalias() =
-      R * moment_of_tensor(R.transpose() * omega, R.transpose() * alpha);
+  w.force.row(0) = a;
+  w.force.bottomRows<3>() = link.K.transpose();
+  // h x a, then L(alpha) + S(omega) L(omega) for (Ixx, Ixy, Ixz, Iyy, Iyz, Izz).
+  w.moment << 0.0, 0.0, 0.0,      //
+      0.0, -a.z(), a.y(),         //
+      a.z(), 0.0, -a.x(),         //
+      -a.y(), a.x(), 0.0,         //
+      ax, xz, -xy,                //
+      ay - xz, ax + yz, xx - yy,  //
+      az + xy, zz - xx, ax - yz,  //
+      -yz, ay, xy,                //
+      yy - zz, az - xy, ay + xz,  //
+      yz, -xz, az;
   return w;
+}
+
+/// The moment about the base origin that forces at p add.
+void add_levers(const Vector3d& p, Wrench& w) noexcept {
+  w.moment.topRows<4>().col(0) += p.y() * w.force.col(2) - p.z() * w.force.col(1);
+  w.moment.topRows<4>().col(1) += p.z() * w.force.col(0) - p.x() * w.force.col(2);
+  w.moment.topRows<4>().col(2) += p.x() * w.force.col(1) - p.y() * w.force.col(0);
 }
 
 }  // namespace
 
-Regressor::Regressor(const Robot& robot, const std::vector<int>& links)
-    : joints_(robot.joint_count()), base_dof_(robot.base_dof()) {
-  SHAPEID_CONTRACT(why_malformed(robot));
-  SHAPEID_CONTRACT(why_unknown_link(robot, links));
-  const std::vector<bool> needed = on_the_way(robot, links);
-  std::vector<int> place(robot.links.size(), 0);
-  carried_.emplace_back();  // the root
-  for (int i = 1; i < robot.link_count(); ++i) {
-    if (!needed[static_cast<std::size_t>(i)]) continue;
-    const Link& link = robot.links[static_cast<std::size_t>(i)];
-    const Vector3d& axis = link.joint.axis;
-    const Matrix3d P = link.joint.placement.linear();
-
-    Carried carried;
-    carried.parent = place[static_cast<std::size_t>(link.parent)];
-    carried.joint = i - 1;
-    carried.slides = link.joint.kind == JointKind::prismatic;
-    carried.axis = axis;
-    carried.origin = link.joint.placement.translation();
-    if (carried.slides) {
-      carried.still = P;
-      carried.even.setZero();
-      carried.odd.setZero();
-    } else {
-      const Matrix3d along = axis * axis.transpose();
-      carried.still = P * along;
-      carried.even = P * (Matrix3d::Identity() - along);
-      for (int k = 0; k < 3; ++k) carried.odd.col(k) = P * axis.cross(Vector3d::Unit(k));
-    }
-    place[static_cast<std::size_t>(i)] = static_cast<int>(carried_.size());
-    carried_.push_back(carried);
+// Equation (3): in each generalised direction the wrench counts by the velocity that this direction
+// gives the link.
+void write_columns(Kinematics& kinematics, int link,
+                   Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, 10>> Y) noexcept {
+  const int base_dof = kinematics.base_dof();
+  Wrench w = own_wrench(kinematics.motion(link));
+  if (link != 0) {
+    const LinkPose& pose = kinematics.pose(link);
+    const Matrix3d turned = pose.R.transpose();
+    w.force = (w.force * turned).eval();
+    w.moment = (w.moment * turned).eval();
+    add_levers(pose.p, w);
   }
-  for (const int link : links) wanted_.push_back(place[static_cast<std::size_t>(link)]);
-  motions_.resize(carried_.size());
+  if (base_dof != 0) {
+    Y.topLeftCorner<3, 4>() = w.force.transpose();
+    Y.middleRows<3>(3) = w.moment.transpose();
+  }
+  for (int i = link; i != 0; i = kinematics.parent(i)) {
+    const Vector3d z = kinematics.axis_in_base(i);
+    auto row = Y.row(base_dof + i - 1);
+    if (kinematics.slides(i)) {
+      row.head<4>() = (w.force * z).transpose();
+    } else {
+      // The axis passes through the joint, not through the base origin.
+      const Vector3d lever = kinematics.pose(i).p.cross(z);
+      Vector10 share = w.moment * z;
+      share.head<4>() += w.force * lever;
+      row = share.transpose();
+    }
+  }
+}
+
+Regressor::Regressor(const Robot& robot, const std::vector<int>& links)
+    : kinematics_(robot), wanted_(links) {
+  SHAPEID_CONTRACT(why_unknown_link(robot, links));
   Y_.setZero(robot.dof(), 10 * static_cast<Eigen::Index>(links.size()));
 }
 
 const Eigen::MatrixXd& Regressor::operator()(const Sample& sample) noexcept {
-  SHAPEID_CONTRACT(why_other_joints(sample, joints_));
-  motions_.front() = {Matrix3d::Identity(),         Vector3d::Zero(),
-                      sample.base_angular_velocity, sample.base_angular_acceleration,
-                      sample.base_specific_force,   Vector3d::Zero()};
-  for (std::size_t i = 1; i < carried_.size(); ++i) {
-    const Carried& link = carried_[i];
-    motions_[i] = moved_by(motions_[static_cast<std::size_t>(link.parent)], link, sample);
-  }
+  kinematics_.start(sample);
   Eigen::Index column = 0;
-  for (const int place : wanted_) {
-    write_columns(place, column);
+  for (const int link : wanted_) {
+    write_columns(kinematics_, link, Y_.middleCols<10>(column));
     column += 10;
   }
   return Y_;
-}
-
-Regressor::Motion Regressor::moved_by(const Motion& parent, const Carried& link,
-                                      const Sample& sample) noexcept {
-  const double q = sample.q[link.joint], dq = sample.dq[link.joint], ddq = sample.ddq[link.joint];
-  Motion m;
-  Vector3d r = parent.R * link.origin;  // from the parent's origin to the link's
-  if (link.slides) {
-    m.R.noalias() = parent.R * link.still;
-    m.z = m.R * link.axis;
-    r += q * m.z;
-  } else {
-    const Matrix3d turned = link.still + std::cos(q) * link.even + std::sin(q) * link.odd;
-    m.R.noalias() = parent.R * turned;
-    m.z = m.R * link.axis;
-  }
-  m.p = parent.p + r;
-  m.omega = parent.omega;
-  m.alpha = parent.alpha;
-  m.a = parent.a + parent.alpha.cross(r) + parent.omega.cross(parent.omega.cross(r));
-  const Vector3d turning = parent.omega.cross(m.z) * dq;  // of the moving axis
-  if (link.slides) {
-    m.a += m.z * ddq + 2.0 * turning;
-  } else {
-    m.omega += m.z * dq;
-    m.alpha += m.z * ddq + turning;
-  }
-  return m;
-}
-
-// Equation (3): in each generalised direction the wrench counts by the velocity that this direction
-// gives the link. The zeros that the constructor wrote are left alone: joints that do not carry the
-// link, and the tensor's share of forces.
-void Regressor::write_columns(int place, Eigen::Index first_column) noexcept {
-  const Motion& link = motions_[static_cast<std::size_t>(place)];
-  const Wrench w = body_wrench(link.R, link.omega, link.alpha, link.a);
-  auto Y = Y_.middleCols<10>(first_column);
-  if (base_dof_ != 0) {
-    Y.topLeftCorner<3, 4>() = w.force;
-    Y.middleRows<3>(3) = w.moment;
-    for (int k = 0; k < 4; ++k) Y.block<3, 1>(3, k) += link.p.cross(w.force.col(k));
-  }
-  for (int i = place; i != 0; i = carried_[static_cast<std::size_t>(i)].parent) {
-    const Carried& carried = carried_[static_cast<std::size_t>(i)];
-    const Motion& joint = motions_[static_cast<std::size_t>(i)];
-    auto row = Y.row(base_dof_ + carried.joint);
-    if (carried.slides) {
-      row.head<4>().noalias() = joint.z.transpose() * w.force;
-    } else {
-      const Vector3d lever = joint.z.cross(link.p - joint.p);
-      row.noalias() = joint.z.transpose() * w.moment;
-      row.head<4>().noalias() += lever.transpose() * w.force;
-    }
-  }
 }
 
 }  // namespace shapeid::fast

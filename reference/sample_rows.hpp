@@ -5,16 +5,13 @@
 
 #include <vector>
 
+#include "shapeid/models/contact_treatment.hpp"
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
 
 namespace shapeid::reference {
 
-enum class ContactTreatment {
-  project,   ///< equation (9): contact forces unknown and eliminated
-  measured,  ///< equation (4): contact forces measured and moved to the right-hand side
-  ignore     ///< no contact, or a fixed base
-};
+using shapeid::ContactTreatment;
 
 /// Y Phi - F = J^T f, in generalised order, not weighted yet.
 struct SampleRows {

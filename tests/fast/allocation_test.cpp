@@ -8,9 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/fast/contact.hpp"
+#include "shapeid/fast/inverse_dynamics.hpp"
 #include "shapeid/fast/regressor.hpp"
 #include "shapeid/fast/triangle.hpp"
 #include "shapeid/tests/fast/allocations.hpp"
+#include "shapeid/tests/fast/cases.hpp"
 #include "shapeid/tests/fast/wanted.hpp"
 #include "shapeid/tests/support/generators.hpp"
 
@@ -53,6 +56,24 @@ RC_GTEST_PROP(Allocations, RegressorMakesNoneAfterConstruction, ()) {
   fast::Regressor regressor(robot, test::some_links(robot));
   RC_ASSERT(allocations_during([&] {
               for (const Sample& sample : samples) regressor(sample);
+            }) == 0U);
+}
+
+RC_GTEST_PROP(Allocations, ContactsAndKnownLinksMakeNoneAfterConstruction, ()) {
+  const Robot robot = test::any_robot(1, 20);
+  const std::vector<Sample> samples = {test::any_sample(robot), test::any_sample(robot)};
+  fast::Kinematics kinematics(robot);
+  fast::InverseDynamics dynamics(robot, stacked_parameters(robot));
+  fast::ContactJacobian jacobian(robot);
+  fast::MeasuredForces forces(robot);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(robot.dof());
+  RC_ASSERT(allocations_during([&] {
+              for (const Sample& sample : samples) {
+                kinematics.start(sample);
+                force -= dynamics(kinematics);
+                jacobian.update(kinematics, sample);
+                static_cast<void>(forces.add_to(force, kinematics, sample));
+              }
             }) == 0U);
 }
 

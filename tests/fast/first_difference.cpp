@@ -47,10 +47,38 @@ std::string input(const Robot& robot, const Sample& s) {
   }
   text += fmt::format("omega{}\nalpha{}\nspecific force{}\n", numbers(s.base_angular_velocity),
                       numbers(s.base_angular_acceleration), numbers(s.base_specific_force));
-  return text + fmt::format("q{}\ndq{}\nddq{}\n", numbers(s.q), numbers(s.dq), numbers(s.ddq));
+  text += fmt::format("q{}\ndq{}\nddq{}\ntau{}\n", numbers(s.q), numbers(s.dq), numbers(s.ddq),
+                      numbers(s.tau));
+  for (std::size_t c = 0; c < s.in_contact.size(); ++c) {
+    const Contact& contact = robot.contacts[c];
+    const Eigen::Matrix4d frame = contact.frame.matrix();
+    text += fmt::format("{} contact of kind {} on link {}, frame by columns{}\n",
+                        s.in_contact[c] ? "touching" : "free", static_cast<int>(contact.kind),
+                        contact.link, numbers(frame));
+  }
+  return text;
 }
 
 }  // namespace
+
+std::string first_difference(const Eigen::MatrixXd& fast, const Eigen::MatrixXd& reference,
+                             double scale, Eigen::Index size, const Robot& robot,
+                             const Sample& sample) {
+  if (fast.rows() != reference.rows() || fast.cols() != reference.cols()) {
+    return fmt::format("fast is {} x {}, reference {} x {}\n{}", fast.rows(), fast.cols(),
+                       reference.rows(), reference.cols(), input(robot, sample));
+  }
+  for (Eigen::Index row = 0; row < fast.rows(); ++row) {
+    for (Eigen::Index column = 0; column < fast.cols(); ++column) {
+      const double ours = fast(row, column), theirs = reference(row, column);
+      const double error = scaled(std::abs(ours - theirs), scale, size);
+      if (error < few_hundred_eps) continue;  // a NaN is not
+      return fmt::format("row {}, column {}: fast {:.17g}, reference {:.17g}, scaled {:.3g}\n{}",
+                         row, column, ours, theirs, error, input(robot, sample));
+    }
+  }
+  return {};
+}
 
 std::string first_difference(const Eigen::MatrixXd& Y, const Robot& robot,
                              const std::vector<int>& links, const Sample& sample) {

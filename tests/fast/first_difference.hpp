@@ -1,4 +1,4 @@
-// Where the fast regressor leaves the reference, and on which input.
+// Where the fast path leaves the reference, and on which input.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,6 +10,14 @@
 #include "shapeid/models/sample.hpp"
 
 namespace shapeid::test {
+
+/// Empty if two matrices agree: every entry's difference is a few hundred roundings of `scale`,
+/// with `size` the length of the sums involved. Otherwise the first entry that differs, row by row,
+/// both numbers, and the input.
+[[nodiscard]] std::string first_difference(const Eigen::MatrixXd& fast,
+                                           const Eigen::MatrixXd& reference, double scale,
+                                           Eigen::Index size, const Robot& robot,
+                                           const Sample& sample);
 
 /// Empty if `Y` holds the columns of `links` of reference::regressor(robot, sample) to a few
 /// hundred roundings. Otherwise the first entry that differs, row by row, both numbers, and the

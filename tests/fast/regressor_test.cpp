@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "shapeid/tests/fast/cases.hpp"
 #include "shapeid/tests/fast/first_difference.hpp"
 #include "shapeid/tests/fast/wanted.hpp"
 #include "shapeid/tests/support/generators.hpp"
@@ -17,33 +18,12 @@ namespace {
 
 using test::all_links;
 using test::first_difference;
+using test::inputs;
+using test::nothing_moves;
 
 const std::string none;  // no difference
 
 static_assert(std::is_nothrow_invocable_v<fast::Regressor, const Sample&>);
-
-/// All that a sample says about motion is zero, gravity too.
-Sample nothing_moves(const Robot& robot) {
-  Sample s;
-  s.base_specific_force.setZero();
-  s.q = s.dq = s.ddq = s.tau = Eigen::VectorXd::Zero(robot.joint_count());
-  return s;
-}
-
-/// The numbers that Y depends on, one after the other.
-std::vector<double*> inputs(Sample& s) {
-  std::vector<double*> all;
-  const auto gather = [&all](auto& v) {
-    for (Eigen::Index i = 0; i < v.size(); ++i) all.push_back(&v[i]);
-  };
-  gather(s.base_angular_velocity);
-  gather(s.base_angular_acceleration);
-  gather(s.base_specific_force);
-  gather(s.q);
-  gather(s.dq);
-  gather(s.ddq);
-  return all;
-}
 
 RC_GTEST_PROP(FastRegressor, FloatingRobotsAsTheReference, ()) {
   const Robot robot = *test::robot({1, 20, Root::floating});
@@ -57,6 +37,24 @@ RC_GTEST_PROP(FastRegressor, FixedRobotsAsTheReference, ()) {
   const Sample s = *test::sample(robot);
   fast::Regressor regressor(robot, all_links(robot));
   RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+}
+
+// Joints about coordinate axes take ways of their own.
+RC_GTEST_PROP(FastRegressor, JointsAsInUrdfsAsTheReference, ()) {
+  const Robot robot = test::any_robot(1, 20);
+  const Sample s = *test::sample(robot);
+  fast::Regressor regressor(robot, all_links(robot));
+  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+}
+
+TEST(FastRegressor, CornerCasesAsTheReference) {
+  for (const auto& [name, robot] : test::corner_robots()) {
+    SCOPED_TRACE(name);
+    fast::Regressor regressor(robot, all_links(robot));
+    for (const Sample& s : test::corner_samples(robot)) {
+      EXPECT_EQ(first_difference(regressor(s), robot, all_links(robot), s), none);
+    }
+  }
 }
 
 // A fixed base on a slope, or on a vehicle that turns: the base's motion counts there as well.
