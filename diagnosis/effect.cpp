@@ -1,0 +1,53 @@
+#include "shapeid/diagnosis/effect.hpp"
+
+#include <Eigen/QR>
+
+#include <cstddef>
+
+namespace shapeid::diagnosis {
+
+std::string site_name(const Robot& robot, SiteKind kind, int site) {
+  switch (kind) {
+    case SiteKind::joint:
+      return robot.joint(site).name;
+    case SiteKind::link:
+      return robot.links[static_cast<std::size_t>(site)].name;
+    case SiteKind::contact:
+      return robot.contacts[static_cast<std::size_t>(site)].name;
+    case SiteKind::accelerometer:
+      return "base.accel";
+    case SiteKind::whole:
+      break;
+  }
+  return "all";
+}
+
+int site_count(const Robot& robot, SiteKind kind) {
+  switch (kind) {
+    case SiteKind::joint:
+      return robot.joint_count();
+    case SiteKind::link:
+      return robot.link_count();
+    case SiteKind::contact:
+      return static_cast<int>(robot.contacts.size());
+    case SiteKind::accelerometer:
+      return robot.root == Root::floating ? 1 : 0;
+    case SiteKind::whole:
+      break;
+  }
+  return 1;
+}
+
+PredictedLoad predicted_load(const Robot& robot, const Eigen::VectorXd& applied,
+                             const Eigen::VectorXd& YPhi, const Eigen::MatrixXd& J) {
+  PredictedLoad load{Eigen::VectorXd::Zero(J.rows()), YPhi.tail(robot.joint_count())};
+  if (J.rows() == 0) return load;
+  using Solver = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
+  const int base = robot.base_dof();
+  load.force = base > 0 ? Solver(J.leftCols(base).transpose()).solve(YPhi.head(base)).eval()
+                        : Solver(J.transpose()).solve(YPhi - applied).eval();
+  load.joint -= J.rightCols(robot.joint_count()).transpose() * load.force;
+  return load;
+}
+
+}  // namespace shapeid::diagnosis

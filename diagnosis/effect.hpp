@@ -1,0 +1,127 @@
+// What a model may lack: an equation with a few parameters, at a place of the robot.
+//
+// With effects the dynamics read   Y Phi + E theta = S^T tau + J^T f   in generalised order: a
+// column of E is the force that the joints must provide besides what the rigid links ask for, per
+// unit of its parameter. Friction b dq of joint j is the column dq_j in row j.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/robot.hpp"
+#include "shapeid/models/sample.hpp"
+#include "shapeid/reference/kinematics.hpp"
+
+namespace shapeid::diagnosis {
+
+/// Where an effect can sit. The site's number is the index of the joint, link or contact; 0 for the
+/// accelerometer and for the whole robot.
+enum class SiteKind { joint, link, accelerometer, contact, whole };
+
+/// A number that an effect has at its site.
+struct Parameter {
+  std::string name;
+  std::string unit;
+  bool nonnegative = false;
+  /// A usual size in the unit. Derivatives are taken over a small part of it.
+  double size = 1.0;
+};
+
+/// A number that the columns do not depend on linearly, found by an outer search.
+struct ShapeNumber {
+  std::string name;
+  std::string unit;
+  double lower = 0.0, upper = 0.0, start = 0.0;  ///< positive; searched in the logarithm
+};
+
+/// One instant as the present model sees it.
+struct Instant {
+  const Robot& robot;
+  const Sample& sample;
+  const std::vector<reference::LinkMotion>& motions;  ///< of all links, at this sample
+  const Eigen::MatrixXd& Y;                           ///< regressor, dof x 10 links
+  /// Predicted joint torques of the rigid links, with contact forces from the base's balance
+  /// (predicted_load()), n. Contains no measured torque on a floating base.
+  const Eigen::VectorXd& load;
+  double elapsed = 0.0;  ///< s since the log's first sample
+};
+
+/// An instant with its neighbours: `at(dt)` is the sample dt seconds later, interpolated. dt stays
+/// within largest_shift.
+struct Moment {
+  const Sample& now;
+  std::function<Sample(double)> at;
+};
+
+/// s: how far effects may look to either side.
+inline constexpr double largest_shift = 0.03;
+
+/// The matrices of one sample, in generalised order, before weights and projection.
+struct Rows {
+  Eigen::MatrixXd E;  ///< everything that predicts: [Y, columns of effects], dof x any
+  Eigen::MatrixXd J;  ///< contact Jacobian, contact rows x dof
+};
+
+/// An effect that is not a column but changes what the others are computed from. Its values are the
+/// parameters themselves; any of the three functions may be absent. The logged torque, which is
+/// what all models are scored against, is never changed.
+struct Transformation {
+  void (*robot)(Robot&, int site, const Eigen::VectorXd& value) = nullptr;
+  Sample (*sample)(const Moment&, int site, const Eigen::VectorXd& value) = nullptr;
+  void (*rows)(const Robot&, const Sample&, int site, const Eigen::VectorXd& value,
+               Rows&) = nullptr;
+
+  [[nodiscard]] bool any() const {
+    return robot != nullptr || sample != nullptr || rows != nullptr;
+  }
+};
+
+/// Statements of C++ with which the identified effect predicts joint torque. They see `j` (the
+/// joint), the parameters and shape numbers by name, and arrays over the joints.
+struct TorqueCode {
+  std::string motion;  ///< before the rigid links: changes q, dq, ddq
+  std::string torque;  ///< after them: changes tau; load[j] holds what the rigid links ask for
+};
+
+struct Effect {
+  std::string id;        ///< stable: results and files name it
+  std::string title;     ///< in a few words
+  std::string equation;  ///< what it adds to tau, or what it changes
+  SiteKind site = SiteKind::joint;
+  std::vector<Parameter> parameters;
+  std::vector<ShapeNumber> shape;
+  std::vector<std::string> confused_with;  ///< ids, or what else looks like it
+  std::string separate_by;                 ///< the experiment that tells it from those
+  std::string under_contact;               ///< what the contact projection hides of it
+  std::string source;                      ///< where the equation comes from
+
+  /// Whether the site exists on this robot.
+  bool (*applies)(const Robot&, int site) = nullptr;
+  /// What it adds per unit of each parameter: dof x parameters.
+  Eigen::MatrixXd (*columns)(const Instant&, int site, const Eigen::VectorXd& shape) = nullptr;
+  /// Instead of columns.
+  Transformation transform;
+  /// The columns are the link's own ten of Y, at all times or from the onset (its shape number) on.
+  bool is_payload = false;
+  TorqueCode code;
+};
+
+/// Names of places: a joint, a link, a contact, "base.accel" or "all".
+[[nodiscard]] std::string site_name(const Robot& robot, SiteKind kind, int site);
+/// How many sites of a kind the robot has.
+[[nodiscard]] int site_count(const Robot& robot, SiteKind kind);
+
+/// Predicted joint torques Y Phi - J^T f. On a floating base the contact forces f are those of
+/// least norm that carry the base (J_base^T f = (Y Phi)_base): no measured torque is in them. On a
+/// fixed base nothing but torque tells of f, so it is fitted to the logged one.
+struct PredictedLoad {
+  Eigen::VectorXd force;  ///< contact rows of J
+  Eigen::VectorXd joint;  ///< n
+};
+[[nodiscard]] PredictedLoad predicted_load(const Robot& robot, const Eigen::VectorXd& applied,
+                                           const Eigen::VectorXd& YPhi, const Eigen::MatrixXd& J);
+
+}  // namespace shapeid::diagnosis

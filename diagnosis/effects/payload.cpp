@@ -1,0 +1,30 @@
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/effects/payload_parts.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+Eigen::MatrixXd columns(const Instant& at, int link, const Eigen::VectorXd&) {
+  return at.Y.middleCols<10>(Eigen::Index{10} * link);
+}
+
+}  // namespace
+
+Effect payload() {
+  Effect e;
+  e.id = "payload";
+  e.title = "a body is attached to the link";
+  e.equation = "tau += (ten columns of Y of the link) (parameters of the load)";
+  e.site = SiteKind::link;
+  e.parameters = load_parameters();
+  e.confused_with = {"the link's own inertia", "payload on a neighbour", "torque_gain"};
+  e.separate_by = "a log of the same robot without it (--reference), or a trusted model";
+  e.under_contact = "as the link's own parameters";
+  e.source = "docs/derivations/regressor.md";
+  e.applies = moves;
+  e.columns = columns;
+  e.is_payload = true;
+  return e;
+}
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,31 @@
+#include "shapeid/diagnosis/effects.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+Sample earlier(const Moment& moment, int, const Eigen::VectorXd& value) {
+  Sample sample = moment.at(-value[0]);
+  sample.tau = moment.now.tau;
+  sample.time = moment.now.time;
+  return sample;
+}
+
+}  // namespace
+
+Effect torque_delay() {
+  Effect e;
+  e.id = "torque_delay";
+  e.title = "the logged torque belongs to an earlier motion";
+  e.equation = "tau(t) is predicted from the motion at t - d";
+  e.site = SiteKind::whole;
+  e.parameters = {{"d", "s", false, 0.002}};
+  e.confused_with = {"viscous_friction (d > 0 looks like negative friction on an inertia)",
+                     "imu_delay", "unequal filtering of torque and joints"};
+  e.separate_by = "tap the robot: the same knock must come at the same time in all channels";
+  e.under_contact = "seen in stance and swing";
+  e.source = "docs/derivations/filtering.md";
+  e.transform.sample = earlier;
+  return e;
+}
+
+}  // namespace shapeid::diagnosis

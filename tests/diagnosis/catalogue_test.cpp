@@ -1,0 +1,62 @@
+// The catalogue is complete, documented and consistent in itself.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "shapeid/diagnosis/effects.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::set<std::string> ids() {
+  std::set<std::string> names;
+  for (const Effect& e : all_effects()) names.insert(e.id);
+  return names;
+}
+
+TEST(Catalogue, EveryFileIsRegisteredOnce) {
+  std::set<std::string> files;
+  for (const auto& file : fs::directory_iterator(SHAPEID_SOURCE_DIR "/diagnosis/effects")) {
+    if (file.path().extension() == ".cpp") files.insert(file.path().stem().string());
+  }
+  EXPECT_EQ(files, ids());
+  EXPECT_EQ(all_effects().size(), ids().size());
+}
+
+TEST(Catalogue, PageIsTheCatalogue) {
+  std::ifstream in(SHAPEID_SOURCE_DIR "/docs/effects.md", std::ios::binary);
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(page, catalogue_page()) << "renew it: ./run shapeid diagnose --list > docs/effects.md";
+}
+
+TEST(Catalogue, EveryEffectSaysWhatItIs) {
+  for (const Effect& e : all_effects()) {
+    SCOPED_TRACE(e.id);
+    EXPECT_EQ(find_effect(e.id), &e);
+    EXPECT_FALSE(e.title.empty() || e.equation.empty() || e.source.empty());
+    EXPECT_FALSE(e.confused_with.empty() || e.separate_by.empty() || e.under_contact.empty());
+    ASSERT_FALSE(e.parameters.empty());
+    EXPECT_NE(e.columns != nullptr, e.transform.any()) << "columns or a transformation";
+    EXPECT_LE(e.shape.size(), 2U);
+    std::set<std::string> names;
+    for (const Parameter& p : e.parameters) {
+      EXPECT_FALSE(p.unit.empty());
+      EXPECT_GT(p.size, 0.0);
+      EXPECT_TRUE(names.insert(p.name).second) << p.name;
+    }
+    for (const ShapeNumber& s : e.shape) {
+      EXPECT_TRUE(0.0 < s.lower && s.lower <= s.start && s.start <= s.upper) << s.name;
+      EXPECT_TRUE(names.insert(s.name).second) << s.name;
+    }
+  }
+  EXPECT_EQ(find_effect("no such effect"), nullptr);
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,229 @@
+// Laws of single effects: each column against the effect's equation, evaluated another way.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/reference/contact.hpp"
+#include "shapeid/reference/regressor.hpp"
+#include "shapeid/tests/support/generators.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::few_hundred_eps;
+
+/// An instant that owns what it refers to.
+struct Scene {
+  Scene(Robot r, Sample s) : robot(std::move(r)), sample(std::move(s)) {
+    motions = reference::link_motions(robot, sample);
+    Y = reference::regressor(robot, sample);
+    J = reference::contact_jacobian(robot, sample);
+    Phi = stacked_parameters(robot);
+    load = predicted_load(robot, reference::applied_force(robot, sample), Y * Phi, J).joint;
+  }
+  [[nodiscard]] Instant instant() const { return {robot, sample, motions, Y, load, 2.0}; }
+  [[nodiscard]] Eigen::MatrixXd columns(const Effect& e, int site) const {
+    Eigen::VectorXd shape(static_cast<Eigen::Index>(e.shape.size()));
+    for (std::size_t i = 0; i < e.shape.size(); ++i) {
+      shape[static_cast<Eigen::Index>(i)] = e.shape[i].start;
+    }
+    return e.columns(instant(), site, shape);
+  }
+
+  Robot robot;
+  Sample sample;
+  std::vector<reference::LinkMotion> motions;
+  Eigen::MatrixXd Y, J;
+  Eigen::VectorXd Phi, load;
+};
+
+Scene any_scene(Root root) {
+  const Robot robot = *test::robot({2, 8, root});
+  return {robot, *test::sample(robot)};
+}
+
+Scene any_scene() { return any_scene(*rc::gen::element(Root::fixed, Root::floating)); }
+
+bool has_site(const Effect& e, const Robot& robot, int site) {
+  return site < site_count(robot, e.site) && (e.applies == nullptr || e.applies(robot, site));
+}
+
+RC_GTEST_PROP(Effects, ColumnsHaveTheirSizeAndAreFinite, ()) {
+  const Scene scene = any_scene();
+  for (const Effect& e : all_effects()) {
+    if (e.columns == nullptr) continue;
+    for (int site = 0; site < site_count(scene.robot, e.site); ++site) {
+      if (!has_site(e, scene.robot, site)) continue;
+      const Eigen::MatrixXd columns = scene.columns(e, site);
+      RC_ASSERT(columns.rows() == scene.robot.dof());
+      RC_ASSERT(columns.cols() == static_cast<Eigen::Index>(e.parameters.size()));
+      RC_ASSERT(columns.allFinite());
+    }
+  }
+}
+
+/// What a joint's own effect asks of its joint, from the equation in the catalogue.
+double joint_equation(const std::string& id, const Scene& s, int j, int parameter) {
+  const double q = s.sample.q[j], dq = s.sample.dq[j], ddq = s.sample.ddq[j];
+  const double width = 0.05;
+  if (id == "viscous_friction") return dq;
+  if (id == "coulomb_friction") return 1.0 - 2.0 / (std::exp(2.0 * dq / width) + 1.0);
+  if (id == "stribeck_friction") {
+    return std::exp(-25.0 * dq * dq) * (1.0 - 2.0 / (std::exp(100.0 * dq) + 1.0));
+  }
+  if (id == "load_friction") {
+    return std::abs(s.load[j]) * (1.0 - 2.0 / (std::exp(2.0 * dq / width) + 1.0));
+  }
+  if (id == "torque_offset") return 1.0;
+  if (id == "rotor_inertia") return ddq;
+  if (id == "joint_spring") return parameter == 0 ? q : 1.0;
+  if (id == "cogging") return parameter == 0 ? std::cos(12.0 * q) : std::sin(12.0 * q);
+  ADD_FAILURE() << id << " has no equation in this test";
+  return 0.0;
+}
+
+RC_GTEST_PROP(Effects, JointEffectsActOnTheirJointAloneAsTheirEquationSays, ()) {
+  const Scene scene = any_scene();
+  for (const Effect& e : all_effects()) {
+    if (e.site != SiteKind::joint || e.columns == nullptr || e.id == "rotor_reaction") continue;
+    const int j = *rc::gen::inRange(0, scene.robot.joint_count());
+    const Eigen::MatrixXd columns = scene.columns(e, j);
+    for (Eigen::Index p = 0; p < columns.cols(); ++p) {
+      Eigen::VectorXd wanted = Eigen::VectorXd::Zero(scene.robot.dof());
+      wanted[scene.robot.base_dof() + j] = joint_equation(e.id, scene, j, static_cast<int>(p));
+      const double size = 1.0 + wanted.norm();
+      RC_ASSERT(test::scaled((columns.col(p) - wanted).norm(), size, 10) < few_hundred_eps);
+    }
+  }
+}
+
+/// Adding a load to a link's inertia asks for what the payload's columns say.
+RC_GTEST_PROP(Effects, PayloadIsABodyAddedToTheLink, ()) {
+  const Scene scene = any_scene();
+  const Effect& e = *find_effect("payload");
+  const int link = *rc::gen::inRange(1, scene.robot.link_count());
+  const InertialParameters load = *test::body();
+  Eigen::VectorXd Phi = Eigen::VectorXd::Zero(scene.Phi.size());
+  Phi.segment<10>(10 * link) = load.values;
+  const Eigen::VectorXd wanted = scene.Y * Phi;
+  const Eigen::VectorXd got = scene.columns(e, link) * load.values;
+  RC_ASSERT(test::scaled_difference(got, wanted, 10) < few_hundred_eps);
+  const Effect& later = *find_effect("payload_from");
+  RC_ASSERT(later.columns(scene.instant(), link, Eigen::VectorXd::Constant(1, 1.9)) ==
+            scene.columns(e, link));
+  RC_ASSERT(later.columns(scene.instant(), link, Eigen::VectorXd::Constant(1, 2.1)).isZero(0.0));
+}
+
+/// Virtual power: a force on a point does what the same force does along the point's path, found by
+/// moving every joint a little.
+RC_GTEST_PROP(Effects, ForcesDoTheWorkThatTheirPointsMove, ()) {
+  const Scene scene = any_scene(Root::fixed);
+  const int link = *rc::gen::inRange(1, scene.robot.link_count());
+  const Eigen::MatrixXd columns = scene.columns(*find_effect("external_force"), link);
+  constexpr double h = 1e-6;  // the error is h^2 times a third derivative of order one
+  for (int j = 0; j < scene.robot.joint_count(); ++j) {
+    const auto place = [&](double step) -> Eigen::Vector3d {
+      Sample moved = scene.sample;
+      moved.q[j] += step;
+      return reference::link_motions(scene.robot, moved)[static_cast<std::size_t>(link)]
+          .pose.translation();
+    };
+    const Eigen::Vector3d slope = (place(h) - place(-h)) / (2.0 * h);
+    constexpr double rounding = 1e-8;  // eps / h, and lengths of a few metres
+    RC_ASSERT((columns.row(j).transpose() + slope).norm() < rounding);
+  }
+}
+
+/// Power of drag on a fixed base is c |v|^2.
+RC_GTEST_PROP(Effects, DragTakesPowerFromTheLink, ()) {
+  const Scene scene = any_scene(Root::fixed);
+  const int link = *rc::gen::inRange(1, scene.robot.link_count());
+  const double power = scene.columns(*find_effect("drag"), link).col(0).dot(scene.sample.dq);
+  const double wanted = scene.motions[static_cast<std::size_t>(link)].velocity.squaredNorm();
+  RC_ASSERT(test::scaled(std::abs(power - wanted), wanted + 1e-3, 10) < few_hundred_eps);
+}
+
+/// Two parallel joints: the textbook's extra terms of a rotor in the second joint's motor,
+/// k (0 1; 1 0) times (ddq1, ddq2) (double pendulum with motors, gear times rotor inertia k).
+TEST(RotorReaction, IsTheTextbooksForTwoParallelJoints) {
+  Robot robot;
+  robot.root = Root::fixed;
+  robot.links.resize(3);
+  for (int i = 1; i < 3; ++i) {
+    Link& link = robot.links[static_cast<std::size_t>(i)];
+    link.parent = i - 1;
+    link.joint.axis = Eigen::Vector3d::UnitY();
+    link.joint.placement.translation() = Eigen::Vector3d(0.1, 0.0, -0.3);
+  }
+  Sample sample;
+  sample.q = Eigen::Vector2d(0.3, -0.8);
+  sample.dq = Eigen::Vector2d(1.5, -0.7);
+  sample.ddq = Eigen::Vector2d(2.0, 3.0);
+  sample.tau = Eigen::Vector2d::Zero();
+  const Scene scene(robot, sample);
+  const Eigen::VectorXd column = scene.columns(*find_effect("rotor_reaction"), 1);
+  EXPECT_LT(test::scaled_difference(column, Eigen::Vector2d(3.0, 2.0), 10), few_hundred_eps);
+}
+
+/// A rotor of spin k dq z on a turning carrier: its power is the change of k (dq z . omega), the
+/// mixed term of the kinetic energy.
+RC_GTEST_PROP(RotorReaction, PowerIsTheChangeOfItsKineticEnergy, ()) {
+  const Scene scene = any_scene(Root::fixed);
+  const Effect& e = *find_effect("rotor_reaction");
+  const int j = *rc::gen::inRange(0, scene.robot.joint_count());
+  RC_PRE(has_site(e, scene.robot, j));
+  const auto energy = [&](double t) {
+    Sample moved = scene.sample;
+    moved.q += t * moved.dq + 0.5 * t * t * moved.ddq;
+    moved.dq += t * moved.ddq;
+    const auto motions = reference::link_motions(scene.robot, moved);
+    const Link& link = scene.robot.links[static_cast<std::size_t>(j) + 1];
+    const Eigen::Vector3d z =
+        motions[static_cast<std::size_t>(j) + 1].pose.linear() * link.joint.axis;
+    return moved.dq[j] * z.dot(motions[static_cast<std::size_t>(link.parent)].angular_velocity);
+  };
+  constexpr double h = 1e-5;
+  const double wanted = (energy(h) - energy(-h)) / (2.0 * h);
+  const double power = scene.columns(e, j).col(0).dot(scene.sample.dq);
+  // Rounding of the difference, and h^2 times third derivatives: speeds up to ten, to the fourth.
+  const double size = 1.0 + scene.sample.dq.squaredNorm() + scene.sample.ddq.squaredNorm();
+  constexpr double tolerance = 1e-7;
+  RC_ASSERT(std::abs(power - wanted) < tolerance * size * size);
+}
+
+RC_GTEST_PROP(Transformations, ZeroChangesNothing, ()) {
+  const Scene scene = any_scene();
+  const Moment moment{scene.sample, [&](double) { return scene.sample; }};
+  for (const Effect& e : all_effects()) {
+    if (!e.transform.any()) continue;
+    const Eigen::VectorXd zero =
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(e.parameters.size()));
+    for (int site = 0; site < site_count(scene.robot, e.site); ++site) {
+      if (!has_site(e, scene.robot, site)) continue;
+      Robot robot = scene.robot;
+      if (e.transform.robot != nullptr) e.transform.robot(robot, site, zero);
+      const Sample sample =
+          e.transform.sample != nullptr ? e.transform.sample(moment, site, zero) : scene.sample;
+      Rows rows{reference::regressor(robot, sample), reference::contact_jacobian(robot, sample)};
+      if (e.transform.rows != nullptr) e.transform.rows(robot, sample, site, zero, rows);
+      RC_ASSERT(rows.E == scene.Y);
+      RC_ASSERT((rows.J - scene.J).norm() <= 1e-14 * (1.0 + scene.J.norm()));
+      RC_ASSERT(sample.tau == scene.sample.tau);
+    }
+  }
+}
+
+/// On a floating base the predicted load contains no measured torque, and with the base carried
+/// exactly it is the torque that the contact forces ask for.
+RC_GTEST_PROP(PredictedLoads, ContainNoMeasuredTorque, ()) {
+  const Scene scene = any_scene(Root::floating);
+  Sample other = scene.sample;
+  other.tau *= -3.0;
+  RC_ASSERT(Scene(scene.robot, other).load == scene.load);
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
