@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 #include "shapeid/fast/kinematics.hpp"
@@ -43,6 +44,8 @@ class ContactJacobian {
 class MeasuredForces {
  public:
   explicit MeasuredForces(const Robot& robot) : contacts_(robot.contacts) {}
+
+  [[nodiscard]] std::size_t contacts() const noexcept { return contacts_.size(); }
 
   /// False, and `force` is left alone, if the sample has no force for each contact.
   [[nodiscard]] bool add_to(Eigen::VectorXd& force, Kinematics& kinematics,

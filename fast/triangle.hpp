@@ -23,9 +23,15 @@ class Triangle {
   void add(const Eigen::Ref<const Eigen::MatrixXd>& Y,
            const Eigen::Ref<const Eigen::VectorXd>& F) noexcept;
 
+  /// The same for rows that already are one matrix [Y F]: they are overwritten.
+  void absorb(Eigen::Ref<Eigen::MatrixXd> rows) noexcept;
+
   /// As if all rows of `other`, of as many unknowns, had been added: 2/3 (unknowns + 1)^3
   /// operations. So windows compressed apart become one, in any order.
   void merge(const Triangle& other) noexcept;
+
+  /// All rows so far count `factor` times (0 to 1) in the sum of squares.
+  void forget(double factor) noexcept;
 
   /// As constructed: no rows.
   void clear() noexcept;
@@ -34,7 +40,7 @@ class Triangle {
   [[nodiscard]] const Eigen::MatrixXd& R() const noexcept { return R_; }
 
  private:
-  void annihilate(Eigen::Index k, Eigen::Index rows) noexcept;
+  void annihilate(Eigen::Index k, Eigen::Ref<Eigen::MatrixXd> rows) noexcept;
 
   Eigen::MatrixXd R_;
   Eigen::MatrixXd pending_;  ///< rows on their way into R

@@ -65,6 +65,15 @@ Robot chain_of(int links) {
   return robot;
 }
 
+void add_shapes(int link, BodyModel& model) {
+  model.free_links.push_back(link);
+  for (int k = 0; k < 2; ++k) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() << 0.1, -0.05, 0.1 * k;
+    model.shapes.push_back({link, make_cuboid(Vector3d(0.1, 0.2, 0.3), pose), std::to_string(k)});
+  }
+}
+
 Robot bundled() {
   const std::string path = SHAPEID_SOURCE_DIR "/models/robots/quadruped.";
   Robot robot = read_urdf(path + "urdf").robot;
@@ -109,6 +118,25 @@ Sample any_sample(const Robot& robot) {
     s.contact_force.push_back(*vector3(100.0));
   }
   return s;
+}
+
+BodyModel any_model(const Robot& robot) {
+  BodyModel model;
+  model.known = stacked_parameters(robot);
+  for (int link = 0; link < robot.link_count(); ++link) {
+    const int role = *rc::gen::inRange(0, 4);  // known, known to be nothing, sought, carries a load
+    if (role == 1 || role == 2) model.known.segment<10>(10 * link).setZero();
+    if (role >= 2) add_shapes(link, model);
+  }
+  return model;
+}
+
+BodyModel base_model(const Robot& robot) {
+  BodyModel model;
+  model.known = stacked_parameters(robot);
+  model.known.head<10>().setZero();
+  add_shapes(0, model);
+  return model;
 }
 
 std::vector<NamedRobot> corner_robots() {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/models/body_model.hpp"
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
 
@@ -20,6 +21,13 @@ namespace shapeid::test {
 
 /// A sample of it, with a measured force for each contact.
 [[nodiscard]] Sample any_sample(const Robot& robot);
+
+/// Drawn with rapidcheck: some links free (perhaps none), the others known; a free link may carry a
+/// known part as well.
+[[nodiscard]] BodyModel any_model(const Robot& robot);
+
+/// The base as two cuboids, all other links known.
+[[nodiscard]] BodyModel base_model(const Robot& robot);
 
 struct NamedRobot {
   std::string name;

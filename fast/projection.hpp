@@ -1,0 +1,28 @@
+// Equations (7)-(9) without forming Q: reflections applied only to the columns that are needed.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace shapeid::fast {
+
+/// What `reference::eliminate_contacts` computes, up to the rotation that Q2 leaves open: the same
+/// normal equations and objective, the same rule for the rank of W^(1/2) J^T.
+class ContactElimination {
+ public:
+  /// `weight`: diagonal of W, one entry for each row. `most_forces`: the most columns that J^T can
+  /// have. The only call that allocates.
+  ContactElimination(const Eigen::VectorXd& weight, Eigen::Index most_forces);
+
+  /// `rows` = [Y F], not weighted, becomes [Q1 Q2]^T W^(1/2) [Y F]. Returns the rank: so many rows
+  /// at the top are the forces', all below are free of them. `JT` holds J^T, rows x forces, finite.
+  /// Never allocates (if matrices lie in memory column by column) or throws.
+  Eigen::Index operator()(const Eigen::Ref<const Eigen::MatrixXd>& JT,
+                          Eigen::Ref<Eigen::MatrixXd> rows) noexcept;
+
+ private:
+  Eigen::VectorXd root_;  ///< diagonal of W^(1/2)
+  double largest_root_;
+  Eigen::MatrixXd A_;  ///< W^(1/2) J^T, then its reflectors
+};
+
+}  // namespace shapeid::fast
