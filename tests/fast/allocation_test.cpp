@@ -3,6 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <new>
 #include <string>
@@ -12,6 +13,7 @@
 #include "shapeid/fast/inverse_dynamics.hpp"
 #include "shapeid/fast/regressor.hpp"
 #include "shapeid/fast/triangle.hpp"
+#include "shapeid/fast/window.hpp"
 #include "shapeid/tests/fast/allocations.hpp"
 #include "shapeid/tests/fast/cases.hpp"
 #include "shapeid/tests/fast/wanted.hpp"
@@ -74,6 +76,24 @@ RC_GTEST_PROP(Allocations, ContactsAndKnownLinksMakeNoneAfterConstruction, ()) {
                 jacobian.update(kinematics, sample);
                 static_cast<void>(forces.add_to(force, kinematics, sample));
               }
+            }) == 0U);
+}
+
+RC_GTEST_PROP(Allocations, WindowMakesNoneAfterConstruction, ()) {
+  const bool legged = *rc::gen::arbitrary<bool>();
+  const Robot robot = legged ? test::any_quadruped() : test::any_robot(1, 12);
+  const BodyModel model = legged ? test::base_model(robot) : test::any_model(robot);
+  std::vector<Sample> samples;
+  for (int k = 0; k < 12; ++k) samples.push_back(test::any_sample(robot));
+  samples.front().tau.setConstant(std::numeric_limits<double>::quiet_NaN());
+  fast::Window window(robot, model,
+                      *rc::gen::element(ContactTreatment::project, ContactTreatment::measured),
+                      Eigen::VectorXd::Ones(robot.dof()));
+  RC_ASSERT(allocations_during([&] {
+              for (const Sample& sample : samples) static_cast<void>(window.add(sample));
+              static_cast<void>(window.triangle());
+              window.forget(0.5);
+              window.clear();
             }) == 0U);
 }
 

@@ -153,6 +153,16 @@ TEST(SixRows, DeclineWhereTheCovarianceIsNearSingular) {
   EXPECT_FALSE(by_six_rows(leg, bent, test::base_model(leg), weight));
 }
 
+// With base rows that hardly count the covariance is well conditioned; the leg is not.
+TEST(SixRows, DeclineNearSingularLegsWhateverTheWeights) {
+  const Robot leg = corner_robot("one leg");
+  VectorXd weight = VectorXd::Ones(9);
+  weight.head<6>().setConstant(1e-12);
+  const BodyModel model = test::base_model(leg);
+  EXPECT_TRUE(by_six_rows(leg, Eigen::Vector3d(0.1, 0.8, -1.5), model, weight));
+  EXPECT_FALSE(by_six_rows(leg, Eigen::Vector3d(0.1, 0.8, -1e-3), model, weight));
+}
+
 TEST(SixRows, DeclineLegsWithAFreeLink) {
   const Robot leg = corner_robot("one leg");
   BodyModel model = test::base_model(leg);
