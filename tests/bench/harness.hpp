@@ -1,0 +1,28 @@
+// What the benchmark programs share: their arguments and how a peer is timed.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+#include <vector>
+
+#include "shapeid/tests/bench/peers/verdict.hpp"
+#include "shapeid/tests/bench/problems/seeds.hpp"
+
+namespace shapeid::bench {
+
+/// Takes --seeds=tuning (default) or --seeds=published out of the arguments, hands the others to
+/// Google Benchmark, and notes seeds, missing peers and the build in the output's context. Exits
+/// with status 2 for arguments that nobody knows.
+[[nodiscard]] SeedSet start(int argc, char** argv);
+
+/// Runs what was registered.
+void finish();
+
+/// Registers, for each peer, "row/solver.../solve" (everything prepared beforehand) and
+/// "row/solver.../triangle" (from R, c, U on). One iteration is one problem, in their order, each
+/// started at the last one's answer where the peer is warm. Verdicts stand in the counters.
+/// Only rows that --benchmark_filter lets through are judged.
+void register_solves(const std::string& row, const std::vector<DenseProblem>& problems);
+
+}  // namespace shapeid::bench

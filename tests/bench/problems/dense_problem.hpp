@@ -1,0 +1,39 @@
+// A mass problem in the forms that different solvers start from.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "shapeid/models/body_model.hpp"
+#include "shapeid/models/mass_problem.hpp"
+
+namespace shapeid::bench {
+
+/// A mass problem whose rows are compressed: Y is the triangle R (10 links x 10 links), F the
+/// right-hand side's part that parameters can reach, W is one. Columns of U stand link by link.
+struct DenseProblem {
+  MassProblem triangle;
+  std::vector<Eigen::Index> first;  ///< links + 1: where each link's columns start in U
+  bool follows = false;             ///< the next of its sequence: a warm start makes sense
+};
+
+/// What the peers ask for. minimise || A m - b ||^2, or 1/2 m^T H m + g^T m, over m >= 0.
+struct Prepared {
+  Eigen::MatrixXd A;
+  Eigen::VectorXd b;
+  Eigen::MatrixXd H;  ///< A^T A
+  Eigen::VectorXd g;  ///< -A^T b
+};
+
+enum class Form { triangle, rows, normal };
+
+/// Computes what `form` needs, block by block, into memory that is kept from call to call.
+void prepare(const DenseProblem& problem, Form form, Prepared& out);
+
+/// Compresses a problem of any number of rows. What no parameter reaches is left out: it is the
+/// same for every m. Rows are scaled to || F || = 1, so that the absolute tolerances which some
+/// solvers have mean the same for every problem.
+[[nodiscard]] DenseProblem compressed(const MassProblem& problem, const BodyModel& model);
+
+}  // namespace shapeid::bench

@@ -1,0 +1,18 @@
+// One window's solve: the base link as eleven shapes and as 54 points, cold and warm.
+#include "shapeid/tests/bench/harness.hpp"
+#include "shapeid/tests/bench/problems/windows.hpp"
+
+int main(int argc, char** argv) {
+  using namespace shapeid::bench;
+  const SeedSet seeds = start(argc, argv);
+  constexpr int sequences = 10, windows = 25;
+  for (const auto& [name, model] :
+       {std::pair("base11", base_shapes()), {"base54", base_points()}}) {
+    for (const auto& [suffix, noise] :
+         {std::pair("", Noise::sensors), std::pair("_noisefree", Noise::none)}) {
+      register_solves(std::string(name) + suffix,
+                      base_windows(model, seeds, noise, sequences, windows));
+    }
+  }
+  finish();
+}
