@@ -81,7 +81,8 @@ void finish() {
   benchmark::Shutdown();
 }
 
-void register_solves(const std::string& row, const std::vector<DenseProblem>& problems) {
+void register_solves(const std::string& row,
+                     const std::function<std::vector<DenseProblem>()>& make_problems) {
   std::vector<PeerKind> peers;
   for (const PeerKind& kind : mass_peers()) {
     if (wanted(row_name(row, kind, false)) || wanted(row_name(row, kind, true))) {
@@ -89,17 +90,20 @@ void register_solves(const std::string& row, const std::vector<DenseProblem>& pr
     }
   }
   if (peers.empty()) return;
+
+  const auto set = std::make_shared<Timed>();
+  set->problems = make_problems();
+  std::erase_if(peers, [&set](const PeerKind& kind) {
+    return kind.most_shapes < set->problems.front().triangle.shapes();
+  });
   // However few are timed, somebody else must be there to be compared with.
   const std::size_t timed = peers.size();
   add_lawson_hanson(peers);
-
-  const auto set = std::make_shared<Timed>();
-  set->problems = problems;
-  for (const DenseProblem& problem : problems) {
+  for (const DenseProblem& problem : set->problems) {
     set->prepared.emplace_back();
     prepare(problem, Form::normal, set->prepared.back());
   }
-  const std::vector<Verdict> verdicts = judge(peers, problems);
+  const std::vector<Verdict> verdicts = judge(peers, set->problems);
   for (std::size_t p = 0; p < timed; ++p) {
     for (const bool triangle : {false, true}) {
       benchmark::RegisterBenchmark(

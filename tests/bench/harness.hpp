@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ void finish();
 /// Registers, for each peer, "row/solver.../solve" (everything prepared beforehand) and
 /// "row/solver.../triangle" (from R, c, U on). One iteration is one problem, in their order, each
 /// started at the last one's answer where the peer is warm. Verdicts stand in the counters.
-/// Only rows that --benchmark_filter lets through are judged.
-void register_solves(const std::string& row, const std::vector<DenseProblem>& problems);
+/// Only what --benchmark_filter lets through is made and judged.
+void register_solves(const std::string& row,
+                     const std::function<std::vector<DenseProblem>()>& make_problems);
 
 }  // namespace shapeid::bench

@@ -10,8 +10,10 @@ int main(int argc, char** argv) {
        {std::pair("base11", base_shapes()), {"base54", base_points()}}) {
     for (const auto& [suffix, noise] :
          {std::pair("", Noise::sensors), std::pair("_noisefree", Noise::none)}) {
-      register_solves(std::string(name) + suffix,
-                      base_windows(model, seeds, noise, sequences, windows));
+      const auto make = [&model = model, seeds, n = noise] {
+        return base_windows(model, seeds, n, sequences, windows);
+      };
+      register_solves(std::string(name) + suffix, make);
     }
   }
   finish();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +33,8 @@ struct PeerKind {
   std::string name;
   bool warm = false;  ///< is given warm starts
   std::function<std::unique_ptr<MassPeer>()> make;
+  /// Beyond this a single solve takes too long to be worth a row.
+  Eigen::Index most_shapes = std::numeric_limits<Eigen::Index>::max();
 };
 
 /// Every solver that was found when this was built, and of the ones that were not the names.
