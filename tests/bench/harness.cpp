@@ -11,8 +11,6 @@ namespace {
 
 std::string filter = ".";
 
-bool wanted(const std::string& name) { return std::regex_search(name, std::regex(filter)); }
-
 std::string row_name(const std::string& row, const PeerKind& kind, bool triangle) {
   return row + "/" + kind.name + (triangle ? "/triangle" : "/solve");
 }
@@ -21,14 +19,6 @@ struct Timed {
   std::vector<DenseProblem> problems;
   std::vector<Prepared> prepared;
 };
-
-void count(benchmark::State& state, const Verdict& verdict) {
-  state.counters["problems"] = verdict.problems;
-  state.counters["failures"] = verdict.failures;
-  state.counters["wrong"] = verdict.wrong;
-  state.counters["worst_gap"] = verdict.worst_gap;
-  state.counters["worst_kkt"] = verdict.worst_kkt;
-}
 
 void time_solves(benchmark::State& state, const Timed& set, const PeerKind& kind,
                  bool from_triangle, const Verdict& verdict) {
@@ -47,7 +37,7 @@ void time_solves(benchmark::State& state, const Timed& set, const PeerKind& kind
     benchmark::DoNotOptimize(m.data());
     i = i + 1 == set.problems.size() ? 0 : i + 1;
   }
-  count(state, verdict);
+  add_counters(state, verdict);
 }
 
 }  // namespace
@@ -74,6 +64,16 @@ SeedSet start(int argc, char** argv) {
     benchmark::AddCustomContext("missing " + peer, "peer not found: row not met");
   }
   return seeds;
+}
+
+bool wanted(const std::string& name) { return std::regex_search(name, std::regex(filter)); }
+
+void add_counters(benchmark::State& state, const Verdict& verdict) {
+  state.counters["problems"] = verdict.problems;
+  state.counters["failures"] = verdict.failures;
+  state.counters["wrong"] = verdict.wrong;
+  state.counters["worst_gap"] = verdict.worst_gap;
+  state.counters["worst_kkt"] = verdict.worst_kkt;
 }
 
 void finish() {

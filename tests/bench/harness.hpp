@@ -20,6 +20,12 @@ namespace shapeid::bench {
 /// Runs what was registered.
 void finish();
 
+/// Whether --benchmark_filter lets this name through.
+[[nodiscard]] bool wanted(const std::string& name);
+
+/// The verdict as counters beside the time.
+void add_counters(benchmark::State& state, const Verdict& verdict);
+
 /// Registers, for each peer, "row/solver.../solve" (everything prepared beforehand) and
 /// "row/solver.../triangle" (from R, c, U on). One iteration is one problem, in their order, each
 /// started at the last one's answer where the peer is warm. Verdicts stand in the counters.

@@ -18,14 +18,13 @@ std::vector<Answer> answers_of(const PeerKind& kind, const std::vector<DenseProb
   const std::unique_ptr<MassPeer> peer = kind.make();
   std::vector<Answer> answers;
   Prepared prepared;
-  Eigen::VectorXd m, previous;
+  Eigen::VectorXd m, start;
   for (const DenseProblem& problem : problems) {
     prepare(problem, Form::normal, prepared);
-    const bool warm = kind.warm && problem.follows && m.size() == problem.triangle.shapes();
-    previous = m;
+    const bool warm = kind.warm && problem.follows && m.size() > 0;
+    if (warm) carry_over(problem, m, start);
     Answer answer;
-    answer.succeeded =
-        peer->solve(problem, prepared, warm ? &previous : nullptr, m) && m.allFinite();
+    answer.succeeded = peer->solve(problem, prepared, warm ? &start : nullptr, m) && m.allFinite();
     if (answer.succeeded) {
       answer.m = m.cwiseMax(0.0);
       answer.objective = objective(problem.triangle, answer.m).total();

@@ -48,6 +48,15 @@ void prepare(const DenseProblem& problem, Form form, Prepared& out) {
   if (form == Form::normal) form_normal(out, out.H, out.g);
 }
 
+void carry_over(const DenseProblem& to, const Eigen::VectorXd& last, Eigen::VectorXd& start) {
+  start.resize(to.triangle.shapes());
+  start.head(last.size()) = last;
+  if (!to.cut) return;
+  const double whole = last[to.cut->place];
+  start[to.cut->place] = to.cut->first_share * whole;
+  start[last.size()] = whole - start[to.cut->place];
+}
+
 DenseProblem compressed(const MassProblem& problem, const BodyModel& model) {
   const Eigen::Index n = problem.Y.cols();
   Eigen::MatrixXd rows(problem.Y.rows(), n + 1);

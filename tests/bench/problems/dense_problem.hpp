@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 #include "shapeid/models/body_model.hpp"
@@ -10,12 +11,20 @@
 
 namespace shapeid::bench {
 
+/// How a problem's columns came out of those of the problem before it: the shape at `place` was
+/// cut, its first part has its place, the second is the last column.
+struct Cut {
+  Eigen::Index place;
+  double first_share;  ///< of the volume
+};
+
 /// A mass problem whose rows are compressed: Y is the triangle R (10 links x 10 links), F the
 /// right-hand side's part that parameters can reach, W is one. Columns of U stand link by link.
 struct DenseProblem {
   MassProblem triangle;
   std::vector<Eigen::Index> first;  ///< links + 1: where each link's columns start in U
   bool follows = false;             ///< the next of its sequence: a warm start makes sense
+  std::optional<Cut> cut;           ///< if it follows by a division
 };
 
 /// What the peers ask for. minimise || A m - b ||^2, or 1/2 m^T H m + g^T m, over m >= 0.
@@ -30,6 +39,9 @@ enum class Form { triangle, rows, normal };
 
 /// Computes what `form` needs, block by block, into memory that is kept from call to call.
 void prepare(const DenseProblem& problem, Form form, Prepared& out);
+
+/// Where a solver may start: the last answer, with the cut shape's mass divided by volume.
+void carry_over(const DenseProblem& to, const Eigen::VectorXd& last, Eigen::VectorXd& start);
 
 /// Compresses a problem of any number of rows. What no parameter reaches is left out: it is the
 /// same for every m. Rows are scaled to || F || = 1, so that the absolute tolerances which some

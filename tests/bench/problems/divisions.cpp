@@ -1,0 +1,73 @@
+#include "shapeid/tests/bench/problems/divisions.hpp"
+
+#include <stdexcept>
+
+#include "shapeid/models/shapes_yaml.hpp"
+#include "shapeid/reference/division.hpp"
+#include "shapeid/reference/window.hpp"
+#include "shapeid/tests/bench/peers/mass_peer.hpp"
+#include "shapeid/tests/bench/problems/windows.hpp"
+
+namespace shapeid::bench {
+namespace {
+
+constexpr std::size_t run_samples = 500;
+
+/// Nothing known of the base but a box around its shapes.
+BodyModel base_box() {
+  const BodyModel shapes = base_shapes();
+  Eigen::AlignedBox3d box;
+  for (const SoughtShape& s : shapes.shapes) {
+    const auto [lower, upper] = bounds(s.shape);
+    box.extend(lower).extend(upper);
+  }
+  BodyModel model = load_region(quadruped(), 0, box.min(), box.max());
+  model.known = shapes.known;
+  return model;
+}
+
+Eigen::VectorXd masses_by_lawson_hanson(const DenseProblem& problem) {
+  std::vector<PeerKind> kinds;
+  add_lawson_hanson(kinds);
+  Prepared prepared;
+  Eigen::VectorXd m;
+  prepare(problem, Form::rows, prepared);
+  if (!kinds.front().make()->solve(problem, prepared, nullptr, m))
+    throw std::runtime_error("Lawson-Hanson failed while a division run was recorded");
+  return m;
+}
+
+}  // namespace
+
+std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number, Noise noise,
+                                       int shapes) {
+  const std::uint64_t seed = seed_of(seeds, number);
+  BodyModel model = base_box();
+  reference::Window window(quadruped(), model, reference::ContactTreatment::project,
+                           Eigen::VectorXd::Ones(quadruped().dof()));
+  for (const Sample& s : trot(quadruped(), some_truth(seed), seed, run_samples, noise))
+    window.add(s);
+
+  reference::DivisionOptions options;
+  // At lambda = 0 masses gather in at most ten parts. A reward for density would then cut the same
+  // part for ever, down to nothing.
+  options.k2 = 0.0;
+  options.expected_mass = stacked_parameters(quadruped())[0];  // the base's, as the file says
+  std::vector<DenseProblem> run = {compressed(window.problem(model), model)};
+  while (std::ssize(run) < shapes) {
+    const DenseProblem& last = run.back();
+    const Eigen::VectorXd m = masses_by_lawson_hanson(last);
+    const Eigen::Index place =
+        reference::next_to_divide(reference::division_criterion(model, m, options), options.tie);
+    if (place < 0)
+      throw std::runtime_error("a recorded division run ends early: nothing to divide");
+    reference::Split split = reference::split_shape(model, last.triangle, m, place);
+    DenseProblem next = {std::move(split.problem), {0, last.first.back() + 1}, true, std::nullopt};
+    next.cut = Cut{place, next.triangle.V[place] / last.triangle.V[place]};
+    model = std::move(split.model);
+    run.push_back(std::move(next));
+  }
+  return run;
+}
+
+}  // namespace shapeid::bench
