@@ -115,24 +115,46 @@ class Kinematics {
   std::uint64_t sample_number_ = 0;
 };
 
-inline Eigen::Vector3d Kinematics::Link::down(const Eigen::Vector3d& v) const noexcept {
-  if (about == any) return turn.transpose() * v;
-  const int i = about == 2 ? 0 : about + 1, j = about == 0 ? 2 : about - 1;
+namespace internal {
+
+/// v after the axes turned by (c, s) about axis k: written out, so that it stays in registers.
+template <int k>
+[[nodiscard]] inline Eigen::Vector3d turned_about(double c, double s,
+                                                  const Eigen::Vector3d& v) noexcept {
+  constexpr int i = (k + 1) % 3, j = (k + 2) % 3;
   Eigen::Vector3d w;
-  w[about] = v[about];
-  w[i] = cosine * v[i] + sine * v[j];
-  w[j] = cosine * v[j] - sine * v[i];
+  w[k] = v[k];
+  w[i] = c * v[i] + s * v[j];
+  w[j] = c * v[j] - s * v[i];
   return w;
 }
 
+}  // namespace internal
+
+inline Eigen::Vector3d Kinematics::Link::down(const Eigen::Vector3d& v) const noexcept {
+  switch (about) {
+    case 0:
+      return internal::turned_about<0>(cosine, sine, v);
+    case 1:
+      return internal::turned_about<1>(cosine, sine, v);
+    case 2:
+      return internal::turned_about<2>(cosine, sine, v);
+    default:
+      return turn.transpose() * v;
+  }
+}
+
 inline Eigen::Vector3d Kinematics::Link::up(const Eigen::Vector3d& v) const noexcept {
-  if (about == any) return turn * v;
-  const int i = about == 2 ? 0 : about + 1, j = about == 0 ? 2 : about - 1;
-  Eigen::Vector3d w;
-  w[about] = v[about];
-  w[i] = cosine * v[i] - sine * v[j];
-  w[j] = cosine * v[j] + sine * v[i];
-  return w;
+  switch (about) {
+    case 0:
+      return internal::turned_about<0>(cosine, -sine, v);
+    case 1:
+      return internal::turned_about<1>(cosine, -sine, v);
+    case 2:
+      return internal::turned_about<2>(cosine, -sine, v);
+    default:
+      return turn * v;
+  }
 }
 
 }  // namespace shapeid::fast

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapeid/fast/reflections.hpp"
 #include "shapeid/models/contract.hpp"
 
 namespace shapeid::fast {
@@ -20,15 +21,8 @@ constexpr double smallest_lever = 1e-12;
                                            const Eigen::Ref<Eigen::MatrixXd>& rows,
                                            const Eigen::MatrixXd& A) {
   if (rows.rows() != A.rows() || JT.rows() != A.rows()) return "not a row for each weight";
-  if (JT.cols() > A.cols()) return "more forces than were announced";
+  if (2 * JT.cols() > A.cols()) return "more forces than were announced";
   return std::nullopt;
-}
-
-/// c becomes (1 - v v^T / half) c.
-template <typename Reflector, typename Column>
-void reflect(const Reflector& v, double half, Column&& c) noexcept {
-  const double share = v.dot(c) / half;
-  c -= share * v;
 }
 
 }  // namespace
@@ -36,7 +30,9 @@ void reflect(const Reflector& v, double half, Column&& c) noexcept {
 ContactElimination::ContactElimination(const Eigen::VectorXd& weight, Eigen::Index most_forces)
     : root_(weight.cwiseSqrt()),
       largest_root_(weight.size() > 0 ? root_.maxCoeff() : 0.0),
-      A_(weight.size(), most_forces) {
+      most_forces_(most_forces),
+      A_(weight.size(), 2 * most_forces),
+      inverse_half_(most_forces) {
   SHAPEID_CONTRACT(why_no_weight(weight));
 }
 
@@ -54,12 +50,14 @@ Eigen::Index ContactElimination::operator()(const Eigen::Ref<const Eigen::Matrix
   }
   const double threshold = smallest_lever * largest_root_ * largest;
 
-  for (Eigen::Index k = 0; k < most; ++k) {
-    const Eigen::Index left = A.rows() - k;
+  auto V = A_.rightCols(most_forces_);
+  Eigen::Index rank = 0;
+  for (; rank < most; ++rank) {
+    const Eigen::Index left = A.rows() - rank;
     // Column pivot: what is left of the longest column.
-    Eigen::Index pivot = k;
+    Eigen::Index pivot = rank;
     double square = 0.0;
-    for (Eigen::Index j = k; j < forces; ++j) {
+    for (Eigen::Index j = rank; j < forces; ++j) {
       const double candidate = A.col(j).tail(left).squaredNorm();
       if (candidate > square) {
         square = candidate;
@@ -67,17 +65,26 @@ Eigen::Index ContactElimination::operator()(const Eigen::Ref<const Eigen::Matrix
       }
     }
     const double length = std::sqrt(square);
-    if (!(length > threshold)) return k;
-    if (pivot != k) A.col(k).swap(A.col(pivot));
+    if (!(length > threshold)) break;
     // v = x - image e1, where the image takes the sign that x does not have: nothing cancels.
-    auto v = A.col(k).tail(left);
-    const double image = v[0] > 0.0 ? -length : length;
-    v[0] -= image;
-    const double half = length * std::abs(v[0]);  // of v^T v
-    for (Eigen::Index j = k + 1; j < forces; ++j) reflect(v, half, A.col(j).tail(left));
-    for (Eigen::Index j = 0; j < rows.cols(); ++j) reflect(v, half, rows.col(j).tail(left));
+    auto v = V.col(rank);
+    v.head(rank).setZero();
+    v.tail(left) = A.col(pivot).tail(left);
+    if (pivot != rank) A.col(pivot).tail(left) = A.col(rank).tail(left);
+    const double image = v[rank] > 0.0 ? -length : length;
+    v[rank] -= image;
+    inverse_half_[rank] = 1.0 / (length * std::abs(v[rank]));
+    Reflections next(v);
+    next.append(0.0, inverse_half_[rank]);
+    next.apply(A.rightCols(forces - rank - 1));
   }
-  return most;
+  for (Eigen::Index first = 0; first < rank; first += Reflections::most) {
+    const Eigen::Index count = std::min<Eigen::Index>(Reflections::most, rank - first);
+    Reflections block(V.middleCols(first, count));
+    for (Eigen::Index k = first; k < first + count; ++k) block.append(0.0, inverse_half_[k]);
+    block.apply(rows);
+  }
+  return rank;
 }
 
 }  // namespace shapeid::fast

@@ -22,7 +22,9 @@ class ContactElimination {
  private:
   Eigen::VectorXd root_;  ///< diagonal of W^(1/2)
   double largest_root_;
-  Eigen::MatrixXd A_;  ///< W^(1/2) J^T, then its reflectors
+  Eigen::Index most_forces_;
+  Eigen::MatrixXd A_;  ///< W^(1/2) J^T on its way to a triangle, and beside it the reflections
+  Eigen::VectorXd inverse_half_;
 };
 
 }  // namespace shapeid::fast

@@ -9,7 +9,6 @@
 namespace shapeid::fast {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 [[maybe_unused]] Violation why_unknown_link(const Robot& robot, const std::vector<int>& links) {
@@ -22,72 +21,63 @@ using Eigen::Vector3d;
   return std::nullopt;
 }
 
-/// A motion's force and moment about the link origin for each of the ten parameters: one parameter
-/// a row, so that parameters share vector registers. The tensor takes no force.
-struct Wrench {
-  Eigen::Matrix<double, 4, 3> force;
-  Eigen::Matrix<double, 10, 3> moment;
-};
+}  // namespace
 
-/// Equation (2), link axes.
-Wrench own_wrench(const LinkMotion& link) noexcept {
+Eigen::Matrix<double, 10, 6> body_wrench(const LinkMotion& link) noexcept {
   const Vector3d& a = link.a;
   const double x = link.omega.x(), y = link.omega.y(), z = link.omega.z();
   const double ax = link.alpha.x(), ay = link.alpha.y(), az = link.alpha.z();
   const double xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z;
-  Wrench w;
-  w.force.row(0) = a;
-  w.force.bottomRows<3>() = link.K.transpose();
+  Eigen::Matrix<double, 10, 6> w;
+  w.topLeftCorner<1, 3>() = a.transpose();
+  w.block<3, 3>(1, 0) = link.K.transpose();
+  w.bottomLeftCorner<6, 3>().setZero();
   // h x a, then L(alpha) + S(omega) L(omega) for (Ixx, Ixy, Ixz, Iyy, Iyz, Izz).
-  w.moment << 0.0, 0.0, 0.0,      //
-      0.0, -a.z(), a.y(),         //
-      a.z(), 0.0, -a.x(),         //
-      -a.y(), a.x(), 0.0,         //
-      ax, xz, -xy,                //
-      ay - xz, ax + yz, xx - yy,  //
-      az + xy, zz - xx, ax - yz,  //
-      -yz, ay, xy,                //
-      yy - zz, az - xy, ay + xz,  //
+  w.rightCols<3>() << 0.0, 0.0, 0.0,  //
+      0.0, -a.z(), a.y(),             //
+      a.z(), 0.0, -a.x(),             //
+      -a.y(), a.x(), 0.0,             //
+      ax, xz, -xy,                    //
+      ay - xz, ax + yz, xx - yy,      //
+      az + xy, zz - xx, ax - yz,      //
+      -yz, ay, xy,                    //
+      yy - zz, az - xy, ay + xz,      //
       yz, -xz, az;
   return w;
 }
-
-/// The moment about the base origin that forces at p add.
-void add_levers(const Vector3d& p, Wrench& w) noexcept {
-  w.moment.topRows<4>().col(0) += p.y() * w.force.col(2) - p.z() * w.force.col(1);
-  w.moment.topRows<4>().col(1) += p.z() * w.force.col(0) - p.x() * w.force.col(2);
-  w.moment.topRows<4>().col(2) += p.x() * w.force.col(1) - p.y() * w.force.col(0);
-}
-
-}  // namespace
 
 // Equation (3): in each generalised direction the wrench counts by the velocity that this direction
 // gives the link.
 void write_columns(Kinematics& kinematics, int link,
                    Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, 10>> Y) noexcept {
   const int base_dof = kinematics.base_dof();
-  Wrench w = own_wrench(kinematics.motion(link));
+  const Eigen::Matrix<double, 10, 6> own = body_wrench(kinematics.motion(link));
+  // In base axes; about the base origin. The tensor takes no force.
+  Eigen::Matrix<double, 4, 3> force = own.topLeftCorner<4, 3>();
+  Eigen::Matrix<double, 10, 3> moment = own.rightCols<3>();
   if (link != 0) {
     const LinkPose& pose = kinematics.pose(link);
-    const Matrix3d turned = pose.R.transpose();
-    w.force = (w.force * turned).eval();
-    w.moment = (w.moment * turned).eval();
-    add_levers(pose.p, w);
+    const Vector3d& p = pose.p;
+    force.noalias() = own.topLeftCorner<4, 3>() * pose.R.transpose();
+    moment.noalias() = own.rightCols<3>() * pose.R.transpose();
+    moment.topRows<4>().col(0) += p.y() * force.col(2) - p.z() * force.col(1);
+    moment.topRows<4>().col(1) += p.z() * force.col(0) - p.x() * force.col(2);
+    moment.topRows<4>().col(2) += p.x() * force.col(1) - p.y() * force.col(0);
   }
   if (base_dof != 0) {
-    Y.topLeftCorner<3, 4>() = w.force.transpose();
-    Y.middleRows<3>(3) = w.moment.transpose();
+    Y.topLeftCorner<3, 4>() = force.transpose();
+    Y.middleRows<3>(3) = moment.transpose();
   }
   for (int i = link; i != 0; i = kinematics.parent(i)) {
     const Vector3d z = kinematics.axis_in_base(i);
     auto row = Y.row(base_dof + i - 1);
     if (kinematics.slides(i)) {
-      row.head<4>() = (w.force * z).transpose();
+      row.head<4>() = (force * z).transpose();
     } else {
       // The axis passes through the joint, not through the base origin.
       const Vector3d lever = kinematics.pose(i).p.cross(z);
-      Vector10 share = w.moment * z;
-      share.head<4>() += w.force * lever;
+      Vector10 share = moment * z;
+      share.head<4>() += force * lever;
       row = share.transpose();
     }
   }

@@ -12,6 +12,10 @@
 
 namespace shapeid::fast {
 
+/// Equation (2), transposed: each of a body's ten parameters takes a row's force (N, first three)
+/// and moment about the link origin (N m), link axes. So parameters share vector registers.
+[[nodiscard]] Eigen::Matrix<double, 10, 6> body_wrench(const LinkMotion& link) noexcept;
+
 /// Writes the ten columns of one link into `Y` (dof x 10), which holds zeros, or the same link's
 /// columns of another sample: entries that are zero for every motion are left alone. The kinematics
 /// have been started with the sample.

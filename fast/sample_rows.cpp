@@ -77,7 +77,7 @@ Verdict SampleRows::update(const Sample& sample) noexcept {
       contacts_ == ContactTreatment::project ? sample.in_contact : nothing_touches_;
   by_six_rows_ = six_rows_ && (*six_rows_)(kinematics_, unknown, F_, six_);
   if (by_six_rows_) {
-    rows_.topRows<6>() = six_.YF;
+    rows_.topRows<6>() = six_.transposed.transpose();
     count_ = 6;
     constant_ = six_.constant;
   } else {

@@ -31,15 +31,16 @@ constexpr double largest_condition = 1e4;
   return std::nullopt;
 }
 
-/// Lower triangle L of L L^T = M, which has no eigenvalue below one.
-void cholesky(Matrix6d& M) noexcept {
-  for (int j = 0; j < 6; ++j) {
-    M(j, j) = std::sqrt(M(j, j));
-    const double inverse = 1.0 / M(j, j);
-    for (int i = j + 1; i < 6; ++i) M(i, j) *= inverse;
-    for (int k = j + 1; k < 6; ++k) {
-      for (int i = k; i < 6; ++i) M(i, k) -= M(i, j) * M(k, j);
+/// M = L D L^T, which has no eigenvalue below one: L below the diagonal, 1 / D on it. Without the
+/// square roots of Cholesky each column waits for one division only.
+void factorise(Matrix6d& M) noexcept {
+  for (int k = 0; k < 6; ++k) {
+    M(k, k) = 1.0 / M(k, k);
+    for (int j = k + 1; j < 6; ++j) {
+      const double l = M(j, k) * M(k, k);
+      for (int i = j; i < 6; ++i) M(i, j) -= M(i, k) * l;
     }
+    for (int i = k + 1; i < 6; ++i) M(i, k) *= M(k, k);
   }
 }
 
@@ -98,20 +99,17 @@ bool SixRows::operator()(Kinematics& kinematics, const std::vector<bool>& in_con
     }
   }
   if (!(condition < largest_condition)) return false;
-  cholesky(M);
+  factorise(M);
 
-  // Columns hold the six rows, so that the ten parameters and F share vector registers.
-  Eigen::Matrix<double, 6, 10> Y = Eigen::Matrix<double, 6, 10>::Zero();
-  write_columns(kinematics, 0, Y);
+  // A row of zeros makes columns of whole registers.
   Eigen::Matrix<double, 12, 6> T;
-  T.topRows<10>() = Y.transpose() * root_.head<6>().asDiagonal();
+  T.topRows<10>() = body_wrench(kinematics.motion(0)) * root_.head<6>().asDiagonal();
   T.row(10) = base_F.cwiseProduct(root_.head<6>()).transpose();
   T.row(11).setZero();
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < i; ++j) T.col(i) -= M(i, j) * T.col(j);
-    T.col(i) *= 1.0 / M(i, i);
   }
-  rows.YF = T.topRows<11>().transpose();
+  for (int i = 0; i < 6; ++i) rows.transposed.col(i) = T.col(i).head<11>() * std::sqrt(M(i, i));
   rows.constant = 0.0;
   for (std::size_t link = 1; link < standing_.size(); ++link) {
     if (standing_[link]) continue;

@@ -22,9 +22,9 @@ namespace shapeid::fast {
 /// singular posture; weights that make the rows near singular.
 class SixRows {
  public:
-  /// [Y F] of one sample, weighted and free of contact forces.
+  /// Of one sample, weighted and free of contact forces.
   struct Rows {
-    Eigen::Matrix<double, 6, 11> YF;
+    Eigen::Matrix<double, 11, 6> transposed;  ///< of [Y F]
     /// Sum of squares of the rows that are free of the base's parameters as well: a constant of the
     /// objective.
     double constant = 0.0;

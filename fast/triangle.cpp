@@ -1,15 +1,18 @@
 #include "shapeid/fast/triangle.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
+#include "shapeid/fast/reflections.hpp"
 #include "shapeid/models/contract.hpp"
 
 namespace shapeid::fast {
 namespace {
+
+// From here on columns no longer stay in the nearest cache from one reflection to the next, and
+// several reflections at once are faster; below, making a block of them costs more than it saves.
+constexpr Eigen::Index many_unknowns = 30;
 
 [[maybe_unused]] Violation why_other_sizes(const Eigen::Ref<const Eigen::MatrixXd>& Y,
                                            const Eigen::Ref<const Eigen::VectorXd>& F,
@@ -27,7 +30,7 @@ namespace {
 
 [[maybe_unused]] Violation why_other_unknowns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   if (a.cols() == b.cols()) return std::nullopt;
-  return "triangles of different unknowns do not merge";
+  return "triangles of different unknowns";
 }
 
 [[maybe_unused]] Violation why_no_factor(double factor) {
@@ -35,43 +38,12 @@ namespace {
   return "a forgetting factor is not between 0 and 1";
 }
 
-/// Four numbers that are worked on at once, in as many registers as the machine needs for them.
-using Pack = Eigen::Array<double, 4, 1>;
-using PackedHere = Eigen::Map<Pack>;
-using ReadHere = Eigen::Map<const Pack>;
-
-/// Reflects `count` columns side by side, `stride` apart, with the rows of R above them: v is read
-/// once for all of them, and their sums do not wait for each other.
-template <int count>
-void reflect(const double* v, Eigen::Index rows, double* columns, Eigen::Index stride, double top,
-             double inverse_half, double* row_of_R, Eigen::Index stride_of_R) noexcept {
-  std::array<Pack, count> sums;
-  sums.fill(Pack::Zero());
-  const Eigen::Index packed = rows - rows % 4;
-  for (Eigen::Index i = 0; i < packed; i += 4) {
-    const Pack x = ReadHere(v + i);
-    for (int j = 0; j < count; ++j) sums[j] += x * ReadHere(columns + j * stride + i);
-  }
-  std::array<double, count> shares;
-  for (int j = 0; j < count; ++j) {
-    double sum = sums[j].sum() + top * row_of_R[j * stride_of_R];
-    for (Eigen::Index i = packed; i < rows; ++i) sum += v[i] * columns[j * stride + i];
-    shares[j] = sum * inverse_half;
-    row_of_R[j * stride_of_R] -= shares[j] * top;
-  }
-  for (Eigen::Index i = 0; i < packed; i += 4) {
-    const Pack x = ReadHere(v + i);
-    for (int j = 0; j < count; ++j) PackedHere(columns + j * stride + i) -= shares[j] * x;
-  }
-  for (Eigen::Index i = packed; i < rows; ++i) {
-    for (int j = 0; j < count; ++j) columns[j * stride + i] -= shares[j] * v[i];
-  }
-}
-
 }  // namespace
 
 Triangle::Triangle(Eigen::Index unknowns)
-    : R_(Eigen::MatrixXd::Zero(unknowns + 1, unknowns + 1)), pending_(unknowns + 1, unknowns + 1) {}
+    : at_once_(unknowns < many_unknowns ? 1 : Reflections::most),
+      R_(Eigen::MatrixXd::Zero(unknowns + 1, unknowns + 1)),
+      pending_(unknowns + 1, unknowns + 1) {}
 
 void Triangle::add(const Eigen::Ref<const Eigen::MatrixXd>& Y,
                    const Eigen::Ref<const Eigen::VectorXd>& F) noexcept {
@@ -86,14 +58,23 @@ void Triangle::add(const Eigen::Ref<const Eigen::MatrixXd>& Y,
 
 void Triangle::absorb(Eigen::Ref<Eigen::MatrixXd> rows) noexcept {
   SHAPEID_CONTRACT(why_other_columns(rows, R_));
-  for (Eigen::Index k = 0; k < R_.cols(); ++k) annihilate(k, rows);
+  for (Eigen::Index k = 0; k < R_.cols(); k += at_once_) annihilate(k, rows);
 }
 
 void Triangle::merge(const Triangle& other) noexcept {
   SHAPEID_CONTRACT(why_other_unknowns(R_, other.R_));
   pending_ = other.R_;
-  // Column k of a triangle has k + 1 rows, and reflecting these fills no others.
-  for (Eigen::Index k = 0; k < R_.cols(); ++k) annihilate(k, pending_.topRows(k + 1));
+  for (Eigen::Index k = 0; k < R_.cols(); k += at_once_) {
+    // The columns of a triangle up to number k have k + 1 rows, and reflecting these fills no
+    // others.
+    const Eigen::Index rows = std::min(k + at_once_, R_.cols());
+    annihilate(k, pending_.topRows(rows));
+  }
+}
+
+void Triangle::assign(const Triangle& other) noexcept {
+  SHAPEID_CONTRACT(why_other_unknowns(R_, other.R_));
+  R_ = other.R_;
 }
 
 void Triangle::forget(double factor) noexcept {
@@ -103,28 +84,36 @@ void Triangle::forget(double factor) noexcept {
 
 void Triangle::clear() noexcept { R_.setZero(); }
 
-// Householder's reflection 1 - 2 v v^T / (v^T v) of row k of R and the pending rows that makes the
-// pending rows' column k zero. v = (R_kk - image, column) and v^T v = 2 length |R_kk - image|; the
-// image takes the sign that R_kk does not have, so that nothing cancels.
-void Triangle::annihilate(Eigen::Index k, Eigen::Ref<Eigen::MatrixXd> rows) noexcept {
-  const auto column = rows.col(k);
-  const double square = column.squaredNorm();
-  // Shorter than 1e-154: its square is no full double, and a reflection made of it would be none.
-  // It is left out, an error of its own size.
-  if (square < std::numeric_limits<double>::min()) return;
-  const double length = std::sqrt(R_(k, k) * R_(k, k) + square);
-  const double image = R_(k, k) > 0.0 ? -length : length;
-  const double top = R_(k, k) - image;
-  const double inverse_half = 1.0 / (length * std::abs(top));  // of v^T v
-  R_(k, k) = image;
-  const Eigen::Index n = R_.cols(), stride = rows.outerStride();
-  const auto reflect_from = [&]<int count>(Eigen::Index j, std::integral_constant<int, count>) {
-    reflect<count>(&rows.coeffRef(0, k), rows.rows(), &rows.coeffRef(0, j), stride, top,
-                   inverse_half, &R_.coeffRef(k, j), n);
-  };
-  Eigen::Index j = k + 1;
-  for (; j + 4 <= n; j += 4) reflect_from(j, std::integral_constant<int, 4>());
-  for (; j < n; ++j) reflect_from(j, std::integral_constant<int, 1>());
+// Makes the rows' columns from `first` on zero, as many as are reflected together. Householder's
+// reflection 1 - x x^T / half of row k of R and all rows makes column k zero: x = (R_kk - image,
+// column) and half = length |R_kk - image|; the image takes the sign that R_kk does not have, so
+// that nothing cancels.
+void Triangle::annihilate(Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> rows) noexcept {
+  const Eigen::Index end = std::min(first + at_once_, R_.cols());
+  Reflections block(rows.middleCols(first, end - first));
+  for (Eigen::Index k = first; k < end; ++k) {
+    const auto column = rows.col(k);
+    // The earlier ones of the block have already been applied to this column.
+    const double square = column.squaredNorm();
+    // Shorter than 1e-154: its square is no full double, and a reflection made of it would be none.
+    // It is left out, an error of its own size.
+    double top = 0.0, inverse_half = 0.0;
+    if (!(square < std::numeric_limits<double>::min())) {
+      const double length = std::sqrt(R_(k, k) * R_(k, k) + square);
+      const double image = R_(k, k) > 0.0 ? -length : length;
+      top = R_(k, k) - image;
+      inverse_half = 1.0 / (length * std::abs(top));
+      R_(k, k) = image;
+    }
+    if (const Eigen::Index left = end - k - 1; left > 0) {
+      Reflections alone(column);
+      alone.append(top, inverse_half);
+      alone.apply(rows.middleCols(k + 1, left), R_.block(k, k + 1, 1, left));
+    }
+    block.append(top, inverse_half);
+  }
+  const Eigen::Index left = R_.cols() - end;
+  block.apply(rows.rightCols(left), R_.block(first, end, end - first, left));
 }
 
 }  // namespace shapeid::fast

@@ -30,6 +30,9 @@ class Triangle {
   /// operations. So windows compressed apart become one, in any order.
   void merge(const Triangle& other) noexcept;
 
+  /// As `other`, of as many unknowns; unlike a copy it never asks for memory.
+  void assign(const Triangle& other) noexcept;
+
   /// All rows so far count `factor` times (0 to 1) in the sum of squares.
   void forget(double factor) noexcept;
 
@@ -40,8 +43,9 @@ class Triangle {
   [[nodiscard]] const Eigen::MatrixXd& R() const noexcept { return R_; }
 
  private:
-  void annihilate(Eigen::Index k, Eigen::Ref<Eigen::MatrixXd> rows) noexcept;
+  void annihilate(Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> rows) noexcept;
 
+  Eigen::Index at_once_;  ///< reflections that are made before other columns see them
   Eigen::MatrixXd R_;
   Eigen::MatrixXd pending_;  ///< rows on their way into R
 };

@@ -11,6 +11,7 @@
 
 #include "shapeid/models/contract.hpp"
 #include "shapeid/reference/triangle.hpp"
+#include "shapeid/tests/fast/triangles.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -21,62 +22,19 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using fast::Triangle;
+using test::add;
+using test::arbitrary_rows;
 using test::few_hundred_eps;
+using test::gram_error;
 using test::scaled;
+using test::triangle_of;
 
 static_assert(
     noexcept(std::declval<Triangle&>().add(std::declval<const Eigen::Ref<const MatrixXd>&>(),
                                            std::declval<const Eigen::Ref<const VectorXd>&>())));
 static_assert(noexcept(std::declval<Triangle&>().merge(std::declval<const Triangle&>())));
+static_assert(noexcept(std::declval<Triangle&>().forget(0.5)));
 static_assert(noexcept(std::declval<Triangle&>().clear()));
-
-/// Rows [Y F] whose columns differ in size by up to 1e12, as those of mass and of small tensors do;
-/// some columns are zero or depend on others, as those of a fixed base's first links do.
-MatrixXd arbitrary_rows(Index columns, Index most_rows) {
-  const Index rows = *rc::gen::inRange<Index>(0, most_rows + 1);
-  MatrixXd result(rows, columns);
-  result.reshaped() = *test::vector(rows * columns, 1.0);
-  for (Index j = 0; j < columns; ++j) {
-    switch (*rc::gen::inRange(0, 6)) {
-      case 0:
-        result.col(j).setZero();
-        break;
-      case 1:
-        if (j > 0) result.col(j) = result.col(j - 1) - 2.0 * result.col(0);
-        break;
-      default:
-        break;
-    }
-  }
-  for (Index j = 0; j < columns; ++j) result.col(j) *= *test::magnitude(1e-6, 1e6);
-  return result;
-}
-
-void add(Triangle& triangle, const MatrixXd& rows) {
-  triangle.add(rows.leftCols(rows.cols() - 1), rows.col(rows.cols() - 1));
-}
-
-Triangle triangle_of(const MatrixXd& rows) {
-  Triangle result(rows.cols() - 1);
-  add(result, rows);
-  return result;
-}
-
-/// How far R^T R is from rows^T rows, each entry against the lengths of the two columns it belongs
-/// to: Householder's backward error is small column by column, not only for the largest.
-double gram_error(const MatrixXd& R, const MatrixXd& rows) {
-  const VectorXd lengths = rows.colwise().norm();
-  const MatrixXd error = R.transpose() * R - rows.transpose() * rows;
-  double worst = 0.0;
-  for (Index i = 0; i < error.rows(); ++i) {
-    for (Index j = 0; j < error.cols(); ++j) {
-      const double here =
-          scaled(std::abs(error(i, j)), lengths[i] * lengths[j], rows.rows() + rows.cols());
-      if (!(here <= worst)) worst = here;  // a NaN is the worst
-    }
-  }
-  return worst;
-}
 
 bool is_upper_triangle(const MatrixXd& R) {
   return MatrixXd(R.triangularView<Eigen::StrictlyLower>()).isZero(0.0);
@@ -164,6 +122,43 @@ RC_GTEST_PROP(FastTriangle, NothingAddedNothingChanged, ()) {
   RC_ASSERT(triangle.R() == before);
 }
 
+// Columns enough that several reflections are made at once, and a last block of fewer.
+RC_GTEST_PROP(FastTriangle, OfManyColumnsHasTheSumOfSquaresOfItsRows, ()) {
+  const Index columns = *rc::gen::inRange<Index>(28, 60);
+  const MatrixXd first = arbitrary_rows(columns, 90), second = arbitrary_rows(columns, 90);
+  Triangle triangle = triangle_of(first);
+  add(triangle, second);
+  RC_ASSERT(is_upper_triangle(triangle.R()));
+  RC_ASSERT(gram_error(triangle.R(), reference::stacked(first, second)) < few_hundred_eps);
+  Triangle merged = triangle_of(second);
+  merged.merge(triangle_of(first));
+  RC_ASSERT(is_upper_triangle(merged.R()));
+  RC_ASSERT(gram_error(merged.R(), reference::stacked(first, second)) < few_hundred_eps);
+}
+
+RC_GTEST_PROP(FastTriangle, AbsorbsRowsAsItAddsThem, ()) {
+  MatrixXd rows = arbitrary_rows(*rc::gen::inRange<Index>(1, 40), 40);
+  Triangle triangle(rows.cols() - 1);
+  const MatrixXd before = rows;
+  triangle.absorb(rows);
+  RC_ASSERT(gram_error(triangle.R(), before) < few_hundred_eps);
+}
+
+RC_GTEST_PROP(FastTriangle, ForgetsByTheFactorSaid, ()) {
+  const MatrixXd rows = arbitrary_rows(*rc::gen::inRange<Index>(1, 14), 40);
+  const double factor = *test::real(0.0, 1.0);
+  Triangle triangle = triangle_of(rows);
+  triangle.forget(factor);
+  RC_ASSERT(gram_error(triangle.R(), std::sqrt(factor) * rows) < few_hundred_eps);
+}
+
+RC_GTEST_PROP(FastTriangle, AssignedIsTheOther, ()) {
+  const MatrixXd rows = arbitrary_rows(*rc::gen::inRange<Index>(1, 14), 40);
+  Triangle triangle = triangle_of(2.0 * rows);
+  triangle.assign(triangle_of(rows));
+  RC_ASSERT(triangle.R() == triangle_of(rows).R());
+}
+
 RC_GTEST_PROP(FastTriangle, ClearedIsAsNew, ()) {
   const Index columns = *rc::gen::inRange<Index>(1, 14);
   const MatrixXd first = arbitrary_rows(columns, 40), second = arbitrary_rows(columns, 40);
@@ -207,6 +202,7 @@ TEST(FastTriangleDeathTest, OtherSizesEndTheProgram) {
   EXPECT_DEATH(triangle.add(MatrixXd::Ones(2, 4), VectorXd::Ones(2)), "each unknown");
   EXPECT_DEATH(triangle.add(MatrixXd::Ones(2, 3), VectorXd::Ones(3)), "differ in rows");
   EXPECT_DEATH(triangle.merge(Triangle(2)), "different unknowns");
+  EXPECT_DEATH(triangle.forget(1.5), "between 0 and 1");
 }
 #endif
 
