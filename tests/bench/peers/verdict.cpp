@@ -8,12 +8,6 @@
 namespace shapeid::bench {
 namespace {
 
-struct Answer {
-  bool succeeded = false;
-  double objective = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd m;
-};
-
 std::vector<Answer> answers_of(const PeerKind& kind, const std::vector<DenseProblem>& problems) {
   const std::unique_ptr<MassPeer> peer = kind.make();
   std::vector<Answer> answers;
@@ -23,50 +17,58 @@ std::vector<Answer> answers_of(const PeerKind& kind, const std::vector<DenseProb
     prepare(problem, Form::normal, prepared);
     const bool warm = kind.warm && problem.follows && m.size() > 0;
     if (warm) carry_over(problem, m, start);
-    Answer answer;
-    answer.succeeded = peer->solve(problem, prepared, warm ? &start : nullptr, m) && m.allFinite();
-    if (answer.succeeded) {
-      answer.m = m.cwiseMax(0.0);
-      answer.objective = objective(problem.triangle, answer.m).total();
-    } else {
-      m.resize(0);  // no warm start from a failure
-    }
-    answers.push_back(std::move(answer));
+    const bool succeeded = peer->solve(problem, prepared, warm ? &start : nullptr, m);
+    answers.push_back(answer(problem, succeeded, m));
+    if (!answers.back().succeeded) m.resize(0);  // no warm start from a failure
   }
   return answers;
 }
 
 }  // namespace
 
-std::vector<Verdict> judge(const std::vector<PeerKind>& peers,
-                           const std::vector<DenseProblem>& problems) {
-  std::vector<std::vector<Answer>> all;
-  for (const PeerKind& kind : peers) all.push_back(answers_of(kind, problems));
+Answer answer(const DenseProblem& problem, bool succeeded, const Eigen::VectorXd& m) {
+  Answer a;
+  a.succeeded = succeeded && m.allFinite();
+  if (a.succeeded) {
+    a.m = m.cwiseMax(0.0);
+    a.objective = objective(problem.triangle, a.m).total();
+  }
+  return a;
+}
 
-  std::vector<Verdict> verdicts(peers.size());
+std::vector<Verdict> compare(const std::vector<std::vector<Answer>>& answers,
+                             const std::vector<DenseProblem>& problems) {
+  std::vector<Verdict> verdicts(answers.size());
   for (std::size_t i = 0; i < problems.size(); ++i) {
     double best = std::numeric_limits<double>::infinity();
-    for (const auto& answers : all) best = std::min(best, answers[i].objective);
+    for (const auto& one : answers) best = std::min(best, one[i].objective);
     const MassProblem& problem = problems[i].triangle;
-    for (std::size_t p = 0; p < peers.size(); ++p) {
-      const Answer& answer = all[p][i];
+    for (std::size_t p = 0; p < answers.size(); ++p) {
+      const Answer& given = answers[p][i];
       Verdict& verdict = verdicts[p];
       ++verdict.problems;
-      if (!answer.succeeded) {
+      if (!given.succeeded) {
         ++verdict.failures;
         continue;
       }
-      const double gap = (answer.objective - best) / problem.F.squaredNorm();
+      const double gap = (given.objective - best) / problem.F.squaredNorm();
       verdict.worst_gap = std::max(verdict.worst_gap, gap);
       if (gap > allowed_gap) {
         ++verdict.wrong;
       } else {
         verdict.worst_kkt =
-            std::max(verdict.worst_kkt, reference::kkt_residual(problem, answer.m).worst());
+            std::max(verdict.worst_kkt, reference::kkt_residual(problem, given.m).worst());
       }
     }
   }
   return verdicts;
+}
+
+std::vector<Verdict> judge(const std::vector<PeerKind>& peers,
+                           const std::vector<DenseProblem>& problems) {
+  std::vector<std::vector<Answer>> answers;
+  for (const PeerKind& kind : peers) answers.push_back(answers_of(kind, problems));
+  return compare(answers, problems);
 }
 
 }  // namespace shapeid::bench
