@@ -139,6 +139,13 @@ BodyModel base_model(const Robot& robot) {
   return model;
 }
 
+BodyModel whole_model(const Robot& robot) {
+  BodyModel model;
+  model.known = Eigen::VectorXd::Zero(10 * robot.link_count());
+  for (int link = 0; link < robot.link_count(); ++link) add_shapes(link, model);
+  return model;
+}
+
 std::vector<NamedRobot> corner_robots() {
   std::vector<NamedRobot> robots = {{"one floating link", one_link(Root::floating)},
                                     {"one fixed link", one_link(Root::fixed)},

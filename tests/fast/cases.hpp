@@ -29,6 +29,9 @@ namespace shapeid::test {
 /// The base as two cuboids, all other links known.
 [[nodiscard]] BodyModel base_model(const Robot& robot);
 
+/// All links sought.
+[[nodiscard]] BodyModel whole_model(const Robot& robot);
+
 struct NamedRobot {
   std::string name;
   Robot robot;
