@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-// |J_s|^3 / |det J_s|, which is 5 to 20 for legs as they walk. So many roundings may be in J_s^-1
+// |J_s|^3 / |det J_s|, which is 6 to 35 for legs as they walk. So many roundings may be in J_s^-1
 // by cofactors: beyond a thousand, a fast answer would be worth fewer than twelve digits.
 constexpr double most_singular_leg = 1e3;
 
