@@ -1,6 +1,7 @@
 // Whole division runs: the same recorded problems for everybody, from one shape to a thousand.
+#include <time.h>
+
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <memory>
 #include <string>
@@ -11,48 +12,60 @@
 namespace shapeid::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Run = std::vector<DenseProblem>;
 
 constexpr int runs = 3;
 /// Beyond this, solvers that need H take minutes a run.
 constexpr int most_for_normal_form = 300;
 
-double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
-
-/// What reading the clock twice costs: not the solver's.
-double clock_overhead() {
-  static const double overhead = [] {
-    std::vector<double> all(1001);
-    for (double& d : all) {
-      const auto from = Clock::now();
-      d = seconds(Clock::now() - from);
-    }
-    std::nth_element(all.begin(), all.begin() + 500, all.end());
-    return all[500];
-  }();
-  return overhead;
+/// Seconds of this thread: what neighbours on the same core take does not count.
+double processor_time() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Seconds in the solver from one shape to `shapes`. What the solver starts from is prepared
-/// beforehand, problem by problem, so that it lies in the cache as it would in use.
-double time_run(const Run& run, std::size_t shapes, const PeerKind& kind) {
-  const std::unique_ptr<MassPeer> peer = kind.make();
+/// From one shape to `shapes`: what `form` needs is made for each problem, and the last masses are
+/// carried over, whether or not `solve` looks at them.
+template <typename Solve>
+void go_through(const Run& run, std::size_t shapes, Form form, const Solve& solve) {
   Prepared prepared;
   Eigen::VectorXd m, start;
-  bool succeeded = false;
-  double total = 0.0;
   for (std::size_t k = 0; k < shapes; ++k) {
     const DenseProblem& problem = run[k];
-    prepare(problem, peer->form(), prepared);
-    const bool warm = kind.warm && problem.follows && succeeded;
-    if (warm) carry_over(problem, m, start);
-    const auto from = Clock::now();
-    succeeded = peer->solve(problem, prepared, warm ? &start : nullptr, m);
-    total += seconds(Clock::now() - from) - clock_overhead();
-    if (!succeeded) m.resize(0);
+    prepare(problem, form, prepared);
+    if (m.size() > 0) carry_over(problem, m, start);
+    if (!solve(problem, prepared, m.size() > 0 ? &start : nullptr, m)) m.resize(0);
+    benchmark::DoNotOptimize(m.data());
   }
-  return total;
+}
+
+/// Seconds in the solver. Reading a clock twice a solve would cost as much as a fast solve, so the
+/// whole way is timed, and again without the solver; the difference is the solver's.
+double time_run(const Run& run, std::size_t shapes, MassPeer& peer, bool warm) {
+  const double begun = processor_time();
+  go_through(
+      run, shapes, peer.form(),
+      [&](const auto& problem, const auto& prepared, const Eigen::VectorXd* start,
+          Eigen::VectorXd& m) { return peer.solve(problem, prepared, warm ? start : nullptr, m); });
+  const double solved = processor_time();
+  go_through(run, shapes, peer.form(),
+             [](const auto& problem, const auto&, const Eigen::VectorXd*, Eigen::VectorXd& m) {
+               m.setConstant(problem.triangle.shapes(), 1.0);
+               return true;
+             });
+  return std::max(0.0, (solved - begun) - (processor_time() - solved));
+}
+
+/// An iteration is a run; the runs take turns.
+void time_runs(benchmark::State& state, const std::vector<Run>& all, int shapes,
+               const PeerKind& kind) {
+  const std::unique_ptr<MassPeer> peer = kind.make();
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const Run& run = all[next++ % all.size()];
+    state.SetIterationTime(time_run(run, static_cast<std::size_t>(shapes), *peer, kind.warm));
+  }
 }
 
 /// The first `shapes` problems of every run.
@@ -79,13 +92,8 @@ void register_runs(const std::string& row, int shapes,
   const std::vector<Verdict> verdicts = judge(peers, beginnings(*all, shapes));
   for (std::size_t p = 0; p < timed; ++p) {
     benchmark::RegisterBenchmark(name(peers[p]).c_str(), [=, kind = peers[p],
-                                                          verdict = verdicts[p]](
-                                                             benchmark::State& state) {
-      std::size_t next = 0;
-      for (auto _ : state) {
-        const Run& run = (*all)[next++ % all->size()];
-        state.SetIterationTime(time_run(run, static_cast<std::size_t>(shapes), kind));
-      }
+                                                          verdict = verdicts[p]](auto& state) {
+      time_runs(state, *all, shapes, kind);
       add_counters(state, verdict);
     })->UseManualTime();
   }

@@ -193,6 +193,9 @@ StackKind kind(const std::string& name) {
 
 std::vector<StackKind> window_stacks() {
   std::vector<StackKind> stacks = {kind<ReferenceStack>("reference")};
+#ifdef SHAPEID_FAST
+  add_fast(stacks);
+#endif
 #ifdef SHAPEID_PINOCCHIO
   stacks.push_back(kind<BestMix>("best_mix"));
 #ifdef SHAPEID_QPOASES

@@ -35,4 +35,6 @@ struct StackKind {
 /// Ours, the published stack and the best mix of other people's parts, as far as they were found.
 [[nodiscard]] std::vector<StackKind> window_stacks();
 
+void add_fast(std::vector<StackKind>& stacks);
+
 }  // namespace shapeid::bench

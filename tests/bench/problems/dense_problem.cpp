@@ -69,6 +69,9 @@ DenseProblem compressed(const MassProblem& problem, const BodyModel& model) {
   const double unit = R.col(n).head(n).norm();
   out.triangle.Y = R.topLeftCorner(n, n) / unit;
   out.triangle.F = R.col(n).head(n) / unit;
+  out.R = Eigen::MatrixXd::Zero(n + 1, n + 1);
+  out.R.topLeftCorner(n, n) = out.triangle.Y;
+  out.R.col(n).head(n) = out.triangle.F;
   out.triangle.W = Eigen::VectorXd::Ones(n);
   for (std::size_t j = 0; j < model.shapes.size(); ++j) {
     if (j == 0 || model.shapes[j].link != model.shapes[j - 1].link)

@@ -22,6 +22,7 @@ struct Cut {
 /// right-hand side's part that parameters can reach, W is one. Columns of U stand link by link.
 struct DenseProblem {
   MassProblem triangle;
+  Eigen::MatrixXd R;                ///< [R c] over a row of zeros: what fast::Triangle would hold
   std::vector<Eigen::Index> first;  ///< links + 1: where each link's columns start in U
   bool follows = false;             ///< the next of its sequence: a warm start makes sense
   std::optional<Cut> cut;           ///< if it follows by a division

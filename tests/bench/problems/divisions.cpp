@@ -62,7 +62,8 @@ std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number, Nois
     if (place < 0)
       throw std::runtime_error("a recorded division run ends early: nothing to divide");
     reference::Split split = reference::split_shape(model, last.triangle, m, place);
-    DenseProblem next = {std::move(split.problem), {0, last.first.back() + 1}, true, std::nullopt};
+    DenseProblem next = {
+        std::move(split.problem), last.R, {0, last.first.back() + 1}, true, std::nullopt};
     next.cut = Cut{place, next.triangle.V[place] / last.triangle.V[place]};
     model = std::move(split.model);
     run.push_back(std::move(next));

@@ -1,0 +1,165 @@
+// Writes docs/benchmarks.md to standard output from the files that the benchmark programs left in a
+// folder: *.json by Google Benchmark, *.md as they are.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <set>
+#include <sstream>
+
+#include "shapeid/tests/bench/report/goals.hpp"
+#include "shapeid/tests/bench/report/growth.hpp"
+
+namespace shapeid::bench {
+namespace {
+
+std::string time(double seconds) {
+  if (seconds < 1e-6) return fmt::format("{:.3g} ns", seconds * 1e9);
+  if (seconds < 1e-3) return fmt::format("{:.3g} us", seconds * 1e6);
+  if (seconds < 1.0) return fmt::format("{:.3g} ms", seconds * 1e3);
+  return fmt::format("{:.3g} s", seconds);
+}
+
+std::string correctness(const Result& r) {
+  if (r.counters.count("problems") == 0) return "";
+  return fmt::format("{:.0f} failed, {:.0f} wrong of {:.0f}; worst gap {:.1e}",
+                     r.counter("failures"), r.counter("wrong"), r.counter("problems"),
+                     r.counter("worst_gap"));
+}
+
+std::string context(const Results& results, const std::string& key) {
+  const auto found = results.context.find(key);
+  return found == results.context.end() ? "not recorded" : found->second;
+}
+
+void print_head(const Results& results) {
+  fmt::print(
+      "# Benchmarks\n\n"
+      "Written by `./run bench` from one run; no number here was typed by hand. Everything is "
+      "pinned "
+      "to one core of a\nmachine that may have other work; repetitions of all benchmarks of a "
+      "program are interleaved at random. Times are\nmedians over repetitions, ratios are taken "
+      "repetition by repetition (median, lowest to highest). A ratio of 3 means\nthat the peer "
+      "takes "
+      "three times as long.\n\n"
+      "- machine: {}\n- build: {}; Eigen's own vectorisation for plain x86-64 (SSE2), peers alike\n"
+      "- commit: {}\n- seeds: {}\n\n",
+      context(results, "cpu"), context(results, "flags"), context(results, "commit"),
+      context(results, "seeds"));
+  for (const auto& [key, value] : results.context) {
+    if (key.starts_with("missing ")) fmt::print("- {}: {}\n", key.substr(8), value);
+  }
+  fmt::print(
+      "\nInputs are seeded trots of the bundled quadruped (`tests/bench/problems`). \"Solve\" has "
+      "everything prepared that a\nsolver starts from: A and b for Lawson-Hanson, H and g for QP "
+      "solvers, the triangle [R c] and the shape columns U\nfor ours, which therefore forms R U "
+      "inside the clock. \"Triangle\" starts at R, c and U for everybody. In division\nruns peers "
+      "have A or H made for them between the divisions, outside the clock. An answer is wrong if "
+      "its "
+      "objective\nexceeds the best of all solvers' by more than 1e-9 of the right-hand side's norm "
+      "squared.\n\n");
+}
+
+void print_goals(const Results& results) {
+  fmt::print(
+      "## What was to be reached\n\nEach row by `./run bench COMMAND`. Of several peers or options "
+      "the fastest that is always right counts; if none is,\nthe one with the fewest errors.\n\n"
+      "| the same work | ours | against | peer | ratio | goal | | ours: correctness | peer: "
+      "correctness | command |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Goal& goal : goals()) {
+    const Result* ours = results.find(goal.ours);
+    const Result* peer = opponent(goal, results);
+    fmt::print("| {} | {} | {} | ", goal.work, ours ? time(ours->median()) : "not run",
+               goal.against);
+    if (peer == nullptr) {
+      fmt::print("peer not found | | {}x | row not met | | | `{}` |\n", goal.factor, goal.command);
+      continue;
+    }
+    const std::string name = peer->name.substr(goal.prefix.size());
+    fmt::print("{} {} | ", name, time(peer->median()));
+    if (ours == nullptr) {
+      fmt::print("| {}x | row not met | | {} | `{}` |\n", goal.factor, correctness(*peer),
+                 goal.command);
+      continue;
+    }
+    const Ratio r = ratio(*peer, *ours);
+    const bool reached = r.median >= goal.factor && ours->correct();
+    fmt::print("{:.3g} ({:.3g} to {:.3g}) | {}x | {} | {} | {} | `{}` |\n", r.median, r.lowest,
+               r.highest, goal.factor, reached ? "reached" : "**not reached**", correctness(*ours),
+               correctness(*peer), goal.command);
+  }
+}
+
+void print_growth(const Results& results) {
+  fmt::print(
+      "\n## Growth\n\nExponent of the time of one more division against the number of shapes, "
+      "fitted to runs of different lengths.\nGoal: at most 0.5 up to 300 shapes, 1 beyond.\n\n"
+      "| solver | noise | 7 to 300 | 300 to 1000 |\n|---|---|---|---|\n");
+  for (const std::string set : {"", "_noisefree"}) {
+    for (const std::string solver : {"fast/warm", "lawson_hanson", "qpoases/mpc/warm"}) {
+      const Growth small = growth(results, set, solver, 7, 300);
+      const Growth large = growth(results, set, solver, 300, 1000);
+      const auto text = [](const Growth& g) {
+        return g.points < 2 ? std::string("not run") : fmt::format("{:.2f}", g.exponent);
+      };
+      fmt::print("| {} | {} | {} | {} |\n", solver, set.empty() ? "noisy" : "noise-free",
+                 text(small), text(large));
+    }
+  }
+}
+
+/// One line a solver: "solve" and "triangle" beside each other where both exist.
+void print_all(const Results& results) {
+  fmt::print(
+      "\n## All rows\n\n| row | solver | solve | from the triangle | correctness |\n"
+      "|---|---|---|---|---|\n");
+  static const std::string solve = "/solve", triangle = "/triangle";
+  for (const Result& r : results.all) {
+    if (r.name.ends_with(triangle)) continue;
+    const std::size_t slash = r.name.find('/');
+    const bool is_solve = r.name.ends_with(solve);
+    const std::string stem = is_solve ? r.name.substr(0, r.name.size() - solve.size()) : r.name;
+    const Result* other = is_solve ? results.find(stem + triangle) : nullptr;
+    fmt::print("| {} | {} | {} | {} | {} |\n", stem.substr(0, slash), stem.substr(slash + 1),
+               time(r.median()), other ? time(other->median()) : "", correctness(r));
+  }
+}
+
+int report(const std::filesystem::path& folder) {
+  std::set<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.insert(entry.path());
+  Results results;
+  for (const auto& file : files) {
+    if (file.extension() == ".json") read_results(file, results);
+  }
+  print_head(results);
+  print_goals(results);
+  print_growth(results);
+  for (const auto& file : files) {
+    if (file.extension() != ".md") continue;
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    fmt::print("\n{}", text.str());
+  }
+  print_all(results);
+  return 0;
+}
+
+}  // namespace
+}  // namespace shapeid::bench
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: bench_report FOLDER\n";
+    return 2;
+  }
+  try {
+    return shapeid::bench::report(argv[1]);
+  } catch (const std::exception& e) {
+    std::cerr << e.what() << '\n';
+    return 2;
+  }
+}
