@@ -8,6 +8,7 @@
 
 #include "shapeid/tests/bench/harness.hpp"
 #include "shapeid/tests/bench/problems/divisions.hpp"
+#include "shapeid/tests/bench/problems/variants.hpp"
 
 namespace shapeid::bench {
 namespace {
@@ -77,18 +78,16 @@ Run beginnings(const std::vector<Run>& all, int shapes) {
 
 void register_runs(const std::string& row, int shapes,
                    const std::function<std::shared_ptr<const std::vector<Run>>()>& recorded) {
-  std::vector<PeerKind> peers;
   const auto name = [&row](const PeerKind& kind) { return row + "/" + kind.name + "/solve"; };
-  for (const PeerKind& kind : mass_peers()) {
+  const auto asked_for = [&](const PeerKind& kind) {
     const bool fits = shapes <= most_for_normal_form || kind.make()->form() != Form::normal;
     // A hotstart needs as many unknowns as before.
     const bool divides = kind.name.find("hotstart") == std::string::npos;
-    if (wanted(name(kind)) && fits && divides && shapes <= kind.most_shapes) peers.push_back(kind);
-  }
-  if (peers.empty()) return;
-  const std::size_t timed = peers.size();
-  add_lawson_hanson(peers);
+    return wanted(name(kind)) && fits && divides;
+  };
+  if (std::ranges::none_of(mass_peers(), asked_for)) return;
   const std::shared_ptr<const std::vector<Run>> all = recorded();
+  const auto [peers, timed] = field(all->front()[static_cast<std::size_t>(shapes) - 1], asked_for);
   const std::vector<Verdict> verdicts = judge(peers, beginnings(*all, shapes));
   for (std::size_t p = 0; p < timed; ++p) {
     benchmark::RegisterBenchmark(name(peers[p]).c_str(), [=, kind = peers[p],
@@ -102,14 +101,15 @@ void register_runs(const std::string& row, int shapes,
 /// Records when first asked: runs to a thousand shapes take a second each.
 class Recorder {
  public:
-  Recorder(SeedSet seeds, Noise noise) : seeds_(seeds), noise_(noise) {}
+  Recorder(SeedSet seeds, Noise noise, Density density)
+      : seeds_(seeds), noise_(noise), density_(density) {}
 
   std::shared_ptr<const std::vector<Run>> operator()(int shapes) {
     std::shared_ptr<const std::vector<Run>>& runs_to = made_[shapes <= 300 ? 300 : 1000];
     if (!runs_to) {
       auto made = std::make_shared<std::vector<Run>>();
       for (std::uint64_t k = 0; k < runs; ++k)
-        made->push_back(division_run(seeds_, k, noise_, shapes <= 300 ? 300 : 1000));
+        made->push_back(division_run(seeds_, k, noise_, density_, shapes <= 300 ? 300 : 1000));
       runs_to = made;
     }
     return runs_to;
@@ -118,6 +118,7 @@ class Recorder {
  private:
   SeedSet seeds_;
   Noise noise_;
+  Density density_;
   std::map<int, std::shared_ptr<const std::vector<Run>>> made_;
 };
 
@@ -127,11 +128,10 @@ class Recorder {
 int main(int argc, char** argv) {
   using namespace shapeid::bench;
   const SeedSet seeds = start(argc, argv);
-  for (const auto& [suffix, noise] :
-       {std::pair("", Noise::sensors), std::pair("_noisefree", Noise::none)}) {
-    Recorder recorder(seeds, noise);
+  for (const Variant& variant : variants()) {
+    Recorder recorder(seeds, variant.noise, variant.density);
     for (const int shapes : {7, 11, 30, 60, 100, 200, 300, 600, 1000}) {
-      register_runs("division" + std::to_string(shapes) + suffix, shapes,
+      register_runs("division" + std::to_string(shapes) + variant.suffix, shapes,
                     [&recorder, shapes] { return recorder(shapes); });
     }
   }

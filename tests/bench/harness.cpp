@@ -1,5 +1,6 @@
 #include "shapeid/tests/bench/harness.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
@@ -118,24 +119,31 @@ void finish() {
   benchmark::Shutdown();
 }
 
+Field field(const DenseProblem& largest, const std::function<bool(const PeerKind&)>& also) {
+  Field f;
+  const bool density = largest.triangle.lambda > 0.0;
+  const auto able = [&](const PeerKind& kind) {
+    return largest.triangle.shapes() <= kind.most_shapes && (!density || kind.density);
+  };
+  for (const PeerKind& kind : mass_peers()) {
+    if (able(kind) && also(kind)) f.peers.push_back(kind);
+  }
+  f.timed = f.peers.size();
+  std::vector<PeerKind> compared;
+  density ? add_reference(compared) : add_lawson_hanson(compared);
+  if (able(compared.front())) f.peers.push_back(compared.front());
+  return f;
+}
+
 void register_solves(const std::string& row,
                      const std::function<std::vector<DenseProblem>()>& make_problems) {
-  std::vector<PeerKind> peers;
-  for (const PeerKind& kind : mass_peers()) {
-    if (wanted(row_name(row, kind, false)) || wanted(row_name(row, kind, true))) {
-      peers.push_back(kind);
-    }
-  }
-  if (peers.empty()) return;
-
+  const auto asked_for = [&row](const PeerKind& kind) {
+    return wanted(row_name(row, kind, false)) || wanted(row_name(row, kind, true));
+  };
+  if (std::ranges::none_of(mass_peers(), asked_for)) return;
   const auto set = std::make_shared<Timed>();
   set->problems = make_problems();
-  std::erase_if(peers, [&set](const PeerKind& kind) {
-    return kind.most_shapes < set->problems.front().triangle.shapes();
-  });
-  // However few are timed, somebody else must be there to be compared with.
-  const std::size_t timed = peers.size();
-  add_lawson_hanson(peers);
+  const auto [peers, timed] = field(set->problems.front(), asked_for);
   for (const DenseProblem& problem : set->problems) {
     set->prepared.emplace_back();
     prepare(problem, Form::normal, set->prepared.back());

@@ -26,6 +26,16 @@ void finish();
 /// The verdict as counters beside the time.
 void add_counters(benchmark::State& state, const Verdict& verdict);
 
+/// Who is timed in a row, and at the end one more, to be compared with: Lawson-Hanson, or for
+/// lambda > 0 the reference.
+struct Field {
+  std::vector<PeerKind> peers;
+  std::size_t timed = 0;
+};
+/// Everybody who can solve such problems and passes `also`. `largest`: the one with most shapes.
+[[nodiscard]] Field field(const DenseProblem& largest,
+                          const std::function<bool(const PeerKind&)>& also);
+
 /// Registers, for each peer, "row/solver.../solve" (everything prepared beforehand) and
 /// "row/solver.../triangle" (from R, c, U on). One iteration is one problem, in their order, each
 /// started at the last one's answer where the peer is warm. Verdicts stand in the counters.

@@ -1,5 +1,6 @@
 // One window's solve: the base link as eleven shapes and as 54 points, cold and warm.
 #include "shapeid/tests/bench/harness.hpp"
+#include "shapeid/tests/bench/problems/variants.hpp"
 #include "shapeid/tests/bench/problems/windows.hpp"
 
 int main(int argc, char** argv) {
@@ -8,12 +9,11 @@ int main(int argc, char** argv) {
   constexpr int sequences = 10, windows = 25;
   for (const auto& [name, model] :
        {std::pair("base11", base_shapes()), {"base54", base_points()}}) {
-    for (const auto& [suffix, noise] :
-         {std::pair("", Noise::sensors), std::pair("_noisefree", Noise::none)}) {
-      const auto make = [&model = model, seeds, n = noise] {
-        return base_windows(model, seeds, n, sequences, windows);
+    for (const Variant& variant : variants()) {
+      const auto make = [&model = model, seeds, &variant] {
+        return base_windows(model, seeds, variant.noise, variant.density, sequences, windows);
       };
-      register_solves(std::string(name) + suffix, make);
+      register_solves(name + variant.suffix, make);
     }
   }
   finish();

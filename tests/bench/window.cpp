@@ -34,7 +34,8 @@ void register_windows(const std::string& row, const BodyModel& model, SeedSet se
   const auto samples = std::make_shared<const std::vector<Sample>>(
       trot(quadruped(), some_truth(seed), seed, windows * window_samples, Noise::sensors));
   // The same samples, so the same windows.
-  const std::vector<DenseProblem> problems = base_windows(model, seeds, Noise::sensors, 1, windows);
+  const std::vector<DenseProblem> problems =
+      base_windows(model, seeds, Noise::sensors, Density::none, 1, windows);
   const std::vector<StackKind> kinds = window_stacks();
   const std::vector<Verdict> verdicts = judge_stacks(kinds, model, *samples, problems);
   for (std::size_t k = 0; k < kinds.size(); ++k) {

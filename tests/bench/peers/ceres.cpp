@@ -54,8 +54,8 @@ class Ceres final : public MassPeer {
 }  // namespace
 
 void add_ceres(std::vector<PeerKind>& peers) {
-  peers.push_back({"ceres", false, [] { return std::make_unique<Ceres>(); }, 60});
-  peers.push_back({"ceres/warm", true, [] { return std::make_unique<Ceres>(); }, 60});
+  peers.push_back({"ceres", false, [] { return std::make_unique<Ceres>(); }, false, 60});
+  peers.push_back({"ceres/warm", true, [] { return std::make_unique<Ceres>(); }, false, 60});
 }
 
 }  // namespace shapeid::bench

@@ -57,8 +57,8 @@ class Fast final : public MassPeer {
 }  // namespace
 
 void add_fast(std::vector<PeerKind>& peers) {
-  peers.push_back({"fast", false, [] { return std::make_unique<Fast>(); }});
-  peers.push_back({"fast/warm", true, [] { return std::make_unique<Fast>(); }});
+  peers.push_back({"fast", false, [] { return std::make_unique<Fast>(); }, true});
+  peers.push_back({"fast/warm", true, [] { return std::make_unique<Fast>(); }, true});
 }
 
 }  // namespace shapeid::bench

@@ -33,6 +33,7 @@ struct PeerKind {
   std::string name;
   bool warm = false;  ///< is given warm starts
   std::function<std::unique_ptr<MassPeer>()> make;
+  bool density = false;  ///< solves for lambda > 0 as well
   /// Beyond this a single solve takes too long to be worth a row.
   Eigen::Index most_shapes = std::numeric_limits<Eigen::Index>::max();
 };

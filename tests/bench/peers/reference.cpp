@@ -27,7 +27,7 @@ class Reference final : public MassPeer {
 void add_reference(std::vector<PeerKind>& peers) {
   for (const bool warm : {false, true})
     peers.push_back({warm ? "reference/warm" : "reference", warm,
-                     [] { return std::make_unique<Reference>(); }, 60});
+                     [] { return std::make_unique<Reference>(); }, true, 60});
 }
 
 }  // namespace shapeid::bench

@@ -63,7 +63,7 @@ BodyModel body_cuboids(int count) {
 }
 
 std::vector<DenseProblem> body_windows(const BodyModel& model, SeedSet seeds, Noise noise,
-                                       int sequences, int windows) {
+                                       Density density, int sequences, int windows) {
   std::vector<DenseProblem> all;
   for (int k = 0; k < sequences; ++k) {
     const std::uint64_t seed = seed_of(seeds, static_cast<std::uint64_t>(k));
@@ -75,7 +75,7 @@ std::vector<DenseProblem> body_windows(const BodyModel& model, SeedSet seeds, No
                                Eigen::VectorXd::Ones(quadruped().dof()));
       const std::size_t from = window_samples * static_cast<std::size_t>(w);
       for (std::size_t i = from; i < from + body_window_samples; ++i) window.add(samples[i]);
-      all.push_back(compressed(window.problem(model), model));
+      all.push_back(compressed(window.problem(model), model, density));
       all.back().follows = w > 0;
     }
   }

@@ -6,6 +6,7 @@ namespace shapeid::bench {
 namespace {
 
 constexpr Eigen::Index per_link = 10;
+constexpr double water = 1000.0;  // kg/m^3
 
 void form_rows(const DenseProblem& problem, Eigen::MatrixXd& A) {
   const Eigen::MatrixXd& R = problem.triangle.Y;
@@ -57,7 +58,7 @@ void carry_over(const DenseProblem& to, const Eigen::VectorXd& last, Eigen::Vect
   start[last.size()] = whole - start[to.cut->place];
 }
 
-DenseProblem compressed(const MassProblem& problem, const BodyModel& model) {
+DenseProblem compressed(const MassProblem& problem, const BodyModel& model, Density density) {
   const Eigen::Index n = problem.Y.cols();
   Eigen::MatrixXd rows(problem.Y.rows(), n + 1);
   rows << problem.Y, problem.F;
@@ -73,6 +74,8 @@ DenseProblem compressed(const MassProblem& problem, const BodyModel& model) {
   out.R.topLeftCorner(n, n) = out.triangle.Y;
   out.R.col(n).head(n) = out.triangle.F;
   out.triangle.W = Eigen::VectorXd::Ones(n);
+  if (density == Density::design)
+    out.triangle.lambda = default_lambda(out.triangle, water * out.triangle.V.sum());
   for (std::size_t j = 0; j < model.shapes.size(); ++j) {
     if (j == 0 || model.shapes[j].link != model.shapes[j - 1].link)
       out.first.push_back(static_cast<Eigen::Index>(j));

@@ -41,12 +41,19 @@ enum class Form { triangle, rows, normal };
 /// Computes what `form` needs, block by block, into memory that is kept from call to call.
 void prepare(const DenseProblem& problem, Form form, Prepared& out);
 
+enum class Density {
+  none,   ///< lambda = 0, the published problem
+  design  ///< lambda = default_lambda()
+};
+
 /// Where a solver may start: the last answer, with the cut shape's mass divided by volume.
 void carry_over(const DenseProblem& to, const Eigen::VectorXd& last, Eigen::VectorXd& start);
 
 /// Compresses a problem of any number of rows. What no parameter reaches is left out: it is the
 /// same for every m. Rows are scaled to || F || = 1, so that the absolute tolerances which some
-/// solvers have mean the same for every problem.
-[[nodiscard]] DenseProblem compressed(const MassProblem& problem, const BodyModel& model);
+/// solvers have mean the same for every problem. The mass that lambda is made for is the volume's
+/// at the density of water.
+[[nodiscard]] DenseProblem compressed(const MassProblem& problem, const BodyModel& model,
+                                      Density density);
 
 }  // namespace shapeid::bench

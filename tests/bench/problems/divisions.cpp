@@ -40,7 +40,7 @@ Eigen::VectorXd masses_by_lawson_hanson(const DenseProblem& problem) {
 }  // namespace
 
 std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number, Noise noise,
-                                       int shapes) {
+                                       Density density, int shapes) {
   const std::uint64_t seed = seed_of(seeds, number);
   BodyModel model = base_box();
   reference::Window window(quadruped(), model, reference::ContactTreatment::project,
@@ -53,7 +53,7 @@ std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number, Nois
   // part for ever, down to nothing.
   options.k2 = 0.0;
   options.expected_mass = stacked_parameters(quadruped())[0];  // the base's, as the file says
-  std::vector<DenseProblem> run = {compressed(window.problem(model), model)};
+  std::vector<DenseProblem> run = {compressed(window.problem(model), model, density)};
   while (std::ssize(run) < shapes) {
     const DenseProblem& last = run.back();
     const Eigen::VectorXd m = masses_by_lawson_hanson(last);

@@ -13,6 +13,6 @@ namespace shapeid::bench {
 /// shapes. Criterion (16) picks them by the masses that Lawson-Hanson finds at lambda = 0, the
 /// published problem.
 [[nodiscard]] std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number,
-                                                     Noise noise, int shapes);
+                                                     Noise noise, Density density, int shapes);
 
 }  // namespace shapeid::bench

@@ -36,7 +36,7 @@ Eigen::VectorXd some_truth(std::uint64_t seed) {
 }
 
 std::vector<DenseProblem> base_windows(const BodyModel& model, SeedSet seeds, Noise noise,
-                                       int sequences, int windows) {
+                                       Density density, int sequences, int windows) {
   std::vector<DenseProblem> all;
   for (int k = 0; k < sequences; ++k) {
     const std::uint64_t seed = seed_of(seeds, static_cast<std::uint64_t>(k));
@@ -47,7 +47,7 @@ std::vector<DenseProblem> base_windows(const BodyModel& model, SeedSet seeds, No
     for (std::size_t i = 0; i < samples.size(); ++i) {
       window.add(samples[i]);
       if (window.samples() < window_samples) continue;
-      all.push_back(compressed(window.problem(model), model));
+      all.push_back(compressed(window.problem(model), model, density));
       all.back().follows = i >= window_samples;
       window.clear();
     }

@@ -23,7 +23,8 @@ namespace shapeid::bench {
 /// Trots of ten-sample windows (20 ms) that follow each other, one sequence after the other. The
 /// problems are the published ones: W = 1, lambda = 0.
 [[nodiscard]] std::vector<DenseProblem> base_windows(const BodyModel& model, SeedSet seeds,
-                                                     Noise noise, int sequences, int windows);
+                                                     Noise noise, Density density, int sequences,
+                                                     int windows);
 
 inline constexpr std::size_t window_samples = 10;
 

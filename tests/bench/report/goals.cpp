@@ -13,7 +13,7 @@ const std::vector<std::string> lawson_hanson = {"lawson_hanson"};
 void add_solve(std::vector<Goal>& goals, const std::string& work, const std::string& row,
                const std::string& ours, const std::vector<std::string>& who, double factor) {
   goals.push_back({work, row + "/" + ours + "/solve", who.front(), factor, row + "/", who, "/solve",
-                   "bench_solve --benchmark_filter=" + row + "/"});
+                   "bench_solve --benchmark_filter=" + row + "/", ours == "fast"});
 }
 
 std::vector<Goal> make_goals() {
@@ -102,6 +102,9 @@ std::vector<Goal> make_goals() {
 
 bool counts(const Goal& goal, const Result& result) {
   const std::string solver = result.name.substr(goal.prefix.size());
+  const bool warm =
+      solver.find("/warm/") != std::string::npos || solver.find("/hotstart/") != std::string::npos;
+  if (goal.cold && warm) return false;
   if (!goal.who.empty())
     return std::ranges::any_of(goal.who, [&](const auto& w) { return solver.starts_with(w); });
   return !solver.starts_with("fast") && !solver.starts_with("reference");

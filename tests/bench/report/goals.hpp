@@ -20,6 +20,7 @@ struct Goal {
   std::vector<std::string> who;
   std::string suffix;
   std::string command;  ///< runs this row alone
+  bool cold = false;    ///< peers that are warm-started do other work, and do not count
 };
 
 [[nodiscard]] const std::vector<Goal>& goals();

@@ -25,9 +25,8 @@ std::string time(double seconds) {
 
 std::string correctness(const Result& r) {
   if (r.counters.count("problems") == 0) return "";
-  return fmt::format("{:.0f} failed, {:.0f} wrong of {:.0f}; worst gap {:.1e}",
-                     r.counter("failures"), r.counter("wrong"), r.counter("problems"),
-                     r.counter("worst_gap"));
+  return fmt::format("{:.0f} + {:.0f} of {:.0f}, {:.0e}", r.counter("failures"), r.counter("wrong"),
+                     r.counter("problems"), r.counter("worst_gap"));
 }
 
 std::string context(const Results& results, const std::string& key) {
@@ -66,9 +65,11 @@ void print_head(const Results& results) {
 void print_goals(const Results& results) {
   fmt::print(
       "## What was to be reached\n\nEach row by `./run bench COMMAND`. Of several peers or options "
-      "the fastest that is always right counts; if none is,\nthe one with the fewest errors.\n\n"
-      "| the same work | ours | against | peer | ratio | goal | | ours: correctness | peer: "
-      "correctness | command |\n|---|---|---|---|---|---|---|---|---|---|\n");
+      "the fastest that is always right counts; if none is,\nthe one with the fewest errors. A "
+      "cold row counts cold peers. Correctness: failures + wrong "
+      "answers of problems, worst gap.\n\n"
+      "| the same work | ours | against | peer | ratio | goal | | ours correct | peer correct "
+      "| command |\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Goal& goal : goals()) {
     const Result* ours = results.find(goal.ours);
     const Result* peer = opponent(goal, results);
@@ -97,17 +98,37 @@ void print_growth(const Results& results) {
   fmt::print(
       "\n## Growth\n\nExponent of the time of one more division against the number of shapes, "
       "fitted to runs of different lengths.\nGoal: at most 0.5 up to 300 shapes, 1 beyond.\n\n"
-      "| solver | noise | 7 to 300 | 300 to 1000 |\n|---|---|---|---|\n");
-  for (const std::string set : {"", "_noisefree"}) {
+      "| solver | problems | 7 to 300 | 300 to 1000 |\n|---|---|---|---|\n");
+  for (const std::string set : {"", "_noisefree", "_density"}) {
     for (const std::string solver : {"fast/warm", "lawson_hanson", "qpoases/mpc/warm"}) {
       const Growth small = growth(results, set, solver, 7, 300);
       const Growth large = growth(results, set, solver, 300, 1000);
       const auto text = [](const Growth& g) {
         return g.points < 2 ? std::string("not run") : fmt::format("{:.2f}", g.exponent);
       };
-      fmt::print("| {} | {} | {} | {} |\n", solver, set.empty() ? "noisy" : "noise-free",
+      fmt::print("| {} | {} | {} | {} |\n", solver, set.empty() ? "noisy" : set.substr(1),
                  text(small), text(large));
     }
+  }
+}
+
+void print_density(const Results& results) {
+  fmt::print(
+      "\n## The density term\n\nOurs with the design's lambda over ours with lambda = 0, same "
+      "rows; "
+      "goal: at most ten times as much.\n\n| row | lambda = 0 | lambda > 0 | ratio | correct "
+      "|\n|---|---|---|---|---|\n");
+  for (const Result& with : results.all) {
+    static const std::string density = "_density/fast";
+    const std::size_t at = with.name.find(density);
+    if (at == std::string::npos) continue;
+    std::string name = with.name;
+    name.erase(at, density.find('/'));
+    const Result* without = results.find(name);
+    if (without == nullptr || name.ends_with("/triangle")) continue;
+    const Ratio r = ratio(with, *without);
+    fmt::print("| {} | {} | {} | {:.3g} ({:.3g} to {:.3g}) | {} |\n", name, time(without->median()),
+               time(with.median()), r.median, r.lowest, r.highest, correctness(with));
   }
 }
 
@@ -138,6 +159,7 @@ int report(const std::filesystem::path& folder) {
   print_head(results);
   print_goals(results);
   print_growth(results);
+  print_density(results);
   for (const auto& file : files) {
     if (file.extension() != ".md") continue;
     std::ostringstream text;
