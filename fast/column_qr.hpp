@@ -1,0 +1,78 @@
+// QR decomposition of a set of columns that come and go, with the orthogonal factor kept as the
+// product of reflections that made it.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace shapeid::fast {
+
+/// A P = Q T for the columns A that are in the set, and Q^T b, updated as columns enter and leave.
+/// Q is never formed: it is a list of Householder reflections, each on consecutive rows. A column
+/// that enters is reflected by all of them and adds one; a column that leaves adds one on two rows
+/// for every column behind it. Backward stable in every step.
+///
+/// Nothing allocates or throws after construction.
+class ColumnQr {
+ public:
+  /// Room for `most_columns` columns of `rows` rows.
+  ColumnQr(Eigen::Index rows, Eigen::Index most_columns);
+
+  /// No columns; the right-hand side is `b`, as many rows as said at construction.
+  void start(const Eigen::Ref<const Eigen::VectorXd>& b) noexcept;
+
+  enum class Push {
+    entered,
+    dependent,  ///< nothing changed; dependence() tells of what
+    crowded     ///< nothing changed; no room for columns or reflections: start again
+  };
+
+  /// Where the caller writes the column that enters next.
+  [[nodiscard]] Eigen::VectorXd& entering() noexcept { return entering_; }
+
+  /// Adds entering() as the last column. Only its first `end` rows are read; the others count as
+  /// zero. It is dependent if less than `smallest_share` of its length is new.
+  Push push(Eigen::Index end) noexcept;
+  static constexpr double smallest_share = 1e-13;
+
+  /// After push() said so: coefficients x of the columns in the set with A x = the refused column,
+  /// to rounding. Writes size() entries.
+  void dependence(Eigen::VectorXd& x) const noexcept;
+
+  /// Takes out the column at `place`; those behind it move forward. False if there is no room for
+  /// the reflections: nothing changed.
+  [[nodiscard]] bool remove(Eigen::Index place) noexcept;
+
+  /// The x that minimises || A x - b ||. Writes size() entries.
+  void solve(Eigen::VectorXd& x) const noexcept;
+
+  /// Replaces x by the solution z of A^T A z = x, by T alone. First size() entries.
+  void solve_normal(Eigen::VectorXd& x) const noexcept;
+
+  [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
+
+ private:
+  struct Reflection {
+    Eigen::Index first, end;  ///< rows
+    std::size_t place;        ///< of its vector in vectors_
+    double scale;             ///< 1 - scale v v^T
+  };
+
+  [[nodiscard]] bool has_room(std::size_t reflections, std::size_t numbers) const noexcept;
+  /// Appends the reflection of rows [first, end) that maps `x` to a multiple of the first unit
+  /// vector; returns the multiple.
+  double append(const double* x, Eigen::Index first, Eigen::Index end, double length) noexcept;
+  void apply(const Reflection& reflection, double* x) const noexcept;
+  void back_substitute(Eigen::VectorXd& x) const noexcept;
+
+  Eigen::Index size_ = 0;
+  Eigen::MatrixXd T_;         ///< upper triangle of the first size_ columns
+  Eigen::VectorXd rotated_;   ///< Q^T b
+  Eigen::VectorXd entering_;  ///< the column that enters; Q^T times it after push()
+  std::vector<Reflection> reflections_;
+  std::vector<double> vectors_;  ///< of the reflections, one behind the other
+  std::size_t used_ = 0;         ///< numbers in vectors_
+};
+
+}  // namespace shapeid::fast

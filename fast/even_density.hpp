@@ -1,0 +1,83 @@
+// The passive shapes at lambda > 0, however many of them share a link.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+#include "shapeid/fast/column_qr.hpp"
+#include "shapeid/fast/passive_set.hpp"
+
+namespace shapeid::fast {
+
+/// With lambda > 0 any number of shapes of a link can be passive, and their columns depend on each
+/// other. Where the passive shapes of a link alone minimise f, their density m_j / V_j is u_j . w,
+/// with ten numbers w for the link (docs/derivations/fast-masses.md). So the unknowns are ten a
+/// link, not one a shape: with X the rows sqrt(V_j) u_j^T of the passive shapes of a link and X = Q
+/// T its rank-revealing QR, Phi = T^T y and the density term is lambda || y ||^2. The y of all
+/// links solve one damped least-squares problem, of at most ten unknowns a link.
+///
+/// X is never stored: its triangle is updated as shapes enter and leave.
+class EvenDensity final : public PassiveSet {
+ public:
+  /// `columns` and `V` (m^3, an entry a shape) must outlive the object.
+  EvenDensity(const ShapeColumns& columns, const Eigen::VectorXd& V);
+
+  /// Takes effect with the next target(). Positive.
+  void set_lambda(double lambda) noexcept;
+
+  void start(const Eigen::MatrixXd& R) noexcept override;
+  [[nodiscard]] bool enter(int j) noexcept override;
+  void dependence(Eigen::VectorXd& coefficients) noexcept override;
+  void leave(int place) noexcept override;
+  void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept override;
+  [[nodiscard]] bool sound() const noexcept override { return sound_; }
+  [[nodiscard]] const Eigen::VectorXd& target() noexcept override;
+  [[nodiscard]] const Eigen::VectorXd& slopes() noexcept override;
+
+ private:
+  using Square = Eigen::Matrix<double, 10, 10>;
+  using Ten = Eigen::Matrix<double, 10, 1>;
+
+  /// One link's share.
+  struct Density {
+    Square X;               ///< triangle of the rows sqrt(V_j) u_j^T
+    int shapes = 0;         ///< that are passive
+    bool outdated = false;  ///< X must be made anew from its rows
+    bool revealed = false;  ///< T is that of X
+    Square T;               ///< X without its column lengths, columns in the order of `pivots`
+    Ten lengths;            ///< of the columns of X; 1 for a column of zeros
+    std::array<int, 10> pivots;
+    int rank = 0;
+    int certain = 0;         ///< of these, directions in which the shapes spread well
+    Eigen::Index first = 0;  ///< of its unknowns y
+    Ten w, change;           ///< density u_j . w of passive shapes, and its last correction
+  };
+
+  void add_row(Density& density, Ten row) noexcept;
+  [[nodiscard]] bool remove_row(Density& density, const Ten& row) noexcept;
+  void reveal_rank(Density& density) noexcept;
+  void rebuild(int link) noexcept;
+  [[nodiscard]] Ten row_of(int j) const noexcept;
+  [[nodiscard]] Ten parameters(const Density& density) const noexcept;
+  [[nodiscard]] static Ten weights(const Density& density, int rank, const Ten& y,
+                                   const Ten& rest) noexcept;
+  [[nodiscard]] static Ten share_of(const Density& density, const Ten& slopes) noexcept;
+  [[nodiscard]] static Ten unknowns_of(const Density& density, const Ten& Phi) noexcept;
+  void solve() noexcept;
+
+  const ShapeColumns* columns_;
+  const Eigen::VectorXd* V_;
+  const Eigen::MatrixXd* R_ = nullptr;
+  double lambda_ = 0.0;
+  std::vector<Density> densities_;
+  std::vector<int> passive_;
+  bool sound_ = true;
+  bool solved_ = false;  ///< y_ and the weights are those of the passive shapes
+  ColumnQr qr_;
+  Eigen::VectorXd b_, y_, correction_, target_, r_, slopes_;
+  Eigen::VectorXd noise_;  ///< what rounding leaves of a slope R^T r that is zero
+};
+
+}  // namespace shapeid::fast

@@ -1,0 +1,94 @@
+#include "shapeid/fast/many_links.hpp"
+
+#include <algorithm>
+
+#include "shapeid/fast/triangle_products.hpp"
+
+namespace shapeid::fast {
+
+ManyLinks::ManyLinks(const ShapeColumns& columns)
+    : columns_(&columns),
+      qr_(Eigen::Index{10} * columns.links(),
+          std::min(Eigen::Index{10} * columns.links(), Eigen::Index{columns.capacity()})),
+      target_(Eigen::VectorXd::Zero(Eigen::Index{10} * columns.links())),
+      correction_(target_),
+      Phi_(target_),
+      r_(Phi_),
+      slopes_(Phi_) {
+  passive_.reserve(static_cast<std::size_t>(Phi_.size()) + 1);
+}
+
+void ManyLinks::start(const Eigen::MatrixXd& R) noexcept {
+  R_ = &R;
+  passive_.clear();
+  sound_ = true;
+  solved_ = false;
+  qr_.start(right_hand_side(R));
+}
+
+ColumnQr::Push ManyLinks::push(int j) noexcept {
+  const Eigen::Index end = Eigen::Index{10} * (columns_->link(j) + 1);
+  qr_.entering().head(end).setZero();
+  add_column(*R_, columns_->link(j), columns_->column(j), qr_.entering().data());
+  return qr_.push(end);
+}
+
+bool ManyLinks::enter(int j) noexcept {
+  ColumnQr::Push result = push(j);
+  if (result == ColumnQr::Push::crowded) {
+    rebuild();
+    result = push(j);
+  }
+  if (result != ColumnQr::Push::entered) return false;
+  passive_.push_back(j);
+  solved_ = false;
+  return true;
+}
+
+void ManyLinks::dependence(Eigen::VectorXd& coefficients) noexcept { qr_.dependence(coefficients); }
+
+void ManyLinks::leave(int place) noexcept {
+  passive_.erase(passive_.begin() + place);
+  solved_ = false;
+  if (!qr_.remove(place)) rebuild();
+}
+
+void ManyLinks::rebuild() noexcept {
+  qr_.start(right_hand_side(*R_));
+  for (const int j : passive_) sound_ = push(j) == ColumnQr::Push::entered && sound_;
+}
+
+const Eigen::VectorXd& ManyLinks::target() noexcept {
+  if (!solved_) qr_.solve(target_);
+  solved_ = true;
+  return target_;
+}
+
+void ManyLinks::refine(const Eigen::VectorXd& /*Phi*/, const Eigen::VectorXd& slopes) noexcept {
+  for (std::size_t i = 0; i < passive_.size(); ++i) {
+    const int j = passive_[i];
+    correction_[static_cast<Eigen::Index>(i)] =
+        columns_->column(j).dot(slopes.segment<10>(Eigen::Index{10} * columns_->link(j)));
+  }
+  qr_.solve_normal(correction_);
+  target_.head(qr_.size()) += correction_.head(qr_.size());
+}
+
+const Eigen::VectorXd& ManyLinks::slopes() noexcept {
+  static_cast<void>(target());
+  Phi_.setZero();
+  for (std::size_t i = 0; i < passive_.size(); ++i) {
+    const int j = passive_[i];
+    Phi_.segment<10>(Eigen::Index{10} * columns_->link(j)) +=
+        target_[static_cast<Eigen::Index>(i)] * columns_->column(j);
+  }
+  r_ = right_hand_side(*R_);
+  for (int l = 0; l < columns_->links(); ++l) {
+    const Eigen::Matrix<double, 10, 1> minus = -Phi_.segment<10>(Eigen::Index{10} * l);
+    add_column(*R_, l, minus, r_.data());
+  }
+  slopes_of(*R_, r_, slopes_);
+  return slopes_;
+}
+
+}  // namespace shapeid::fast

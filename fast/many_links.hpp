@@ -1,0 +1,42 @@
+// The passive shapes of several links at lambda = 0.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "shapeid/fast/column_qr.hpp"
+#include "shapeid/fast/passive_set.hpp"
+
+namespace shapeid::fast {
+
+/// A QR decomposition of the passive columns a_j = R u_j, of which those of the first links are
+/// short: R is a triangle, so a column ends with the ten rows of its link.
+class ManyLinks final : public PassiveSet {
+ public:
+  /// `columns` must outlive the object.
+  explicit ManyLinks(const ShapeColumns& columns);
+
+  void start(const Eigen::MatrixXd& R) noexcept override;
+  [[nodiscard]] bool enter(int j) noexcept override;
+  void dependence(Eigen::VectorXd& coefficients) noexcept override;
+  void leave(int place) noexcept override;
+  void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept override;
+  [[nodiscard]] bool sound() const noexcept override { return sound_; }
+  [[nodiscard]] const Eigen::VectorXd& target() noexcept override;
+  [[nodiscard]] const Eigen::VectorXd& slopes() noexcept override;
+
+ private:
+  ColumnQr::Push push(int j) noexcept;
+  void rebuild() noexcept;
+
+  const ShapeColumns* columns_;
+  const Eigen::MatrixXd* R_ = nullptr;
+  ColumnQr qr_;
+  std::vector<int> passive_;
+  bool sound_ = true;
+  bool solved_ = false;  ///< target_ is that of the passive shapes
+  Eigen::VectorXd target_, correction_, Phi_, r_, slopes_;
+};
+
+}  // namespace shapeid::fast

@@ -1,0 +1,363 @@
+// Derivation and the reasons for the tolerances: docs/derivations/fast-masses.md.
+#include "shapeid/fast/mass_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "shapeid/fast/many_links.hpp"
+#include "shapeid/fast/one_link.hpp"
+#include "shapeid/fast/triangle_products.hpp"
+
+namespace shapeid::fast {
+namespace {
+
+/// Slopes below this share of their terms are rounding: a hundred roundings.
+constexpr double smallest_slope = 1e-14;
+
+/// The same among slopes of the size of lambda, whose terms nearly cancel by nature.
+constexpr double smallest_damped_slope = 1e-12;
+
+/// Slopes of passive shapes that are larger than this share of their terms are worth a step of
+/// refinement: a few roundings more than a well-conditioned factorisation leaves.
+constexpr double refined_slope = 3e-15;
+
+/// Each step gains the digits that the condition leaves, six or more; the last ones are noise.
+constexpr int most_refinements = 3;
+
+/// What an answer must satisfy to be given out: every gradient entry that should be zero or
+/// positive is so to this share of its terms. The objective is then within as much of its minimum,
+/// in units of || c ||^2.
+constexpr double allowed_slope = 1e-10;
+
+std::unique_ptr<PassiveSet> undamped_set(const ShapeColumns& columns) {
+  if (columns.links() == 1) return std::make_unique<OneLink>(columns);
+  return std::make_unique<ManyLinks>(columns);
+}
+
+}  // namespace
+
+MassSolver::MassSolver(int links, int most_shapes)
+    : columns_(links, most_shapes),
+      m_(Eigen::VectorXd::Zero(most_shapes)),
+      V_(Eigen::VectorXd::Ones(most_shapes)),
+      undamped_(undamped_set(columns_)),
+      damped_(columns_, V_),
+      set_(undamped_.get()),
+      lengths_(Eigen::VectorXd::Zero(Eigen::Index{10} * links)),
+      coefficients_(Eigen::VectorXd::Zero(std::max<Eigen::Index>(lengths_.size(), most_shapes))),
+      Phi_(lengths_),
+      r_(lengths_),
+      slopes_(lengths_) {
+  const auto room = static_cast<std::size_t>(most_shapes);
+  passive_.reserve(room);
+  masses_.reserve(room);
+  refused_.reserve(room);
+  saved_.reserve(room);
+  entering_.reserve(room);
+}
+
+void MassSolver::clear() noexcept {
+  columns_.clear();
+  passive_.clear();
+  masses_.clear();
+  started_ = false;
+}
+
+bool MassSolver::append(int link, const Column& u, double V) noexcept {
+  const int j = columns_.size();
+  if (!columns_.append(link, u)) return false;
+  m_[j] = 0.0;
+  V_[j] = V;
+  return true;
+}
+
+void MassSolver::set_lambda(double lambda) noexcept {
+  lambda_ = lambda;
+  damped_.set_lambda(lambda);
+  set_ = lambda > 0.0 ? &damped_ : undamped_.get();
+  started_ = false;
+}
+
+void MassSolver::forget_masses() noexcept {
+  for (const int j : passive_) m_[j] = 0.0;
+  passive_.clear();
+  masses_.clear();
+  started_ = false;
+}
+
+void MassSolver::start_at(int j, double mass) noexcept {
+  const auto place = std::find(passive_.begin(), passive_.end(), j);
+  if (place == passive_.end()) {
+    passive_.push_back(j);
+    masses_.push_back(mass);
+  } else {
+    masses_[static_cast<std::size_t>(place - passive_.begin())] = mass;
+  }
+  m_[j] = mass;
+  started_ = false;
+}
+
+Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
+  column_sizes(R, lengths_);
+  const double length = R.col(lengths_.size()).norm();
+  if (!std::isfinite(lengths_.sum() + length)) return Outcome::not_finite;
+  R_ = &R;
+  length_ = length;
+  columns_.set_scale(lengths_, length_);
+  started_ = false;
+  return solve_again();
+}
+
+Outcome MassSolver::solve_again() noexcept {
+  save();
+  iterations_ = 0;
+  if (!started_) start();
+  Outcome outcome = iterate();
+  if (outcome == Outcome::solved && !passes_check()) {
+    // Rounding of many updates, perhaps: once more from a fresh factorisation.
+    start();
+    outcome = iterate();
+    if (outcome == Outcome::solved && !passes_check()) outcome = Outcome::ill_conditioned;
+  }
+  if (outcome != Outcome::solved) restore();
+  return outcome;
+}
+
+void MassSolver::save() noexcept {
+  saved_.clear();
+  for (const int j : passive_) saved_.push_back({j, m_[j]});
+}
+
+void MassSolver::restore() noexcept {
+  passive_.clear();
+  masses_.clear();
+  m_.head(shapes()).setZero();
+  for (const ShapeMass& saved : saved_) {
+    passive_.push_back(saved.place);
+    masses_.push_back(saved.mass);
+    m_[saved.place] = saved.mass;
+  }
+  started_ = false;
+}
+
+/// A fresh factorisation of the passive shapes.
+void MassSolver::start() noexcept {
+  set_->start(*R_);
+  columns_.unbar_all();
+  started_ = true;
+  entering_.clear();
+  for (std::size_t i = 0; i < passive_.size(); ++i) entering_.push_back({passive_[i], masses_[i]});
+  passive_.clear();
+  masses_.clear();
+  for (const ShapeMass& shape : entering_) enter_with_mass(shape.place, shape.mass);
+}
+
+void MassSolver::add(int j, double mass) noexcept {
+  passive_.push_back(j);
+  masses_.push_back(mass);
+  columns_.bar(j, true);
+}
+
+// A column that depends on the passive ones: its mass moves over to them, with R U m as it is,
+// until it has none left, or one of them has none; then that one leaves.
+void MassSolver::enter_with_mass(int j, double mass) noexcept {
+  while (!set_->enter(j)) {
+    set_->dependence(coefficients_);
+    double moved = mass;
+    int leaving = -1;
+    for (std::size_t i = 0; i < passive_.size(); ++i) {
+      const double share = coefficients_[static_cast<Eigen::Index>(i)];
+      if (share < 0.0 && masses_[i] < -moved * share) {
+        moved = -masses_[i] / share;
+        leaving = static_cast<int>(i);
+      }
+    }
+    for (std::size_t i = 0; i < passive_.size(); ++i) {
+      masses_[i] += moved * coefficients_[static_cast<Eigen::Index>(i)];
+    }
+    m_[j] = 0.0;
+    if (leaving < 0) return;
+    mass -= moved;
+    leave(leaving);
+  }
+  add(j, mass);
+}
+
+void MassSolver::leave(int place) noexcept {
+  const int j = passive_[static_cast<std::size_t>(place)];
+  columns_.bar(j, false);
+  m_[j] = 0.0;
+  passive_.erase(passive_.begin() + place);
+  masses_.erase(masses_.begin() + place);
+  set_->leave(place);
+}
+
+// Goes toward the target until the first mass becomes zero, and holds it there. False if nothing is
+// in the way: then the masses are the target.
+bool MassSolver::step_is_blocked() noexcept {
+  const Eigen::VectorXd& target = set_->target();
+  double length = 1.0;
+  int blocking = -1;
+  for (std::size_t i = 0; i < masses_.size(); ++i) {
+    const double to = target[static_cast<Eigen::Index>(i)];
+    if (to > 0.0) continue;
+    const double reach = masses_[i] > 0.0 ? masses_[i] / (masses_[i] - to) : 0.0;
+    if (blocking < 0 || reach < length) {
+      length = reach;
+      blocking = static_cast<int>(i);
+    }
+  }
+  if (blocking < 0) {
+    std::copy_n(target.data(), masses_.size(), masses_.data());
+    return false;
+  }
+  for (std::size_t i = 0; i < masses_.size(); ++i) {
+    masses_[i] += length * (target[static_cast<Eigen::Index>(i)] - masses_[i]);
+  }
+  masses_[static_cast<std::size_t>(blocking)] = 0.0;
+  for (int i = static_cast<int>(masses_.size()) - 1; i >= 0; --i) {
+    if (!(masses_[static_cast<std::size_t>(i)] > 0.0)) leave(i);
+  }
+  return true;
+}
+
+int MassSolver::entering_shape() noexcept {
+  const Eigen::VectorXd& slopes = set_->slopes();
+  if (slopes.isZero(0.0)) return -1;  // as many passive shapes as rows: nothing is left to gain
+  const int j = columns_.steepest(slopes, smallest_slope);
+  if (j >= 0 || !(lambda_ > 0.0)) return j;
+  // Slopes of the size of lambda decide how mass spreads among shapes that the data do not tell
+  // apart: judged against each other.
+  coefficients_.head(slopes.size()) = slopes.cwiseAbs();
+  columns_.set_scale(coefficients_.head(slopes.size()), 1.0);
+  const int spreads = columns_.steepest(slopes, smallest_damped_slope);
+  columns_.set_scale(lengths_, length_);
+  return spreads;
+}
+
+void MassSolver::refuse(int j) noexcept {
+  columns_.bar(j, true);
+  refused_.push_back(j);
+}
+
+void MassSolver::admit_refused() noexcept {
+  for (const int j : refused_) columns_.bar(j, false);
+  refused_.clear();
+}
+
+// The steepest shape enters if it takes a positive mass; in exact arithmetic it always does. False
+// if there is none: then the masses are the minimiser.
+bool MassSolver::one_enters() noexcept {
+  bool entered = false;
+  while (!entered) {
+    const int j = entering_shape();
+    if (j < 0) break;
+    if (!set_->enter(j)) {
+      ++iterations_;
+      refuse(j);
+      continue;
+    }
+    add(j, 0.0);
+    entered = set_->target()[static_cast<Eigen::Index>(passive_.size()) - 1] > 0.0;
+    if (!entered) {
+      ++iterations_;
+      leave(static_cast<int>(passive_.size()) - 1);
+      refuse(j);
+    }
+  }
+  admit_refused();
+  return entered;
+}
+
+Outcome MassSolver::iterate() noexcept {
+  // Every step ends at a lower objective with another set of passive shapes, so none comes twice.
+  // In practice two or three steps a passive shape are taken; the bound is for rounding and for
+  // clocks.
+  const int most_steps = 100 + 4 * (static_cast<int>(lengths_.size()) + shapes());
+  const int last = iterations_ + most_steps;
+  int refinements = 0;
+  while (true) {
+    if (++iterations_ > last) return Outcome::too_many_steps;
+    if (step_is_blocked() || one_enters()) continue;
+    for (std::size_t i = 0; i < passive_.size(); ++i) m_[passive_[i]] = masses_[i];
+    evaluate();
+    if (refinements == most_refinements || !(largest_slope() > refined_slope)) break;
+    ++refinements;
+    set_->refine(Phi_, slopes_);
+  }
+  if (!set_->sound()) return Outcome::ill_conditioned;
+  return std::isfinite(value_.total()) ? Outcome::solved : Outcome::not_finite;
+}
+
+// From the masses alone, so that no error of the factorisation's updates is in it.
+void MassSolver::evaluate() noexcept {
+  Phi_.setZero();
+  value_.density = 0.0;
+  for (const int j : passive_) {
+    Phi_.segment<10>(Eigen::Index{10} * columns_.link(j)) += m_[j] * columns_.column(j);
+    value_.density += lambda_ * m_[j] * m_[j] / V_[j];
+  }
+  r_ = right_hand_side(*R_);
+  for (int l = 0; l < links(); ++l) {
+    const Column minus = -Phi_.segment<10>(Eigen::Index{10} * l);
+    add_column(*R_, l, minus, r_.data());
+  }
+  const double unreached = (*R_)(Phi_.size(), Phi_.size());
+  value_.data = r_.squaredNorm() + unreached * unreached;
+  slopes_of(*R_, r_, slopes_);
+}
+
+/// Of the passive shapes, whose slopes should be zero; over their terms.
+double MassSolver::largest_slope() const noexcept {
+  double largest = 0.0;
+  for (const int j : passive_) {
+    const double slope =
+        columns_.column(j).dot(slopes_.segment<10>(Eigen::Index{10} * columns_.link(j))) -
+        lambda_ * m_[j] / V_[j];
+    largest = std::max(largest, columns_.price(j, std::abs(slope)));
+  }
+  return largest;
+}
+
+bool MassSolver::passes_check() noexcept {
+  if (!(largest_slope() <= allowed_slope)) return false;
+  // No other shape enters at the slopes of the factorisation, and these are the same slopes.
+  const Eigen::VectorXd& slopes = set_->slopes();
+  for (Eigen::Index i = 0; i < slopes.size(); ++i) {
+    if (!(std::abs(slopes_[i] - slopes[i]) <= allowed_slope * lengths_[i] * length_)) return false;
+  }
+  return true;
+}
+
+bool MassSolver::divide(int j, const Column& first, double V1, const Column& second,
+                        double V2) noexcept {
+  const int other = shapes();
+  if (!append(columns_.link(j), second, V2)) return false;
+  const double mass = m_[j];
+  if (mass > 0.0) {
+    if (!started_) start();
+    leave(static_cast<int>(std::find(passive_.begin(), passive_.end(), j) - passive_.begin()));
+  }
+  columns_.replace(j, first);
+  V_[j] = V1;
+  if (!(mass > 0.0)) return true;
+  enter_with_mass(j, mass * V1 / (V1 + V2));
+  enter_with_mass(other, mass * V2 / (V1 + V2));
+  for (std::size_t i = 0; i < passive_.size(); ++i) m_[passive_[i]] = masses_[i];
+  return true;
+}
+
+double MassSolver::gap(double mass_bound) const noexcept {
+  double lowest = 0.0, product = 0.0;
+  for (int j = 0; j < shapes(); ++j) {
+    const double z =
+        2.0 * (lambda_ * m_[j] / V_[j] -
+               columns_.column(j).dot(slopes_.segment<10>(Eigen::Index{10} * columns_.link(j))));
+    product += z * m_[j];
+    lowest = std::min(lowest, z);
+  }
+  return product - mass_bound * lowest;
+}
+
+}  // namespace shapeid::fast

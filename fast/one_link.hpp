@@ -1,0 +1,42 @@
+// The passive shapes of a single link at lambda = 0: the case that a robot solves every few
+// milliseconds.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+
+#include "shapeid/fast/passive_set.hpp"
+
+namespace shapeid::fast {
+
+/// Keeps Q^T [R c] whole, with Q^T A = [T; 0] for the passive columns A: at ten rows that is
+/// cheaper than keeping reflections. Of T only the inverse is kept: the target is then a sum of its
+/// columns, which grows by one term when a shape enters, and nothing waits for a back substitution.
+class OneLink final : public PassiveSet {
+ public:
+  /// `columns` must outlive the object.
+  explicit OneLink(const ShapeColumns& columns);
+
+  void start(const Eigen::MatrixXd& R) noexcept override;
+  [[nodiscard]] bool enter(int j) noexcept override;
+  void dependence(Eigen::VectorXd& coefficients) noexcept override;
+  void leave(int place) noexcept override;
+  void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept override;
+  [[nodiscard]] const Eigen::VectorXd& target() noexcept override { return target_; }
+  [[nodiscard]] const Eigen::VectorXd& slopes() noexcept override { return slopes_; }
+
+ private:
+  using Vector10 = Eigen::Matrix<double, 10, 1>;
+  using Row = Eigen::Matrix<double, 1, 12>;
+
+  const ShapeColumns* columns_;
+  int size_ = 0;
+  std::array<int, 10> passive_{};
+  Eigen::Matrix<double, 10, 12, Eigen::RowMajor> rows_;  ///< Q^T [R c 0]
+  Eigen::Matrix<double, 10, 10> inverse_;                ///< of T, upper triangle
+  Vector10 refused_;                                     ///< Q^T of the column refused last
+  Eigen::VectorXd target_, slopes_;
+};
+
+}  // namespace shapeid::fast

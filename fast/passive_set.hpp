@@ -1,0 +1,45 @@
+// What an active-set method asks of the shapes whose masses are free.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "shapeid/fast/shape_columns.hpp"
+
+namespace shapeid::fast {
+
+/// The passive shapes of a mass problem, in order of entry, and the point where they alone minimise
+/// the objective. Three kinds: one link at lambda = 0 (OneLink), several (ManyLinks), and lambda >
+/// 0 (EvenDensity). None allocates or throws after construction.
+class PassiveSet {
+ public:
+  PassiveSet() = default;
+  PassiveSet(const PassiveSet&) = delete;
+  PassiveSet& operator=(const PassiveSet&) = delete;
+  virtual ~PassiveSet() = default;
+
+  /// No passive shapes; the rows are those of the triangle R, (10 links + 1) x (10 links + 1),
+  /// which must stay as it is until the next start.
+  virtual void start(const Eigen::MatrixXd& R) noexcept = 0;
+
+  /// Shape `j` becomes passive, behind the others. False if its column depends on those of the
+  /// passive shapes: then nothing changes.
+  [[nodiscard]] virtual bool enter(int j) noexcept = 0;
+  /// After enter() said false: coefficients, one a passive shape, with which the passive columns
+  /// add up to that of the refused shape.
+  virtual void dependence(Eigen::VectorXd& coefficients) noexcept = 0;
+  /// The shape at this place leaves; those behind it move forward.
+  virtual void leave(int place) noexcept = 0;
+  /// False if rounding has made a column dependent that was not when it entered: nothing but
+  /// start() helps.
+  [[nodiscard]] virtual bool sound() const noexcept { return true; }
+
+  /// Masses of the passive shapes (kg, of any sign) at their minimum; the first entries count.
+  [[nodiscard]] virtual const Eigen::VectorXd& target() noexcept = 0;
+  /// A better target: one step of iterative refinement. `Phi` = U m and `slopes` = R^T (c - R Phi),
+  /// both 10 links, come from the masses of the present target alone.
+  virtual void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept = 0;
+  /// There, for a shape that is not passive, -1/2 df/dm_j = u_j . slopes of its link: 10 links.
+  [[nodiscard]] virtual const Eigen::VectorXd& slopes() noexcept = 0;
+};
+
+}  // namespace shapeid::fast

@@ -1,0 +1,84 @@
+// Columns of U, stored so that a shape is priced with ten numbers of its link.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace shapeid::fast {
+
+/// Unit parameters of shapes on links, sixteen shapes of one link beside each other in memory, so
+/// that pricing runs over whole registers. Shapes are numbered in the order in which they came.
+/// Memory grows with the shapes, not with shapes times links.
+///
+/// Nothing allocates or throws after construction.
+class ShapeColumns {
+ public:
+  using Column = Eigen::Matrix<double, 10, 1>;
+
+  /// Room for `most_shapes` shapes, however they spread over `links` links.
+  ShapeColumns(int links, int most_shapes);
+
+  void clear() noexcept;
+
+  /// Adds a shape; false if there is no room. `link`: place among the free links.
+  [[nodiscard]] bool append(int link, const Column& u) noexcept;
+  /// Gives shape `j` another column, on the same link.
+  void replace(int j, const Column& u) noexcept;
+
+  [[nodiscard]] int size() const noexcept { return size_; }
+  [[nodiscard]] int capacity() const noexcept { return static_cast<int>(slots_.size()); }
+  [[nodiscard]] int links() const noexcept { return static_cast<int>(last_of_link_.size()); }
+  [[nodiscard]] int link(int j) const noexcept { return links_[static_cast<std::size_t>(j)]; }
+  [[nodiscard]] auto column(int j) const noexcept { return columns_.col(j); }
+
+  /// What slopes are judged by. `lengths`: of the columns of R, or upper bounds of them (10 links);
+  /// `length`: of the right-hand side. No slope u_j . g that comes from a right-hand side of this
+  /// length is larger than length x sum_i |u_ij| lengths_i.
+  void set_scale(const Eigen::VectorXd& lengths, double length) noexcept;
+  /// A slope of shape j over that bound: free of units, to single precision.
+  [[nodiscard]] double price(int j, double slope) const noexcept;
+
+  /// The shape of the largest price, if it exceeds `threshold`; of those that are not barred. -1 if
+  /// there is none. `g`: 10 links entries. All shapes are priced in single precision; double
+  /// decides where single cannot.
+  [[nodiscard]] int steepest(const Eigen::VectorXd& g, double threshold) noexcept;
+  /// Bars a shape from steepest(), or admits it again.
+  void bar(int j, bool barred) noexcept;
+  /// Admits all shapes.
+  void unbar_all() noexcept;
+
+ private:
+  static constexpr int lanes = 16;
+  using Prices = Eigen::Array<float, lanes, 1>;
+  /// Sixteen shapes of one link. Missing ones are barred.
+  struct Chunk {
+    Eigen::Array<float, lanes, 10> U;
+    Prices scale;    ///< 1 / sum_i |u_ij| lengths_i
+    Prices barrier;  ///< 0, or barred
+    std::array<int, lanes> shape;
+    int link;
+    int used;
+  };
+  struct Slot {
+    int chunk, lane;
+  };
+
+  void write(int j, const Column& u) noexcept;
+  void set_scale(Chunk& chunk) noexcept;
+  [[nodiscard]] int steepest_in_double(const Eigen::VectorXd& g, double threshold) const noexcept;
+
+  int size_ = 0;
+  int used_chunks_ = 0;
+  std::vector<Chunk> chunks_;
+  std::vector<Slot> slots_;                            ///< of every shape
+  std::vector<int> links_;                             ///< of every shape
+  Eigen::Matrix<double, 10, Eigen::Dynamic> columns_;  ///< in double, one behind the other
+  std::vector<int> last_of_link_;  ///< the chunk that a link's next shape goes to, or -1
+  std::vector<int> uncertain_;     ///< chunks that single precision cannot decide
+  Eigen::VectorXd lengths_;        ///< relative to the largest, so that single precision holds them
+  double unit_ = 1.0;              ///< the largest length x that of the right-hand side
+};
+
+}  // namespace shapeid::fast
