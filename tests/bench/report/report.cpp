@@ -132,6 +132,27 @@ void print_density(const Results& results) {
   }
 }
 
+void print_stages(const Results& results) {
+  const std::vector<const Result*> stages = results.between("stage/", "");
+  const auto rate = [](const Result& r) { return r.counter("flops") / r.median() * 1e-9; };
+  const auto machine = std::ranges::find_if(
+      stages, [](const Result* r) { return r->name.starts_with("stage/machine"); });
+  if (machine == stages.end()) return;
+  fmt::print(
+      "\n## Stages of a window\n\nBeside each the floating-point operations and bytes that it "
+      "needs "
+      "at the very least, and what share of the rate of a\nproduct of matrices in the first cache "
+      "({:.3g} Gflop/s, this build) that makes: the distance to what this machine can do.\n\n"
+      "| stage | time | least flops | least bytes | of the machine's rate "
+      "|\n|---|---|---|---|---|\n",
+      rate(**machine));
+  for (const Result* stage : stages) {
+    fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.0f} % |\n", stage->name.substr(6),
+               time(stage->median()), stage->counter("flops"), stage->counter("bytes"),
+               100.0 * rate(*stage) / rate(**machine));
+  }
+}
+
 /// One line a solver: "solve" and "triangle" beside each other where both exist.
 void print_all(const Results& results) {
   fmt::print(
@@ -139,7 +160,7 @@ void print_all(const Results& results) {
       "|---|---|---|---|---|\n");
   static const std::string solve = "/solve", triangle = "/triangle";
   for (const Result& r : results.all) {
-    if (r.name.ends_with(triangle)) continue;
+    if (r.name.ends_with(triangle) || r.name.starts_with("stage/")) continue;
     const std::size_t slash = r.name.find('/');
     const bool is_solve = r.name.ends_with(solve);
     const std::string stem = is_solve ? r.name.substr(0, r.name.size() - solve.size()) : r.name;
@@ -160,6 +181,7 @@ int report(const std::filesystem::path& folder) {
   print_goals(results);
   print_growth(results);
   print_density(results);
+  print_stages(results);
   for (const auto& file : files) {
     if (file.extension() != ".md") continue;
     std::ostringstream text;
