@@ -105,9 +105,9 @@ class Kinematics {
   [[nodiscard]] const Link& of(int link) const noexcept {
     return links_[static_cast<std::size_t>(link)];
   }
-  void turn(int link) noexcept;
-  const LinkMotion& move(int link) noexcept;
-  const LinkPose& place(int link) noexcept;
+  void turn(int number) noexcept;
+  const LinkMotion& move(int number) noexcept;
+  const LinkPose& place(int number) noexcept;
 
   int base_dof_;
   std::vector<Link> links_;

@@ -31,23 +31,28 @@ constexpr double largest_condition = 1e4;
   return std::nullopt;
 }
 
-/// M = L D L^T, which has no eigenvalue below one: L below the diagonal, 1 / D on it. Without the
-/// square roots of Cholesky each column waits for one division only.
-void factorise(Matrix6d& M) noexcept {
-  for (int k = 0; k < 6; ++k) {
-    M(k, k) = 1.0 / M(k, k);
-    for (int j = k + 1; j < 6; ++j) {
-      const double l = M(j, k) * M(k, k);
-      for (int i = j; i < 6; ++i) M(i, j) -= M(i, k) * l;
-    }
-    for (int i = k + 1; i < 6; ++i) M(i, k) *= M(k, k);
+/// M = L D L^T, which has no eigenvalue below one. T becomes T L^-T, and 1 / D is left on M's
+/// diagonal. Without the square roots of Cholesky each column waits for one division only.
+template <int k = 0>
+void eliminate(Matrix6d& M, Eigen::Matrix<double, 12, 6>& T) noexcept {
+  constexpr int left = 5 - k;
+  M(k, k) = 1.0 / M(k, k);
+  if constexpr (left > 0) {
+    const Eigen::Matrix<double, left, 1> column = M.col(k).template tail<left>();
+    const Eigen::Matrix<double, left, 1> l = column * M(k, k);
+    M.template bottomRightCorner<left, left>().noalias() -= l * column.transpose();
+    T.template rightCols<left>().noalias() -= T.col(k) * l.transpose();
+    eliminate<k + 1>(M, T);
   }
 }
 
 }  // namespace
 
 SixRows::SixRows(const Robot& robot, const Eigen::VectorXd& weight)
-    : weight_(weight), root_(weight.cwiseSqrt()), standing_(robot.links.size()) {
+    : weight_(weight),
+      root_(weight.cwiseSqrt()),
+      inverse_root_(root_.cwiseInverse()),
+      standing_(robot.links.size()) {
   SHAPEID_CONTRACT(why_malformed(robot));
   SHAPEID_CONTRACT(why_not_for(robot, weight));
   for (const Contact& contact : robot.contacts) {
@@ -87,28 +92,25 @@ bool SixRows::operator()(Kinematics& kinematics, const std::vector<bool>& in_con
     N << J.col(1).cross(J.col(2)), J.col(2).cross(J.col(0)), J.col(0).cross(J.col(1));
     const double determinant = J.col(0).dot(N.col(0)), square = J.squaredNorm();
     if (!(most_singular_leg * std::abs(determinant) > square * std::sqrt(square))) return false;
-    N /= determinant;
+    N *= 1.0 / determinant;
     for (int i = 0; i < 3; ++i) {
       const Eigen::Index joint = 5 + leg.links[static_cast<std::size_t>(i)];
       Vector6d g;  // column of G = J_b^T J_s^-T: the base's wrench for each unit of torque
       g << N.col(i), foot.cross(N.col(i));
       base_F -= g * F[joint];
-      const Vector6d h = root_.head<6>().cwiseProduct(g) / root_[joint];
+      const Vector6d h = root_.head<6>().cwiseProduct(g) * inverse_root_[joint];
       condition += h.squaredNorm();
       M.noalias() += h * h.transpose();
     }
   }
   if (!(condition < largest_condition)) return false;
-  factorise(M);
 
   // A row of zeros makes columns of whole registers.
   Eigen::Matrix<double, 12, 6> T;
-  T.topRows<10>() = body_wrench(kinematics.motion(0)) * root_.head<6>().asDiagonal();
+  T.topRows<10>().noalias() = body_wrench(kinematics.motion(0)) * root_.head<6>().asDiagonal();
   T.row(10) = base_F.cwiseProduct(root_.head<6>()).transpose();
   T.row(11).setZero();
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < i; ++j) T.col(i) -= M(i, j) * T.col(j);
-  }
+  eliminate(M, T);
   for (int i = 0; i < 6; ++i) rows.transposed.col(i) = T.col(i).head<11>() * std::sqrt(M(i, i));
   rows.constant = 0.0;
   for (std::size_t link = 1; link < standing_.size(); ++link) {

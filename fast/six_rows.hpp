@@ -48,7 +48,7 @@ class SixRows {
   };
 
   std::vector<Leg> legs_;  ///< one for each contact
-  Eigen::VectorXd weight_, root_;
+  Eigen::VectorXd weight_, root_, inverse_root_;
   std::vector<bool> standing_;  ///< joints of legs whose foot touches
 };
 
