@@ -36,74 +36,71 @@ void Reflections::append(double top, double inverse_half) noexcept {
 void Reflections::apply(Eigen::Ref<Eigen::MatrixXd> columns,
                         Eigen::Ref<Eigen::MatrixXd> above) const noexcept {
   SHAPEID_CONTRACT(why_other_sizes(columns, above, rows_, count_));
-  apply_any(columns, above.data(), above.outerStride());
+  apply_to_all({columns.data(), columns.outerStride()}, {above.data(), above.outerStride()},
+               columns.cols());
 }
 
 void Reflections::apply(Eigen::Ref<Eigen::MatrixXd> columns) const noexcept {
-  apply_any(columns, nullptr, 0);
+  apply_to_all({columns.data(), columns.outerStride()}, {nullptr, 0}, columns.cols());
 }
 
-void Reflections::apply_any(Eigen::Ref<Eigen::MatrixXd> columns, double* above,
-                            Eigen::Index stride_above) const noexcept {
+void Reflections::apply_to_all(Columns columns, Columns above, Eigen::Index count) const noexcept {
   switch (count_) {
     case 1:
-      return apply_all<1>(columns, above, stride_above);
+      return apply_some<1>(columns, above, count);
     case 2:
-      return apply_all<2>(columns, above, stride_above);
+      return apply_some<2>(columns, above, count);
     case 3:
-      return apply_all<3>(columns, above, stride_above);
+      return apply_some<3>(columns, above, count);
     case 4:
-      return apply_all<4>(columns, above, stride_above);
+      return apply_some<4>(columns, above, count);
     default:
       return;
   }
 }
 
 template <int vectors>
-void Reflections::apply_all(Eigen::Ref<Eigen::MatrixXd> columns, double* above,
-                            Eigen::Index stride_above) const noexcept {
-  const Eigen::Index stride = columns.outerStride();
-  const auto above_column = [&](Eigen::Index j) {
-    return above == nullptr ? nullptr : above + j * stride_above;
-  };
+void Reflections::apply_some(Columns columns, Columns above, Eigen::Index count) const noexcept {
   // Sums that do not wait for each other, as many as registers hold.
   constexpr int together = vectors == 1 ? 4 : 2;
+  const auto from = [](Columns c, Eigen::Index j) {
+    return Columns{c.data + j * c.stride, c.stride};  // no rows above: null plus nothing
+  };
   Eigen::Index j = 0;
-  for (; j + together <= columns.cols(); j += together) {
-    apply_to<vectors, together>(columns.data() + j * stride, stride, above_column(j), stride_above);
+  for (; j + together <= count; j += together) {
+    apply_to<vectors, together>(from(columns, j), from(above, j));
   }
-  for (; j < columns.cols(); ++j) {
-    apply_to<vectors, 1>(columns.data() + j * stride, stride, above_column(j), stride_above);
-  }
+  for (; j < count; ++j) apply_to<vectors, 1>(from(columns, j), from(above, j));
 }
 
 // One after the other, reflection c takes the share s_c = x_c^T (column as the earlier ones left
 // it) / half_c of x_c away. x_c^T of what they left is x_c^T column less (x_c^T x_d) s_d for each
 // earlier d: so all products with the column as it came are enough, and the column changes once.
-template <int vectors, int columns>
-void Reflections::apply_to(double* column, Eigen::Index stride, double* above,
-                           Eigen::Index stride_above) const noexcept {
+template <int vectors, int together>
+void Reflections::apply_to(Columns columns, Columns above) const noexcept {
+  double* const column = columns.data;
+  const Eigen::Index stride = columns.stride;
   // Few sums would wait for each other's additions: then two registers each.
-  constexpr int pack = vectors * columns < 8 ? 2 * width : width;
+  constexpr int pack = vectors * together < 8 ? 2 * width : width;
   using Pack = Eigen::Array<double, pack, 1>;
   using Read = Eigen::Map<const Pack>;
   using Write = Eigen::Map<Pack>;
   const Eigen::Index packed = rows_ - rows_ % pack;
-  Pack sums[vectors][columns];
+  Pack sums[vectors][together];
   for (auto& row : sums) {
     for (Pack& sum : row) sum.setZero();
   }
   for (Eigen::Index i = 0; i < packed; i += pack) {
-    Pack x[columns];
-    for (int j = 0; j < columns; ++j) x[j] = Read(column + j * stride + i);
+    Pack x[together];
+    for (int j = 0; j < together; ++j) x[j] = Read(column + j * stride + i);
     for (int c = 0; c < vectors; ++c) {
       const Pack v = Read(v_ + c * stride_ + i);
-      for (int j = 0; j < columns; ++j) sums[c][j] += v * x[j];
+      for (int j = 0; j < together; ++j) sums[c][j] += v * x[j];
     }
   }
-  double shares[vectors][columns];
-  for (int j = 0; j < columns; ++j) {
-    double* const tops = above == nullptr ? nullptr : above + j * stride_above;
+  double shares[vectors][together];
+  for (int j = 0; j < together; ++j) {
+    double* const tops = above.data == nullptr ? nullptr : above.data + j * above.stride;
     for (int c = 0; c < vectors; ++c) {
       const auto which = static_cast<std::size_t>(c);
       double sum = sums[c][j].sum();
@@ -119,16 +116,16 @@ void Reflections::apply_to(double* column, Eigen::Index stride, double* above,
     }
   }
   for (Eigen::Index i = 0; i < packed; i += pack) {
-    Pack x[columns];
-    for (int j = 0; j < columns; ++j) x[j] = Read(column + j * stride + i);
+    Pack x[together];
+    for (int j = 0; j < together; ++j) x[j] = Read(column + j * stride + i);
     for (int c = 0; c < vectors; ++c) {
       const Pack v = Read(v_ + c * stride_ + i);
-      for (int j = 0; j < columns; ++j) x[j] -= shares[c][j] * v;
+      for (int j = 0; j < together; ++j) x[j] -= shares[c][j] * v;
     }
-    for (int j = 0; j < columns; ++j) Write(column + j * stride + i) = x[j];
+    for (int j = 0; j < together; ++j) Write(column + j * stride + i) = x[j];
   }
   for (Eigen::Index i = packed; i < rows_; ++i) {
-    for (int j = 0; j < columns; ++j) {
+    for (int j = 0; j < together; ++j) {
       for (int c = 0; c < vectors; ++c) {
         column[j * stride + i] -= shares[c][j] * v_[c * stride_ + i];
       }

@@ -29,14 +29,16 @@ class Reflections {
   void apply(Eigen::Ref<Eigen::MatrixXd> columns) const noexcept;
 
  private:
-  template <int vectors, int columns>
-  void apply_to(double* column, Eigen::Index stride, double* above,
-                Eigen::Index stride_above) const noexcept;
+  /// Columns `stride` apart.
+  struct Columns {
+    double* data;
+    Eigen::Index stride;
+  };
+  void apply_to_all(Columns columns, Columns above, Eigen::Index count) const noexcept;
   template <int vectors>
-  void apply_all(Eigen::Ref<Eigen::MatrixXd> columns, double* above,
-                 Eigen::Index stride_above) const noexcept;
-  void apply_any(Eigen::Ref<Eigen::MatrixXd> columns, double* above,
-                 Eigen::Index stride_above) const noexcept;
+  void apply_some(Columns columns, Columns above, Eigen::Index count) const noexcept;
+  template <int vectors, int together>
+  void apply_to(Columns columns, Columns above) const noexcept;
 
   const double* v_;
   Eigen::Index stride_, rows_;

@@ -67,8 +67,8 @@ void Triangle::merge(const Triangle& other) noexcept {
   for (Eigen::Index k = 0; k < R_.cols(); k += at_once_) {
     // The columns of a triangle up to number k have k + 1 rows, and reflecting these fills no
     // others.
-    const Eigen::Index rows = std::min(k + at_once_, R_.cols());
-    annihilate(k, pending_.topRows(rows));
+    Eigen::Ref<Eigen::MatrixXd> rows = pending_.topRows(std::min(k + at_once_, R_.cols()));
+    annihilate(k, rows);
   }
 }
 
@@ -88,7 +88,7 @@ void Triangle::clear() noexcept { R_.setZero(); }
 // reflection 1 - x x^T / half of row k of R and all rows makes column k zero: x = (R_kk - image,
 // column) and half = length |R_kk - image|; the image takes the sign that R_kk does not have, so
 // that nothing cancels.
-void Triangle::annihilate(Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> rows) noexcept {
+void Triangle::annihilate(Eigen::Index first, Eigen::Ref<Eigen::MatrixXd>& rows) noexcept {
   const Eigen::Index end = std::min(first + at_once_, R_.cols());
   Reflections block(rows.middleCols(first, end - first));
   for (Eigen::Index k = first; k < end; ++k) {

@@ -43,7 +43,7 @@ class Triangle {
   [[nodiscard]] const Eigen::MatrixXd& R() const noexcept { return R_; }
 
  private:
-  void annihilate(Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> rows) noexcept;
+  void annihilate(Eigen::Index first, Eigen::Ref<Eigen::MatrixXd>& rows) noexcept;
 
   Eigen::Index at_once_;  ///< reflections that are made before other columns see them
   Eigen::MatrixXd R_;

@@ -125,7 +125,7 @@ BodyModel any_model(const Robot& robot) {
   model.known = stacked_parameters(robot);
   for (int link = 0; link < robot.link_count(); ++link) {
     const int role = *rc::gen::inRange(0, 4);  // known, known to be nothing, sought, carries a load
-    if (role == 1 || role == 2) model.known.segment<10>(10 * link).setZero();
+    if (role == 1 || role == 2) model.known.segment<10>(Eigen::Index{10} * link).setZero();
     if (role >= 2) add_shapes(link, model);
   }
   return model;
@@ -141,7 +141,7 @@ BodyModel base_model(const Robot& robot) {
 
 BodyModel whole_model(const Robot& robot) {
   BodyModel model;
-  model.known = Eigen::VectorXd::Zero(10 * robot.link_count());
+  model.known = Eigen::VectorXd::Zero(Eigen::Index{10} * robot.link_count());
   for (int link = 0; link < robot.link_count(); ++link) add_shapes(link, model);
   return model;
 }
@@ -199,7 +199,7 @@ std::vector<Sample> corner_samples(const Robot& robot) {
     samples.push_back(moving);
     samples.back().q.array() += 0.5 * turn;
   }
-  for (double factor = 1e-6; factor < 2e6; factor *= 100.0) {
+  for (const double factor : {1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6}) {
     samples.push_back(moving);
     samples.back().dq *= factor;
   }

@@ -31,7 +31,7 @@ std::string difference(fast::InverseDynamics& dynamics, fast::Kinematics& kinema
 Eigen::VectorXd some_parameters(const Robot& robot) {
   Eigen::VectorXd Phi = stacked_parameters(robot);
   for (int i = 0; i < robot.link_count(); ++i) {
-    if (*rc::gen::arbitrary<bool>()) Phi.segment<10>(10 * i).setZero();
+    if (*rc::gen::arbitrary<bool>()) Phi.segment<10>(Eigen::Index{10} * i).setZero();
   }
   return Phi;
 }
@@ -61,7 +61,8 @@ TEST(FastInverseDynamics, CornerCasesAsTheReference) {
 TEST(FastInverseDynamics, OfNothingIsNothing) {
   const Robot robot = test::corner_robots().back().robot;
   fast::Kinematics kinematics(robot);
-  fast::InverseDynamics dynamics(robot, Eigen::VectorXd::Zero(10 * robot.link_count()));
+  fast::InverseDynamics dynamics(robot,
+                                 Eigen::VectorXd::Zero(Eigen::Index{10} * robot.link_count()));
   const Sample s = test::corner_samples(robot).back();
   kinematics.start(s);
   EXPECT_TRUE(dynamics(kinematics).isZero(0.0));
