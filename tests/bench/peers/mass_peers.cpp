@@ -5,9 +5,7 @@ namespace shapeid::bench {
 const std::vector<PeerKind>& mass_peers() {
   static const std::vector<PeerKind> peers = [] {
     std::vector<PeerKind> all;
-#ifdef SHAPEID_FAST
     add_fast(all);
-#endif
     add_reference(all);
     add_lawson_hanson(all);
     add_ceres(all);

@@ -192,10 +192,9 @@ StackKind kind(const std::string& name) {
 }  // namespace
 
 std::vector<StackKind> window_stacks() {
-  std::vector<StackKind> stacks = {kind<ReferenceStack>("reference")};
-#ifdef SHAPEID_FAST
+  std::vector<StackKind> stacks;
   add_fast(stacks);
-#endif
+  stacks.push_back(kind<ReferenceStack>("reference"));
 #ifdef SHAPEID_PINOCCHIO
   stacks.push_back(kind<BestMix>("best_mix"));
 #ifdef SHAPEID_QPOASES
