@@ -108,7 +108,7 @@ void add_delivery_options(CLI::App& verb, Delivery& delivery) {
 }
 
 void add_solver_options(CLI::App& verb, RunOptions& options) {
-  reference::DivisionOptions& division = options.settings.division;
+  DivisionOptions& division = options.settings.division;
   verb.add_option("--test", options.test_log,
                   "log to measure the residual on (default: every fifth two seconds are held out)");
   verb.add_option("--divisions", division.most_divisions, "most divisions; 0 does not divide")

@@ -66,7 +66,7 @@ json masses_json(const reference::DivisionRun& run, const Robot& robot) {
 
 json history_json(const reference::DivisionRun& run) {
   json steps = json::array();
-  for (const reference::DivisionStep& step : run.history) {
+  for (const DivisionStep& step : run.history) {
     steps.push_back({{"divided", step.divided},
                      {"criterion", step.criterion},
                      {"objective_before", step.objective_before},

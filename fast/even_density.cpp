@@ -14,9 +14,11 @@ namespace {
 /// dependent: a hundred roundings of ten-term sums.
 constexpr double smallest_pivot = 1e-13;
 
-/// A direction in which the passive shapes spread by less than this share leaves the density across
-/// it uncertain: slopes along it are taken from the residual.
-constexpr double well_spread = 1e-5;
+/// Slopes along a direction in which the passive shapes spread by less than this share are taken
+/// from the residual. Its rounding, 1e-16 of the terms, reaches these shapes as 1e-18, still
+/// nothing to the slopes that lambda makes (1e-12); to make it exact there would cost all other
+/// shapes the inverse of this in digits.
+constexpr double well_spread = 1e-2;
 
 /// A square that is left of one by subtraction and smaller than this has lost six digits.
 constexpr double cancelled = 1e-6;
@@ -43,6 +45,7 @@ EvenDensity::EvenDensity(const ShapeColumns& columns, const Eigen::VectorXd& V)
       y_(Eigen::VectorXd::Zero(Eigen::Index{10} * columns.links())),
       correction_(y_),
       target_(Eigen::VectorXd::Zero(columns.capacity())),
+      Phi_(y_),
       r_(y_),
       slopes_(y_),
       noise_(y_) {
@@ -199,20 +202,6 @@ void EvenDensity::reveal_rank(Density& density) noexcept {
   density.revealed = true;
 }
 
-// Phi = D P T^T y: D the lengths, P the pivots.
-EvenDensity::Ten EvenDensity::parameters(const Density& density) const noexcept {
-  Ten Phi;
-  for (int i = 0; i < 10; ++i) {
-    double sum = 0.0;
-    for (int k = 0; k < std::min(i + 1, density.rank); ++k) {
-      sum += density.T(k, i) * y_[density.first + k];
-    }
-    const int place = density.pivots[static_cast<std::size_t>(i)];
-    Phi[place] = density.lengths[place] * sum;
-  }
-  return Phi;
-}
-
 // The w that satisfies the first `rank` rows of T P^T D w = y, with the other entries of `rest`.
 EvenDensity::Ten EvenDensity::weights(const Density& density, int rank, const Ten& y,
                                       const Ten& rest) noexcept {
@@ -330,9 +319,16 @@ void EvenDensity::refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slop
 // is known to more digits than the difference r. The others come from r.
 const Eigen::VectorXd& EvenDensity::slopes() noexcept {
   if (!solved_) solve();
+  // From the masses, not from y: X has seen rows come and go, and its rounding is not the masses'.
+  Phi_.setZero();
+  for (std::size_t i = 0; i < passive_.size(); ++i) {
+    const int j = passive_[i];
+    Phi_.segment<10>(Eigen::Index{10} * columns_->link(j)) +=
+        target_[static_cast<Eigen::Index>(i)] * columns_->column(j);
+  }
   r_ = right_hand_side(*R_);
   for (int l = 0; l < columns_->links(); ++l) {
-    const Ten minus = -parameters(densities_[static_cast<std::size_t>(l)]);
+    const Ten minus = -Phi_.segment<10>(Eigen::Index{10} * l);
     add_column(*R_, l, minus, r_.data());
   }
   slopes_of(*R_, r_, slopes_);

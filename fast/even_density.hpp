@@ -60,7 +60,6 @@ class EvenDensity final : public PassiveSet {
   void reveal_rank(Density& density) noexcept;
   void rebuild(int link) noexcept;
   [[nodiscard]] Ten row_of(int j) const noexcept;
-  [[nodiscard]] Ten parameters(const Density& density) const noexcept;
   [[nodiscard]] static Ten weights(const Density& density, int rank, const Ten& y,
                                    const Ten& rest) noexcept;
   [[nodiscard]] static Ten share_of(const Density& density, const Ten& slopes) noexcept;
@@ -76,7 +75,7 @@ class EvenDensity final : public PassiveSet {
   bool sound_ = true;
   bool solved_ = false;  ///< y_ and the weights are those of the passive shapes
   ColumnQr qr_;
-  Eigen::VectorXd b_, y_, correction_, target_, r_, slopes_;
+  Eigen::VectorXd b_, y_, correction_, target_, Phi_, r_, slopes_;
   Eigen::VectorXd noise_;  ///< what rounding leaves of a slope R^T r that is zero
 };
 

@@ -57,6 +57,9 @@ class MassSolver {
   /// the last shape. Phi and the objective stay as they are. False if there is no room.
   [[nodiscard]] bool divide(int j, const Column& first, double V1, const Column& second,
                             double V2) noexcept;
+  /// Empty if U m and the density term still are those of the last answer, to rounding: what
+  /// divide() promises.
+  [[nodiscard]] Violation why_changed() const;
   /// Solves again, for the triangle of the last solve(), after divide().
   Outcome solve_again() noexcept;
 

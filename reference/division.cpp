@@ -12,20 +12,6 @@
 namespace shapeid::reference {
 namespace {
 
-void check(const DivisionOptions& options) {
-  if (!(options.expected_mass > 0.0)) {
-    throw std::invalid_argument("the expected mass M0 must be positive");
-  }
-  if (!(options.k1 >= 0.0 && options.k2 >= 0.0 && options.k1 + options.k2 > 0.0)) {
-    throw std::invalid_argument("k1 and k2 must not be negative, nor both zero");
-  }
-  if (!(options.step >= 0.0) || !(options.tie >= 0.0 && options.tie < 1.0) ||
-      options.patience < 1 || options.most_divisions < 0) {
-    throw std::invalid_argument(
-        "division needs eps >= 0, 0 <= tie < 1, patience >= 1, most divisions >= 0");
-  }
-}
-
 /// Norms over all links of the masses, first moments and tensors in Phi.
 Eigen::Vector3d group_norms(const Eigen::VectorXd& Phi) {
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
@@ -124,7 +110,7 @@ Violation why_changed(const MassProblem& before, const Eigen::VectorXd& m, const
 DivisionRun divide_and_solve(const BodyModel& model, const MassProblem& problem,
                              const DivisionOptions& options,
                              const std::function<void(const DivisionRun&)>& watch) {
-  check(options);
+  if (const Violation reason = why_senseless(options)) throw std::invalid_argument(*reason);
   SHAPEID_CONTRACT(why_unrelated(model, problem));
   DivisionRun run{model, problem, solve_masses(problem), {}, {}};
   if (watch) watch(run);

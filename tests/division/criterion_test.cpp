@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "shapeid/reference/division.hpp"
-#include "shapeid/tests/division/any_model.hpp"
+#include "shapeid/tests/support/any_model.hpp"
 
 namespace shapeid::reference {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "shapeid/models/inertia.hpp"
 #include "shapeid/reference/division.hpp"
-#include "shapeid/tests/division/any_model.hpp"
+#include "shapeid/tests/support/any_model.hpp"
 #include "shapeid/tests/support/load_problem.hpp"
 
 namespace shapeid::reference {

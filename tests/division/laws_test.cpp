@@ -9,7 +9,7 @@
 #include "shapeid/models/inertia.hpp"
 #include "shapeid/reference/division.hpp"
 #include "shapeid/reference/mass_solver.hpp"
-#include "shapeid/tests/division/any_model.hpp"
+#include "shapeid/tests/support/any_model.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/qp_generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"

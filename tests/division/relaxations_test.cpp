@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "shapeid/reference/division.hpp"
-#include "shapeid/tests/division/any_model.hpp"
+#include "shapeid/tests/support/any_model.hpp"
 #include "shapeid/tests/division/relaxations.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/load_problem.hpp"

@@ -9,7 +9,7 @@
 
 #include "shapeid/reference/division.hpp"
 #include "shapeid/reference/mass_solver.hpp"
-#include "shapeid/tests/division/any_model.hpp"
+#include "shapeid/tests/support/any_model.hpp"
 #include "shapeid/tests/support/load_problem.hpp"
 
 namespace shapeid::reference {

@@ -240,7 +240,7 @@ TEST(Exact, ALoadInARegionIsAsNearAsItsObjectiveSays) {
   const Eigen::VectorXd truth = inertia_of(carried.load).values;
   const Seen seen(carried.rows);
   ASSERT_EQ(seen.V.cols(), 10);
-  reference::DivisionOptions options;
+  DivisionOptions options;
   options.expected_mass = 1.0;
   options.most_divisions = 30;
   options.step = 1e-9;  // all of them

@@ -48,7 +48,7 @@ std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number, Nois
   for (const Sample& s : trot(quadruped(), some_truth(seed), seed, run_samples, noise))
     window.add(s);
 
-  reference::DivisionOptions options;
+  DivisionOptions options;
   // At lambda = 0 masses gather in at most ten parts. A reward for density would then cut the same
   // part for ever, down to nothing.
   options.k2 = 0.0;

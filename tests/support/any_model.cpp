@@ -1,4 +1,4 @@
-#include "shapeid/tests/division/any_model.hpp"
+#include "shapeid/tests/support/any_model.hpp"
 
 #include <string>
 #include <vector>

@@ -1,0 +1,38 @@
+// Equation (16) and Algorithm 1: what can be chosen about a division run, and what it reports.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+
+#include "shapeid/models/contract.hpp"
+
+namespace shapeid {
+
+/// Equation (16), scaled to be free of units: v = k1 (m/M0)(V/V0) + k2 (m/M0)/(V/V0).
+struct DivisionOptions {
+  double k1 = 1.0;     ///< weight of large heavy shapes
+  double k2 = 1e-4;    ///< weight of dense shapes
+  double step = 1e-3;  ///< eps: stop when every group of the step is below eps of its size
+  int patience = 3;    ///< ... this many divisions in a row
+  int most_divisions = 100;
+  double tie = 1e-9;           ///< relative: v this close count as equal, the smallest place wins
+  double expected_mass = 0.0;  ///< M0 > 0, kg; fixed before the first division
+};
+
+/// One division: what was cut, and what the next solve gave.
+struct DivisionStep {
+  std::string divided;     ///< id of the shape that was cut
+  double criterion = 0.0;  ///< its v
+  double objective_before = 0.0, objective_at_split = 0.0, objective_after = 0.0;
+  /// || Phi_k - Phi_(k-1) || per group, relative to the group's size: mass, first moment, tensor.
+  /// A first moment's size is sqrt(mass x tensor), which bounds it wherever the origin lies.
+  Eigen::Vector3d step = Eigen::Vector3d::Zero();
+  int iterations = 0;
+  int shapes = 0;  ///< after this division
+};
+
+/// Empty if the options make sense; the reason otherwise.
+[[nodiscard]] Violation why_senseless(const DivisionOptions& options);
+
+}  // namespace shapeid
