@@ -60,6 +60,8 @@ class Division {
   };
 
   [[nodiscard]] const MassSolver& masses() const noexcept { return solver_; }
+  /// kg, of the model's shapes at the last start() that was solved.
+  [[nodiscard]] const Eigen::VectorXd& undivided_masses() const noexcept { return undivided_; }
   /// Since the last start().
   [[nodiscard]] const std::vector<Cut>& history() const noexcept { return history_; }
   /// "3", "3.0", "3.0.1": the model's id, then the way down the divisions. Allocates.

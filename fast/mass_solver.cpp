@@ -50,7 +50,8 @@ MassSolver::MassSolver(int links, int most_shapes)
       coefficients_(Eigen::VectorXd::Zero(std::max<Eigen::Index>(lengths_.size(), most_shapes))),
       Phi_(lengths_),
       r_(lengths_),
-      slopes_(lengths_) {
+      slopes_(lengths_),
+      sizes_(lengths_) {
   const auto room = static_cast<std::size_t>(most_shapes);
   passive_.reserve(room);
   masses_.reserve(room);
@@ -231,8 +232,8 @@ int MassSolver::entering_shape() noexcept {
   if (j >= 0 || !(lambda_ > 0.0)) return j;
   // Slopes of the size of lambda decide how mass spreads among shapes that the data do not tell
   // apart: judged against each other.
-  coefficients_.head(slopes.size()) = slopes.cwiseAbs();
-  columns_.set_scale(coefficients_.head(slopes.size()), 1.0);
+  sizes_ = slopes.cwiseAbs();
+  columns_.set_scale(sizes_, 1.0);
   const int spreads = columns_.steepest(slopes, smallest_damped_slope);
   columns_.set_scale(lengths_, length_);
   return spreads;

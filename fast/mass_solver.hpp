@@ -119,7 +119,7 @@ class MassSolver {
   std::vector<int> refused_;         ///< barred until the next step that is taken
   std::vector<ShapeMass> saved_;     ///< as they were before the call
   std::vector<ShapeMass> entering_;  ///< on their way into a fresh factorisation
-  Eigen::VectorXd coefficients_, Phi_, r_, slopes_;
+  Eigen::VectorXd coefficients_, Phi_, r_, slopes_, sizes_;
   Objective value_;
   int iterations_ = 0;
 };

@@ -1,0 +1,135 @@
+#include "shapeid/fast/identifier.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include "shapeid/models/error.hpp"
+
+namespace shapeid::fast {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) noexcept {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+const IdentifierSettings& checked(const IdentifierSettings& settings) {
+  if (settings.window == 0 || settings.stride == 0) {
+    throw InputError("a window or stride of no samples", "both count samples, at least 1");
+  }
+  if (!(settings.expected_mass > 0.0)) {
+    throw InputError("the expected mass is not positive", "kg, of all free shapes together");
+  }
+  if (!(settings.alpha > 0.0 && settings.alpha <= 1.0)) {
+    throw InputError("alpha of filter (17) is not in (0, 1]", "1 does not smooth");
+  }
+  if (settings.lambda && !(*settings.lambda >= 0.0)) {
+    throw InputError("lambda is negative", "zero or positive");
+  }
+  if (settings.mass_bound && !(*settings.mass_bound > 0.0)) {
+    throw InputError("the mass bound is not positive", "kg, of all free shapes together");
+  }
+  return settings;
+}
+
+Eigen::VectorXd weight_of(const Robot& robot, const IdentifierSettings& settings) {
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(robot.dof());
+  const Eigen::VectorXd& weight = settings.weight.size() > 0 ? settings.weight : ones;
+  if (weight.size() != robot.dof() || !(weight.array() > 0.0).all() || !weight.allFinite()) {
+    throw InputError("the weight is not a positive number for each of the robot's equations",
+                     "one entry a generalised coordinate, 1 / sigma^2");
+  }
+  return weight;
+}
+
+DivisionOptions options_of(const IdentifierSettings& settings) {
+  DivisionOptions options = settings.division;
+  options.expected_mass = settings.expected_mass;
+  if (const Violation reason = why_senseless(options)) {
+    throw InputError(*reason, "see DivisionOptions");
+  }
+  return options;
+}
+
+}  // namespace
+
+Identifier::Identifier(const Robot& robot, const BodyModel& model,
+                       const IdentifierSettings& settings)
+    : block_(std::gcd(checked(settings).window, settings.stride)),
+      window_(settings.window),
+      stride_(settings.stride),
+      alpha_(settings.alpha),
+      expected_mass_(settings.expected_mass),
+      mass_bound_(settings.mass_bound.value_or(10.0 * settings.expected_mass)),
+      lambda_(settings.lambda),
+      volume_(shape_volumes(model).sum()),
+      rows_(robot, model, settings.contacts, weight_of(robot, settings)),
+      division_(model, options_of(settings)),
+      Phi_(Eigen::VectorXd::Zero(10 * static_cast<Eigen::Index>(model.free_links.size()))),
+      filtered_(Phi_) {
+  if (block_ < window_) sliding_.emplace(Phi_.size(), window_ / block_);
+  if (lambda_) division_.set_lambda(*lambda_);
+}
+
+Identifier::Fed Identifier::feed(const Sample& sample) noexcept {
+  const Clock::time_point start = Clock::now();
+  if (rows_.add(sample) != Verdict::taken) return Fed::sample_declined;
+  ++since_last_;
+  if (++in_block_ == block_) {
+    if (sliding_) sliding_->push(rows_.triangle());
+    in_window_ = std::min(in_window_ + block_, window_);
+  }
+  const bool complete = in_block_ == block_ && in_window_ == window_ && since_last_ >= stride_;
+  bool solved = false;
+  if (complete) solved = solve(sliding_ ? sliding_->triangle().R() : rows_.triangle().R());
+  if (in_block_ == block_) {
+    rows_.clear();
+    in_block_ = 0;
+  }
+
+  const double spent = seconds_since(start);
+  spent_ += spent;
+  if (!complete) {
+    slowest_ = std::max(slowest_, spent);
+    return Fed::kept;
+  }
+  if (solved) {
+    answer_.time = sample.time;
+    answer_.seconds = spent_;
+    answer_.slowest_sample = slowest_;
+    answer_.last_call = spent;
+  }
+  since_last_ = 0;
+  spent_ = 0.0;
+  slowest_ = 0.0;
+  return solved ? Fed::answered : Fed::window_declined;
+}
+
+bool Identifier::solve(const Eigen::MatrixXd& R) noexcept {
+  if (!lambda_) {
+    // default_lambda(), from the triangle: || b ||^2 is the sum of squares of its last column.
+    lambda_ =
+        1e-12 * R.col(R.cols() - 1).squaredNorm() * volume_ / (expected_mass_ * expected_mass_);
+    division_.set_lambda(*lambda_);
+  }
+  outcome_ = division_.start(R);
+  if (outcome_ != Outcome::solved) return false;
+  int iterations = division_.masses().iterations();
+  static_cast<void>(division_.run());
+  for (const Division::Cut& cut : division_.history()) iterations += cut.iterations;
+
+  const MassSolver& masses = division_.masses();
+  answer_.value = masses.value();
+  answer_.gap = masses.gap(mass_bound_);
+  answer_.iterations = iterations;
+  answer_.divisions = static_cast<int>(division_.history().size());
+  Phi_ = masses.Phi();
+  const double alpha = has_answer_ ? alpha_ : 1.0;
+  filtered_ = alpha * Phi_ + (1.0 - alpha) * filtered_;  // (17)
+  has_answer_ = true;
+  return true;
+}
+
+}  // namespace shapeid::fast

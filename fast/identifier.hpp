@@ -1,0 +1,101 @@
+// The method as it runs on the robot: samples in, parameters out. The thing to embed in a
+// controller.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+
+#include "shapeid/fast/division.hpp"
+#include "shapeid/fast/sliding_triangle.hpp"
+#include "shapeid/fast/window.hpp"
+#include "shapeid/models/body_model.hpp"
+#include "shapeid/models/contact_treatment.hpp"
+#include "shapeid/models/division.hpp"
+#include "shapeid/models/robot.hpp"
+#include "shapeid/models/sample.hpp"
+
+namespace shapeid::fast {
+
+struct IdentifierSettings {
+  ContactTreatment contacts = ContactTreatment::project;
+  Eigen::VectorXd weight;            ///< diagonal of W, generalised order; empty: ones
+  std::size_t window = 10;           ///< samples a window
+  std::size_t stride = 10;           ///< samples from one window to the next: 10 at 500 Hz is 20 ms
+  double alpha = 0.5;                ///< equation (17), in (0, 1]
+  double expected_mass = 0.0;        ///< M0 > 0, kg, of all free shapes together
+  std::optional<double> lambda;      ///< default: default_lambda() of the first window, then kept
+  std::optional<double> mass_bound;  ///< kg, for the gap; default: ten times M0
+  /// Divisions in every window. Its expected_mass is the one above.
+  DivisionOptions division{.most_divisions = 0};
+};
+
+/// One window's answer, besides masses and parameters.
+struct WindowAnswer {
+  double time = 0.0;   ///< s, of the window's last sample
+  Objective value;     ///< f of the present shapes, before the filter
+  double gap = 0.0;    ///< f is at most this much above its minimum over the present shapes
+  int iterations = 0;  ///< small systems, of all divisions together
+  int divisions = 0;
+  double seconds = 0.0;         ///< spent on the window: all its samples, solve and divisions
+  double slowest_sample = 0.0;  ///< s, of the calls that only kept a sample
+  double last_call = 0.0;       ///< s, of the call that gave this answer
+};
+
+/// What `reference::OnlineIdentifier` does, on compressed windows. After construction nothing
+/// throws or allocates (but see PartTree for polyhedra), and the work of a call is bounded.
+class Identifier {
+ public:
+  /// Copies what it needs. Throws InputError for settings that make no sense.
+  Identifier(const Robot& robot, const BodyModel& model, const IdentifierSettings& settings);
+
+  enum class Fed {
+    kept,             ///< no window is complete yet
+    answered,         ///< a window was solved: answer(), masses(), Phi() and filtered() are new
+    sample_declined,  ///< a number is not finite, or forces are missing: as if not fed
+    window_declined   ///< not solved, see outcome(): the last answer stays; ask the reference
+  };
+
+  /// Takes a sample; every `stride` samples, once `window` are there, solves.
+  Fed feed(const Sample& sample) noexcept;
+
+  /// Of the last window that was answered.
+  [[nodiscard]] const WindowAnswer& answer() const noexcept { return answer_; }
+  /// kg, one a shape of the model, before any division.
+  [[nodiscard]] const Eigen::VectorXd& undivided_masses() const noexcept {
+    return division_.undivided_masses();
+  }
+  /// Parameters of the free links, 10 each, before filter (17).
+  [[nodiscard]] const Eigen::VectorXd& Phi() const noexcept { return Phi_; }
+  /// Phi_bar of the free links (17); the optimum of no window.
+  [[nodiscard]] const Eigen::VectorXd& filtered() const noexcept { return filtered_; }
+  /// How the last window's solve ended.
+  [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
+  /// lambda in use; empty before the first window.
+  [[nodiscard]] std::optional<double> lambda() const noexcept { return lambda_; }
+  /// The divided shapes of the last window.
+  [[nodiscard]] const Division& division() const noexcept { return division_; }
+  [[nodiscard]] std::size_t samples_by_six_rows() const noexcept {
+    return rows_.samples_by_six_rows();
+  }
+
+ private:
+  [[nodiscard]] bool solve(const Eigen::MatrixXd& R) noexcept;
+
+  std::size_t block_, window_, stride_;  ///< samples
+  double alpha_, expected_mass_, mass_bound_;
+  std::optional<double> lambda_;
+  double volume_ = 0.0;
+  Window rows_;                             ///< of the present block
+  std::optional<SlidingTriangle> sliding_;  ///< the last blocks, if windows overlap
+  Division division_;
+  std::size_t in_block_ = 0, in_window_ = 0, since_last_ = 0;
+  bool has_answer_ = false;
+  Outcome outcome_ = Outcome::solved;
+  WindowAnswer answer_;
+  double spent_ = 0.0, slowest_ = 0.0;
+  Eigen::VectorXd Phi_, filtered_;
+};
+
+}  // namespace shapeid::fast

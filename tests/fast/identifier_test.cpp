@@ -1,0 +1,152 @@
+// Samples in, parameters out: the fast identifier against the reference one on simulated trots.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "shapeid/fast/identifier.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/urdf.hpp"
+#include "shapeid/reference/online.hpp"
+#include "shapeid/tests/fast/allocations.hpp"
+#include "shapeid/tests/fast/cases.hpp"
+#include "shapeid/tests/support/generators.hpp"
+
+namespace shapeid {
+namespace {
+
+using fast::Identifier;
+using Fed = Identifier::Fed;
+
+struct Case {
+  Robot robot;
+  BodyModel model;
+  std::vector<Sample> samples;
+  Eigen::VectorXd weight;
+};
+
+/// A tree with some links free, and a motion that its forces do not explain at all: masses at their
+/// bounds, large residuals.
+Case any_case(int samples) {
+  Case c;
+  c.robot = *test::robot({2, 8, Root::floating});
+  c.model = test::any_model(c.robot);
+  c.samples = *rc::gen::container<std::vector<Sample>>(static_cast<std::size_t>(samples),
+                                                       test::sample(c.robot));
+  c.weight = Eigen::VectorXd::Constant(c.robot.dof(), *test::magnitude(1e-2, 1e2));
+  return c;
+}
+
+/// Prints at the end of the program how many windows there were.
+struct Report {
+  const char* what;
+  const int &windows, &declined;
+  Report(const char* name, const int& all, const int& refused)
+      : what(name), windows(all), declined(refused) {}
+  ~Report() { fmt::print("{} {}: {}, {} declined\n", "identifier,", what, windows, declined); }
+  Report(const Report&) = delete;
+  Report& operator=(const Report&) = delete;
+};
+
+/// Both solve the same problems, whose objective is known to a rounding of its terms. What the data
+/// do not determine follows from lambda, 1e-12 of the scale: a rounding moves it by 1e-4 of M0.
+constexpr double objective_bound = 1e-9, Phi_bound = 1e-4, M0 = 2.0;
+
+RC_GTEST_PROP(FastIdentifier, AnswersAsTheReferenceDoes, ()) {
+  const Case c = any_case(24);
+  reference::OnlineSettings settings;
+  settings.weight = c.weight;
+  settings.window = static_cast<std::size_t>(*rc::gen::inRange(1, 9));
+  settings.stride = static_cast<std::size_t>(*rc::gen::inRange(1, 9));
+  settings.expected_mass = M0;
+  fast::IdentifierSettings fast_settings;
+  fast_settings.weight = settings.weight;
+  fast_settings.window = settings.window;
+  fast_settings.stride = settings.stride;
+  fast_settings.expected_mass = settings.expected_mass;
+  reference::OnlineIdentifier expected(c.robot, c.model, settings);
+  Identifier identifier(c.robot, c.model, fast_settings);
+  static int windows = 0, declined = 0;
+  static const Report report("windows answered by both", windows, declined);
+  for (const Sample& sample : c.samples) {
+    const std::optional<reference::OnlineResult> result = expected.feed(sample);
+    const Fed fed = identifier.feed(sample);
+    RC_ASSERT((fed == Fed::answered || fed == Fed::window_declined) == result.has_value());
+    windows += fed == Fed::kept ? 0 : 1;
+    if (fed == Fed::window_declined) {
+      ++declined;
+      return;  // the filters have seen different windows from here on
+    }
+    if (fed != Fed::answered) continue;
+    RC_ASSERT(identifier.answer().time == result->time);
+    // Forces are tens of newtons, weights 1e-2 at least: where less than this is left of their
+    // squares, it is rounding.
+    const double scale = std::max(result->solution.value.total(), 1.0);
+    RC_ASSERT(std::abs(identifier.answer().value.total() - result->solution.value.total()) <=
+              objective_bound * scale);
+    RC_ASSERT(identifier.answer().gap <= objective_bound * scale);
+    RC_ASSERT((identifier.Phi() - result->solution.Phi).norm() <= Phi_bound * M0);
+    RC_ASSERT((identifier.filtered() - result->filtered).norm() <= Phi_bound * M0);
+  }
+}
+
+RC_GTEST_PROP(FastIdentifier, AllocatesNothingAfterConstruction, ()) {
+  const Case c = any_case(20);
+  fast::IdentifierSettings settings;
+  settings.weight = c.weight;
+  settings.window = 5;
+  settings.stride = 4;
+  settings.expected_mass = M0;
+  settings.division.most_divisions = 10;
+  Identifier identifier(c.robot, c.model, settings);
+  RC_ASSERT(test::allocations_during([&] {
+              for (const Sample& sample : c.samples) identifier.feed(sample);
+            }) == 0U);
+}
+
+// A sample that is no number is as if it had not been fed.
+RC_GTEST_PROP(FastIdentifier, DeclinedSamplesLeaveNoTrace, ()) {
+  const Case c = any_case(12);
+  fast::IdentifierSettings settings;
+  settings.window = 4;
+  settings.stride = 3;
+  settings.expected_mass = M0;
+  Identifier clean(c.robot, c.model, settings), disturbed(c.robot, c.model, settings);
+  for (const Sample& sample : c.samples) {
+    Sample bad = sample;
+    bad.tau[0] = std::numeric_limits<double>::quiet_NaN();
+    RC_ASSERT(disturbed.feed(bad) == Fed::sample_declined);
+    RC_ASSERT(disturbed.feed(sample) == clean.feed(sample));
+    RC_ASSERT(disturbed.Phi() == clean.Phi());
+    RC_ASSERT(disturbed.filtered() == clean.filtered());
+  }
+}
+
+TEST(FastIdentifier, RefusesSettingsThatMakeNoSense) {
+  const Robot robot = read_urdf(SHAPEID_SOURCE_DIR "/models/robots/quadruped.urdf").robot;
+  const BodyModel model = test::base_model(robot);
+  const auto refused = [&](auto change) {
+    fast::IdentifierSettings settings;
+    settings.expected_mass = 1.0;
+    change(settings);
+    EXPECT_THROW(Identifier(robot, model, settings), InputError);
+  };
+  refused([](auto& s) { s.window = 0; });
+  refused([](auto& s) { s.stride = 0; });
+  refused([](auto& s) { s.expected_mass = 0.0; });
+  refused([](auto& s) { s.alpha = 0.0; });
+  refused([](auto& s) { s.alpha = 1.5; });
+  refused([](auto& s) { s.lambda = -1.0; });
+  refused([](auto& s) { s.mass_bound = 0.0; });
+  refused([](auto& s) { s.weight = Eigen::VectorXd::Ones(1); });
+  refused([](auto& s) { s.division.k1 = -1.0; });
+}
+
+}  // namespace
+}  // namespace shapeid
