@@ -17,6 +17,7 @@
 #include "shapeid/tests/fast/allocations.hpp"
 #include "shapeid/tests/fast/cases.hpp"
 #include "shapeid/tests/support/generators.hpp"
+#include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid {
 namespace {
@@ -54,9 +55,10 @@ struct Report {
   Report& operator=(const Report&) = delete;
 };
 
-/// Both solve the same problems, whose objective is known to a rounding of its terms. What the data
-/// do not determine follows from lambda, 1e-12 of the scale: a rounding moves it by 1e-4 of M0.
-constexpr double objective_bound = 1e-9, Phi_bound = 1e-4, M0 = 2.0;
+/// Rows reach both by different ways, so that their roundings differ, and where they do not
+/// determine a parameter lambda (1e-12 of the scale) turns these into much: masses are compared on
+/// one triangle elsewhere (FastDivision), here objectives are.
+constexpr double objective_bound = 1e-9, M0 = 2.0;
 
 RC_GTEST_PROP(FastIdentifier, AnswersAsTheReferenceDoes, ()) {
   const Case c = any_case(24);
@@ -74,6 +76,7 @@ RC_GTEST_PROP(FastIdentifier, AnswersAsTheReferenceDoes, ()) {
   Identifier identifier(c.robot, c.model, fast_settings);
   static int windows = 0, declined = 0;
   static const Report report("windows answered by both", windows, declined);
+  Eigen::VectorXd filtered;
   for (const Sample& sample : c.samples) {
     const std::optional<reference::OnlineResult> result = expected.feed(sample);
     const Fed fed = identifier.feed(sample);
@@ -91,8 +94,10 @@ RC_GTEST_PROP(FastIdentifier, AnswersAsTheReferenceDoes, ()) {
     RC_ASSERT(std::abs(identifier.answer().value.total() - result->solution.value.total()) <=
               objective_bound * scale);
     RC_ASSERT(identifier.answer().gap <= objective_bound * scale);
-    RC_ASSERT((identifier.Phi() - result->solution.Phi).norm() <= Phi_bound * M0);
-    RC_ASSERT((identifier.filtered() - result->filtered).norm() <= Phi_bound * M0);
+    const Eigen::VectorXd last = filtered;
+    filtered = identifier.Phi();
+    if (last.size() > 0) filtered = settings.alpha * filtered + (1.0 - settings.alpha) * last;
+    RC_ASSERT(test::scaled_difference(identifier.filtered(), filtered, 1) < test::few_hundred_eps);
   }
 }
 
