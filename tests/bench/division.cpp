@@ -101,7 +101,7 @@ void register_runs(const std::string& row, int shapes,
 /// Records when first asked: runs to a thousand shapes take a second each.
 class Recorder {
  public:
-  Recorder(SeedSet seeds, Noise noise, Density density)
+  Recorder(SeedSet seeds, test::Noise noise, Density density)
       : seeds_(seeds), noise_(noise), density_(density) {}
 
   std::shared_ptr<const std::vector<Run>> operator()(int shapes) {
@@ -117,7 +117,7 @@ class Recorder {
 
  private:
   SeedSet seeds_;
-  Noise noise_;
+  test::Noise noise_;
   Density density_;
   std::map<int, std::shared_ptr<const std::vector<Run>>> made_;
 };

@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   Work work;
   work.peer = kind->make();
   work.problems = base_windows(row == "base11" ? base_shapes() : base_points(), SeedSet::published,
-                               Noise::sensors, Density::none, 8, 25);
+                               shapeid::test::Noise::sensors, Density::none, 8, 25);
   for (const DenseProblem& problem : work.problems)
     prepare(problem, Form::normal, work.prepared.emplace_back());
   // Once outside: memory is asked for, and symbols are resolved.

@@ -40,7 +40,8 @@ double window_bytes(const BodyModel& model) {
 
 /// Growth of the heap while a window forgets its way through a stream.
 double stream_bytes(std::size_t samples) {
-  const std::vector<Sample> some = trot(quadruped(), some_truth(0), 0, 100, Noise::sensors);
+  const std::vector<Sample> some =
+      test::trot(quadruped(), some_truth(0), 0, 100, test::Noise::sensors);
   fast::Window window(quadruped(), base_shapes(), ContactTreatment::project,
                       Eigen::VectorXd::Ones(quadruped().dof()));
   const double before = heap();

@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   using namespace shapeid::bench;
   const std::uint64_t seed = seed_of(start(argc, argv), 0);
   const std::vector<Sample> samples =
-      trot(quadruped(), some_truth(seed), seed, count, Noise::sensors);
+      test::trot(quadruped(), some_truth(seed), seed, count, test::Noise::sensors);
   register_ours("regressor_full/fast", all_links(), samples);
   register_ours("regressor_base/fast", {0}, samples);
 #ifdef SHAPEID_PINOCCHIO

@@ -174,13 +174,13 @@ int main(int argc, char** argv) {
   const SeedSet seeds = start(argc, argv);
   const std::uint64_t seed = seed_of(seeds, 0);
   const std::vector<shapeid::Sample> samples =
-      trot(quadruped(), some_truth(seed), seed, 200, Noise::sensors);
+      shapeid::test::trot(quadruped(), some_truth(seed), seed, 200, shapeid::test::Noise::sensors);
   register_machine();
   register_sample_stages(samples);
   for (const auto& [name, model] :
        {std::pair("11 shapes", base_shapes()), {"54 points", base_points()}}) {
     const std::vector<DenseProblem> problems =
-        base_windows(model, seeds, Noise::sensors, Density::none, 10, 25);
+        base_windows(model, seeds, shapeid::test::Noise::sensors, Density::none, 10, 25);
     register_solve(std::string("solve of ") + name + ", cold", "fast", problems);
     register_solve(std::string("solve of ") + name + ", warm", "fast/warm", problems);
   }

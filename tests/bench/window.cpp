@@ -31,11 +31,11 @@ std::vector<Verdict> judge_stacks(const std::vector<StackKind>& kinds, const Bod
 
 void register_windows(const std::string& row, const BodyModel& model, SeedSet seeds) {
   const std::uint64_t seed = seed_of(seeds, 0);
-  const auto samples = std::make_shared<const std::vector<Sample>>(
-      trot(quadruped(), some_truth(seed), seed, windows * window_samples, Noise::sensors));
+  const auto samples = std::make_shared<const std::vector<Sample>>(test::trot(
+      quadruped(), some_truth(seed), seed, windows * window_samples, test::Noise::sensors));
   // The same samples, so the same windows.
   const std::vector<DenseProblem> problems =
-      base_windows(model, seeds, Noise::sensors, Density::none, 1, windows);
+      base_windows(model, seeds, test::Noise::sensors, Density::none, 1, windows);
   const std::vector<StackKind> kinds = window_stacks();
   const std::vector<Verdict> verdicts = judge_stacks(kinds, model, *samples, problems);
   for (std::size_t k = 0; k < kinds.size(); ++k) {

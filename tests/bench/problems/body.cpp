@@ -62,14 +62,15 @@ BodyModel body_cuboids(int count) {
   return model;
 }
 
-std::vector<DenseProblem> body_windows(const BodyModel& model, SeedSet seeds, Noise noise,
+std::vector<DenseProblem> body_windows(const BodyModel& model, SeedSet seeds, test::Noise noise,
                                        Density density, int sequences, int windows) {
   std::vector<DenseProblem> all;
   for (int k = 0; k < sequences; ++k) {
     const std::uint64_t seed = seed_of(seeds, static_cast<std::uint64_t>(k));
     const std::size_t count =
         body_window_samples + window_samples * static_cast<std::size_t>(windows - 1);
-    const std::vector<Sample> samples = trot(quadruped(), some_bodies(seed), seed, count, noise);
+    const std::vector<Sample> samples =
+        test::trot(quadruped(), some_bodies(seed), seed, count, noise);
     for (int w = 0; w < windows; ++w) {
       reference::Window window(quadruped(), model, reference::ContactTreatment::project,
                                Eigen::VectorXd::Ones(quadruped().dof()));

@@ -5,7 +5,7 @@
 
 #include "shapeid/tests/bench/problems/dense_problem.hpp"
 #include "shapeid/tests/bench/problems/seeds.hpp"
-#include "shapeid/tests/bench/problems/trot.hpp"
+#include "shapeid/tests/support/trot.hpp"
 
 namespace shapeid::bench {
 
@@ -16,7 +16,7 @@ namespace shapeid::bench {
 /// Windows of two seconds, each 20 ms after the one before, one sequence after the other: 130 rows
 /// once compressed. The problems are the published ones: W = 1, lambda = 0.
 [[nodiscard]] std::vector<DenseProblem> body_windows(const BodyModel& model, SeedSet seeds,
-                                                     Noise noise, Density density, int sequences,
-                                                     int windows);
+                                                     test::Noise noise, Density density,
+                                                     int sequences, int windows);
 
 }  // namespace shapeid::bench

@@ -39,13 +39,13 @@ Eigen::VectorXd masses_by_lawson_hanson(const DenseProblem& problem) {
 
 }  // namespace
 
-std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number, Noise noise,
+std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number, test::Noise noise,
                                        Density density, int shapes) {
   const std::uint64_t seed = seed_of(seeds, number);
   BodyModel model = base_box();
   reference::Window window(quadruped(), model, reference::ContactTreatment::project,
                            Eigen::VectorXd::Ones(quadruped().dof()));
-  for (const Sample& s : trot(quadruped(), some_truth(seed), seed, run_samples, noise))
+  for (const Sample& s : test::trot(quadruped(), some_truth(seed), seed, run_samples, noise))
     window.add(s);
 
   DivisionOptions options;

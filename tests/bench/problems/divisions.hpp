@@ -5,7 +5,7 @@
 
 #include "shapeid/tests/bench/problems/dense_problem.hpp"
 #include "shapeid/tests/bench/problems/seeds.hpp"
-#include "shapeid/tests/bench/problems/trot.hpp"
+#include "shapeid/tests/support/trot.hpp"
 
 namespace shapeid::bench {
 
@@ -13,6 +13,7 @@ namespace shapeid::bench {
 /// shapes. Criterion (16) picks them by the masses that Lawson-Hanson finds at lambda = 0, the
 /// published problem.
 [[nodiscard]] std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number,
-                                                     Noise noise, Density density, int shapes);
+                                                     test::Noise noise, Density density,
+                                                     int shapes);
 
 }  // namespace shapeid::bench

@@ -5,20 +5,20 @@
 #include <vector>
 
 #include "shapeid/tests/bench/problems/dense_problem.hpp"
-#include "shapeid/tests/bench/problems/trot.hpp"
+#include "shapeid/tests/support/trot.hpp"
 
 namespace shapeid::bench {
 
 struct Variant {
   std::string suffix;  ///< of the row's name
-  Noise noise;
+  test::Noise noise;
   Density density;
 };
 
 [[nodiscard]] inline std::vector<Variant> variants() {
-  return {{"", Noise::sensors, Density::none},
-          {"_noisefree", Noise::none, Density::none},
-          {"_density", Noise::sensors, Density::design}};
+  return {{"", test::Noise::sensors, Density::none},
+          {"_noisefree", test::Noise::none, Density::none},
+          {"_density", test::Noise::sensors, Density::design}};
 }
 
 }  // namespace shapeid::bench

@@ -35,13 +35,14 @@ Eigen::VectorXd some_truth(std::uint64_t seed) {
   return all_parameters(model, shape_columns(model) * m);
 }
 
-std::vector<DenseProblem> base_windows(const BodyModel& model, SeedSet seeds, Noise noise,
+std::vector<DenseProblem> base_windows(const BodyModel& model, SeedSet seeds, test::Noise noise,
                                        Density density, int sequences, int windows) {
   std::vector<DenseProblem> all;
   for (int k = 0; k < sequences; ++k) {
     const std::uint64_t seed = seed_of(seeds, static_cast<std::uint64_t>(k));
     const std::size_t count = window_samples * static_cast<std::size_t>(windows);
-    const std::vector<Sample> samples = trot(quadruped(), some_truth(seed), seed, count, noise);
+    const std::vector<Sample> samples =
+        test::trot(quadruped(), some_truth(seed), seed, count, noise);
     reference::Window window(quadruped(), model, reference::ContactTreatment::project,
                              Eigen::VectorXd::Ones(quadruped().dof()));
     for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -6,7 +6,7 @@
 
 #include "shapeid/tests/bench/problems/dense_problem.hpp"
 #include "shapeid/tests/bench/problems/seeds.hpp"
-#include "shapeid/tests/bench/problems/trot.hpp"
+#include "shapeid/tests/support/trot.hpp"
 
 namespace shapeid::bench {
 
@@ -23,8 +23,8 @@ namespace shapeid::bench {
 /// Trots of ten-sample windows (20 ms) that follow each other, one sequence after the other. The
 /// problems are the published ones: W = 1, lambda = 0.
 [[nodiscard]] std::vector<DenseProblem> base_windows(const BodyModel& model, SeedSet seeds,
-                                                     Noise noise, Density density, int sequences,
-                                                     int windows);
+                                                     test::Noise noise, Density density,
+                                                     int sequences, int windows);
 
 inline constexpr std::size_t window_samples = 10;
 

@@ -1,4 +1,4 @@
-#include "shapeid/tests/bench/problems/trot.hpp"
+#include "shapeid/tests/support/trot.hpp"
 
 #include <Eigen/QR>
 
@@ -9,10 +9,8 @@
 #include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/support/load_problem.hpp"
 
-namespace shapeid::bench {
+namespace shapeid::test {
 namespace {
-
-using test::Draw;
 
 constexpr double rate = 500.0;  // Hz
 constexpr double gait = 2.0;    // strides a second
@@ -137,4 +135,4 @@ std::vector<Sample> trot(const Robot& robot, const Eigen::VectorXd& Phi, std::ui
   return samples;
 }
 
-}  // namespace shapeid::bench
+}  // namespace shapeid::test

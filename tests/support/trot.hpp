@@ -10,7 +10,7 @@
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
 
-namespace shapeid::bench {
+namespace shapeid::test {
 
 enum class Noise {
   none,    ///< consistent to rounding
@@ -24,4 +24,4 @@ enum class Noise {
 [[nodiscard]] std::vector<Sample> trot(const Robot& robot, const Eigen::VectorXd& Phi,
                                        std::uint64_t seed, std::size_t count, Noise noise);
 
-}  // namespace shapeid::bench
+}  // namespace shapeid::test
