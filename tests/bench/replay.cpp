@@ -122,15 +122,16 @@ void replay(const std::vector<std::string>& files) {
 
   const double memory_before = resident_kilobytes();
   double memory_early = 0.0;
-  const std::size_t asked_before = test::allocations();
+  std::size_t asked = 0;
   for (std::size_t i = 0; i < samples_replayed; ++i) {
+    const std::size_t asked_before = test::allocations();
     const auto from = Clock::now();
     online.feed(samples[i % samples.size()]);
     calls.seconds[i] = std::chrono::duration<double>(Clock::now() - from).count();
+    asked += test::allocations() - asked_before;
     windows.seconds[i / window_samples] += calls.seconds[i];
     if (i == samples_a_minute) memory_early = resident_kilobytes();
   }
-  const std::size_t asked = test::allocations() - asked_before;
   const double memory_after = resident_kilobytes();
 
   fmt::print(
