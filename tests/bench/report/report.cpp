@@ -1,5 +1,5 @@
 // Writes docs/benchmarks.md to standard output from the files that the benchmark programs left in a
-// folder: *.json by Google Benchmark, *.md as they are.
+// folder: *.json by Google Benchmark, *.md as they are; native/*.json from a native build.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -112,6 +112,23 @@ void print_growth(const Results& results) {
   }
 }
 
+/// `native`: the same benchmarks in a build for this processor alone.
+void print_native(const Results& results, const Results& native) {
+  if (native.all.empty()) return;
+  fmt::print(
+      "\n## What a native build adds\n\nOurs as above, and built with {}. The plain build needs no "
+      "more than any x86-64 has.\n\n| row | plain | native | ratio |\n|---|---|---|---|\n",
+      context(native, "flags"));
+  std::set<std::string> done;
+  for (const Goal& goal : goals()) {
+    const Result* plain = results.find(goal.ours);
+    const Result* other = native.find(goal.ours);
+    if (plain == nullptr || other == nullptr || !done.insert(goal.ours).second) continue;
+    fmt::print("| {} | {} | {} | {:.3g} |\n", goal.ours, time(plain->median()),
+               time(other->median()), plain->median() / other->median());
+  }
+}
+
 void print_density(const Results& results) {
   fmt::print(
       "\n## The density term\n\nOurs with the design's lambda over ours with lambda = 0, same "
@@ -170,17 +187,29 @@ void print_all(const Results& results) {
   }
 }
 
-int report(const std::filesystem::path& folder) {
+std::set<std::filesystem::path> files_in(const std::filesystem::path& folder) {
   std::set<std::filesystem::path> files;
+  if (!std::filesystem::exists(folder)) return files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files.insert(entry.path());
+  return files;
+}
+
+Results read_all(const std::set<std::filesystem::path>& files) {
   Results results;
   for (const auto& file : files) {
     if (file.extension() == ".json") read_results(file, results);
   }
+  return results;
+}
+
+int report(const std::filesystem::path& folder) {
+  const std::set<std::filesystem::path> files = files_in(folder);
+  const Results results = read_all(files);
   print_head(results);
   print_goals(results);
   print_growth(results);
   print_density(results);
+  print_native(results, read_all(files_in(folder / "native")));
   print_stages(results);
   for (const auto& file : files) {
     if (file.extension() != ".md") continue;
