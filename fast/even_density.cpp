@@ -34,6 +34,17 @@ constexpr double few_roundings = 32.0 * std::numeric_limits<double>::epsilon();
 /// Rows of the damped least-squares problem that a link has: ten of R, ten of damping.
 constexpr Eigen::Index rows_of_link = 20;
 
+/// What the ten columns measure, from their lengths: masses, first moments (mass and tensor bound
+/// them), tensor. One where there is nothing.
+Eigen::Matrix<double, 10, 1> sizes_of(const Eigen::Matrix<double, 10, 1>& lengths) noexcept {
+  const double mass = lengths[0];
+  const double tensor = std::max({lengths[4], lengths[7], lengths[9]});
+  Eigen::Matrix<double, 10, 1> sizes;
+  sizes << mass, Eigen::Vector3d::Constant(std::sqrt(mass * tensor)),
+      Eigen::Matrix<double, 6, 1>::Constant(tensor);
+  return (sizes.array() > 0.0).select(sizes, 1.0);
+}
+
 }  // namespace
 
 EvenDensity::EvenDensity(const ShapeColumns& columns, const Eigen::VectorXd& V)
@@ -156,26 +167,29 @@ void EvenDensity::rebuild(int link) noexcept {
   density.outdated = false;
 }
 
-// Householder's QR with column pivots of the triangle, its columns made one long first: so the rank
-// does not depend on units.
+// Householder's QR with column pivots of the triangle. Its columns are first divided by what bodies
+// of this mass and size have in them, so that the rank does not depend on units: and not by their
+// own lengths, which would make a direction out of rounding where shapes lie symmetrically.
 void EvenDensity::reveal_rank(Density& density) noexcept {
   Square& T = density.T;
   T = density.X.triangularView<Eigen::Upper>();
+  density.lengths = sizes_of(T.colwise().norm());
   for (int i = 0; i < 10; ++i) {
-    const double length = T.col(i).norm();
-    density.lengths[i] = length > 0.0 ? length : 1.0;
     T.col(i) /= density.lengths[i];
     density.pivots[static_cast<std::size_t>(i)] = i;
   }
-  // Squares of what is left of the columns: one at first, then less by what each row takes, and
-  // computed anew where so much is gone that the difference is no good.
-  Ten squares = T.colwise().squaredNorm();
+  // Squares of what is left of the columns: less by what each row takes, and computed anew where so
+  // much is gone that the difference is no good.
+  const Ten whole = T.colwise().squaredNorm();
+  Ten squares = whole;
+  double smallest = 0.0;
   density.rank = 0;
   density.certain = 0;
   for (int k = 0; k < std::min(10, density.shapes); ++k) {
     int pivot = k;
     for (int i = k; i < 10; ++i) {
-      if (squares[i] < cancelled) squares[i] = T.col(i).tail(10 - k).squaredNorm();
+      const int place = density.pivots[static_cast<std::size_t>(i)];
+      if (squares[i] < cancelled * whole[place]) squares[i] = T.col(i).tail(10 - k).squaredNorm();
       if (squares[i] > squares[pivot]) pivot = i;
     }
     T.col(k).swap(T.col(pivot));
@@ -183,7 +197,8 @@ void EvenDensity::reveal_rank(Density& density) noexcept {
     std::swap(density.pivots[static_cast<std::size_t>(k)],
               density.pivots[static_cast<std::size_t>(pivot)]);
     const double length = T.col(k).tail(10 - k).norm();
-    if (!(length > smallest_pivot)) break;
+    if (k == 0) smallest = smallest_pivot * length;
+    if (!(length > smallest)) break;
     Ten v = T.col(k);
     v.head(k).setZero();
     const double image = v[k] > 0.0 ? -length : length;
@@ -197,7 +212,7 @@ void EvenDensity::reveal_rank(Density& density) noexcept {
     T.col(k).tail(10 - k).setZero();
     T(k, k) = image;
     density.rank = k + 1;
-    if (length > well_spread) density.certain = k + 1;
+    if (length > well_spread * std::abs(T(0, 0))) density.certain = k + 1;
   }
   density.revealed = true;
 }
