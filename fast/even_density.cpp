@@ -56,8 +56,6 @@ EvenDensity::EvenDensity(const ShapeColumns& columns, const Eigen::VectorXd& V)
       y_(Eigen::VectorXd::Zero(Eigen::Index{10} * columns.links())),
       correction_(y_),
       target_(Eigen::VectorXd::Zero(columns.capacity())),
-      Phi_(y_),
-      r_(y_),
       slopes_(y_),
       noise_(y_) {
   passive_.reserve(static_cast<std::size_t>(columns.capacity()));
@@ -332,26 +330,12 @@ void EvenDensity::refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slop
 
 // Of the slopes R^T r of a link those in the span of its passive columns are lambda w there, which
 // is known to more digits than the difference r. The others come from r.
-const Eigen::VectorXd& EvenDensity::slopes() noexcept {
-  if (!solved_) solve();
-  // From the masses, not from y: X has seen rows come and go, and its rounding is not the masses'.
-  Phi_.setZero();
-  for (std::size_t i = 0; i < passive_.size(); ++i) {
-    const int j = passive_[i];
-    Phi_.segment<10>(Eigen::Index{10} * columns_->link(j)) +=
-        target_[static_cast<Eigen::Index>(i)] * columns_->column(j);
-  }
-  r_ = right_hand_side(*R_);
-  for (int l = 0; l < columns_->links(); ++l) {
-    const Ten minus = -Phi_.segment<10>(Eigen::Index{10} * l);
-    add_column(*R_, l, minus, r_.data());
-  }
-  slopes_of(*R_, r_, slopes_);
+const Eigen::VectorXd& EvenDensity::slopes(const Eigen::VectorXd& of_residual) noexcept {
   for (int l = 0; l < columns_->links(); ++l) {
     const Density& density = densities_[static_cast<std::size_t>(l)];
     Ten y = Ten::Zero();
     y.head(density.rank) = lambda_ * y_.segment(density.first, density.rank);
-    Ten g = slopes_.segment<10>(Eigen::Index{10} * l);
+    Ten g = of_residual.segment<10>(Eigen::Index{10} * l);
     for (int i = 0; i < 10; ++i) {
       if (std::abs(g[i]) <= noise_[Eigen::Index{10} * l + i]) g[i] = 0.0;
     }

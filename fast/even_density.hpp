@@ -34,7 +34,7 @@ class EvenDensity final : public PassiveSet {
   void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept override;
   [[nodiscard]] bool sound() const noexcept override { return sound_; }
   [[nodiscard]] const Eigen::VectorXd& target() noexcept override;
-  [[nodiscard]] const Eigen::VectorXd& slopes() noexcept override;
+  [[nodiscard]] const Eigen::VectorXd& slopes(const Eigen::VectorXd& of_residual) noexcept override;
 
  private:
   using Square = Eigen::Matrix<double, 10, 10>;
@@ -75,7 +75,7 @@ class EvenDensity final : public PassiveSet {
   bool sound_ = true;
   bool solved_ = false;  ///< y_ and the weights are those of the passive shapes
   ColumnQr qr_;
-  Eigen::VectorXd b_, y_, correction_, target_, Phi_, r_, slopes_;
+  Eigen::VectorXd b_, y_, correction_, target_, slopes_;
   Eigen::VectorXd noise_;  ///< what rounding leaves of a slope R^T r that is zero
 };
 

@@ -11,11 +11,8 @@ ManyLinks::ManyLinks(const ShapeColumns& columns)
       qr_(Eigen::Index{10} * columns.links(),
           std::min(Eigen::Index{10} * columns.links(), Eigen::Index{columns.capacity()})),
       target_(Eigen::VectorXd::Zero(Eigen::Index{10} * columns.links())),
-      correction_(target_),
-      Phi_(target_),
-      r_(Phi_),
-      slopes_(Phi_) {
-  passive_.reserve(static_cast<std::size_t>(Phi_.size()) + 1);
+      correction_(target_) {
+  passive_.reserve(static_cast<std::size_t>(target_.size()) + 1);
 }
 
 void ManyLinks::start(const Eigen::MatrixXd& R) noexcept {
@@ -72,23 +69,6 @@ void ManyLinks::refine(const Eigen::VectorXd& /*Phi*/, const Eigen::VectorXd& sl
   }
   qr_.solve_normal(correction_);
   target_.head(qr_.size()) += correction_.head(qr_.size());
-}
-
-const Eigen::VectorXd& ManyLinks::slopes() noexcept {
-  static_cast<void>(target());
-  Phi_.setZero();
-  for (std::size_t i = 0; i < passive_.size(); ++i) {
-    const int j = passive_[i];
-    Phi_.segment<10>(Eigen::Index{10} * columns_->link(j)) +=
-        target_[static_cast<Eigen::Index>(i)] * columns_->column(j);
-  }
-  r_ = right_hand_side(*R_);
-  for (int l = 0; l < columns_->links(); ++l) {
-    const Eigen::Matrix<double, 10, 1> minus = -Phi_.segment<10>(Eigen::Index{10} * l);
-    add_column(*R_, l, minus, r_.data());
-  }
-  slopes_of(*R_, r_, slopes_);
-  return slopes_;
 }
 
 }  // namespace shapeid::fast

@@ -24,7 +24,10 @@ class ManyLinks final : public PassiveSet {
   void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept override;
   [[nodiscard]] bool sound() const noexcept override { return sound_; }
   [[nodiscard]] const Eigen::VectorXd& target() noexcept override;
-  [[nodiscard]] const Eigen::VectorXd& slopes() noexcept override;
+  [[nodiscard]] const Eigen::VectorXd& slopes(
+      const Eigen::VectorXd& of_residual) noexcept override {
+    return of_residual;
+  }
 
  private:
   ColumnQr::Push push(int j) noexcept;
@@ -36,7 +39,7 @@ class ManyLinks final : public PassiveSet {
   std::vector<int> passive_;
   bool sound_ = true;
   bool solved_ = false;  ///< target_ is that of the passive shapes
-  Eigen::VectorXd target_, correction_, Phi_, r_, slopes_;
+  Eigen::VectorXd target_, correction_;
 };
 
 }  // namespace shapeid::fast

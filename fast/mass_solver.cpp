@@ -226,7 +226,8 @@ bool MassSolver::step_is_blocked() noexcept {
 }
 
 int MassSolver::entering_shape() noexcept {
-  const Eigen::VectorXd& slopes = set_->slopes();
+  if (!set_->keeps_slopes()) evaluate();
+  const Eigen::VectorXd& slopes = set_->slopes(slopes_);
   if (slopes.isZero(0.0)) return -1;  // as many passive shapes as rows: nothing is left to gain
   const int j = columns_.steepest(slopes, smallest_slope);
   if (j >= 0 || !(lambda_ > 0.0)) return j;
@@ -283,13 +284,13 @@ Outcome MassSolver::iterate() noexcept {
   while (true) {
     if (++iterations_ > last) return Outcome::too_many_steps;
     if (step_is_blocked() || one_enters()) continue;
-    for (std::size_t i = 0; i < passive_.size(); ++i) m_[passive_[i]] = masses_[i];
-    evaluate();
+    if (set_->keeps_slopes()) evaluate();
     if (refinements == most_refinements || !(largest_slope() > refined_slope)) break;
     ++refinements;
     set_->refine(Phi_, slopes_);
   }
   if (!set_->sound()) return Outcome::ill_conditioned;
+  for (std::size_t i = 0; i < passive_.size(); ++i) m_[passive_[i]] = masses_[i];
   return std::isfinite(value_.total()) ? Outcome::solved : Outcome::not_finite;
 }
 
@@ -297,9 +298,10 @@ Outcome MassSolver::iterate() noexcept {
 void MassSolver::evaluate() noexcept {
   Phi_.setZero();
   value_.density = 0.0;
-  for (const int j : passive_) {
-    Phi_.segment<10>(Eigen::Index{10} * columns_.link(j)) += m_[j] * columns_.column(j);
-    value_.density += lambda_ * m_[j] * m_[j] / V_[j];
+  for (std::size_t i = 0; i < passive_.size(); ++i) {
+    const int j = passive_[i];
+    Phi_.segment<10>(Eigen::Index{10} * columns_.link(j)) += masses_[i] * columns_.column(j);
+    value_.density += lambda_ * masses_[i] * masses_[i] / V_[j];
   }
   r_ = right_hand_side(*R_);
   for (int l = 0; l < links(); ++l) {
@@ -314,10 +316,11 @@ void MassSolver::evaluate() noexcept {
 /// Of the passive shapes, whose slopes should be zero; over their terms.
 double MassSolver::largest_slope() const noexcept {
   double largest = 0.0;
-  for (const int j : passive_) {
+  for (std::size_t i = 0; i < passive_.size(); ++i) {
+    const int j = passive_[i];
     const double slope =
         columns_.column(j).dot(slopes_.segment<10>(Eigen::Index{10} * columns_.link(j))) -
-        lambda_ * m_[j] / V_[j];
+        lambda_ * masses_[i] / V_[j];
     largest = std::max(largest, columns_.price(j, std::abs(slope)));
   }
   return largest;
@@ -326,7 +329,7 @@ double MassSolver::largest_slope() const noexcept {
 bool MassSolver::passes_check() noexcept {
   if (!(largest_slope() <= allowed_slope)) return false;
   // No other shape enters at the slopes of the factorisation, and these are the same slopes.
-  const Eigen::VectorXd& slopes = set_->slopes();
+  const Eigen::VectorXd& slopes = set_->slopes(slopes_);
   for (Eigen::Index i = 0; i < slopes.size(); ++i) {
     if (!(std::abs(slopes_[i] - slopes[i]) <= allowed_slope * lengths_[i] * length_)) return false;
   }

@@ -24,7 +24,11 @@ class OneLink final : public PassiveSet {
   void leave(int place) noexcept override;
   void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept override;
   [[nodiscard]] const Eigen::VectorXd& target() noexcept override { return target_; }
-  [[nodiscard]] const Eigen::VectorXd& slopes() noexcept override { return slopes_; }
+  [[nodiscard]] bool keeps_slopes() const noexcept override { return true; }
+  [[nodiscard]] const Eigen::VectorXd& slopes(
+      const Eigen::VectorXd& /*of_residual*/) noexcept override {
+    return slopes_;
+  }
 
  private:
   using Vector10 = Eigen::Matrix<double, 10, 1>;

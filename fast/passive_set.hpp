@@ -38,8 +38,13 @@ class PassiveSet {
   /// A better target: one step of iterative refinement. `Phi` = U m and `slopes` = R^T (c - R Phi),
   /// both 10 links, come from the masses of the present target alone.
   virtual void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept = 0;
-  /// There, for a shape that is not passive, -1/2 df/dm_j = u_j . slopes of its link: 10 links.
-  [[nodiscard]] virtual const Eigen::VectorXd& slopes() noexcept = 0;
+  /// Whether slopes() are known without those of the residual, at no cost.
+  [[nodiscard]] virtual bool keeps_slopes() const noexcept { return false; }
+  /// At the target, for a shape that is not passive, -1/2 df/dm_j = u_j . slopes of its link: 10
+  /// links. `of_residual`: R^T (c - R Phi) from the masses of the target; read only if the slopes
+  /// are not kept.
+  [[nodiscard]] virtual const Eigen::VectorXd& slopes(
+      const Eigen::VectorXd& of_residual) noexcept = 0;
 };
 
 }  // namespace shapeid::fast
