@@ -98,6 +98,7 @@ SeedSet start(int argc, char** argv) {
   benchmark::AddCustomContext("seeds", seeds == SeedSet::published ? "published" : "tuning");
   benchmark::AddCustomContext("cpu", cpu_name());
   benchmark::AddCustomContext("flags", SHAPEID_BENCH_FLAGS);
+  benchmark::AddCustomContext("peers", SHAPEID_BENCH_PEERS);
   for (const std::string& peer : missing_peers()) {
     benchmark::AddCustomContext("missing " + peer, "peer not found: row not met");
   }

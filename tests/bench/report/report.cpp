@@ -45,9 +45,10 @@ void print_head(const Results& results) {
       "takes "
       "three times as long.\n\n"
       "- machine: {}\n- build: {}; Eigen's own vectorisation for plain x86-64 (SSE2), peers alike\n"
+      "- peers: {}, Lawson-Hanson of r-cran-nnls; ProxSuite without its optional simde\n"
       "- commit: {}\n- seeds: {}\n\n",
-      context(results, "cpu"), context(results, "flags"), context(results, "commit"),
-      context(results, "seeds"));
+      context(results, "cpu"), context(results, "flags"), context(results, "peers"),
+      context(results, "commit"), context(results, "seeds"));
   for (const auto& [key, value] : results.context) {
     if (key.starts_with("missing ")) fmt::print("- {}: {}\n", key.substr(8), value);
   }
@@ -182,8 +183,10 @@ void print_all(const Results& results) {
     const bool is_solve = r.name.ends_with(solve);
     const std::string stem = is_solve ? r.name.substr(0, r.name.size() - solve.size()) : r.name;
     const Result* other = is_solve ? results.find(stem + triangle) : nullptr;
-    fmt::print("| {} | {} | {} | {} | {} |\n", stem.substr(0, slash), stem.substr(slash + 1),
-               time(r.median()), other ? time(other->median()) : "", correctness(r));
+    const bool judged = r.counters.count("worst_kkt") > 0;
+    fmt::print("| {} | {} | {} | {} | {} | {} |\n", stem.substr(0, slash), stem.substr(slash + 1),
+               time(r.median()), other ? time(other->median()) : "", correctness(r),
+               judged ? fmt::format("{:.0e}", r.counter("worst_kkt")) : "");
   }
 }
 
