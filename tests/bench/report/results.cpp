@@ -17,6 +17,12 @@ double median_of(std::vector<double> values) {
   return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
+/// Files of one folder may come from several builds: all are named.
+void add_context(std::string& known, const std::string& value) {
+  if (known.find(value) != std::string::npos) return;
+  known += (known.empty() ? "" : " and ") + value;
+}
+
 /// The file's text with null where Google Benchmark writes NaN, which is no JSON: in coefficients
 /// of variation of counters that are zero, which nobody reads here.
 std::string readable(std::istream& file) {
@@ -92,7 +98,7 @@ void read_results(const std::string& path, Results& results) {
   if (!file) throw std::runtime_error(path + ": cannot be read");
   const nlohmann::json document = nlohmann::json::parse(readable(file));
   for (const auto& [key, value] : document.at("context").items()) {
-    if (value.is_string()) results.context[key] = value.get<std::string>();
+    if (value.is_string()) add_context(results.context[key], value.get<std::string>());
   }
   for (const auto& run : document.at("benchmarks")) {
     if (run.at("run_type") == "iteration") read_one(run, results);
