@@ -54,14 +54,7 @@ std::vector<int> free_links(const Options& options, const Robot& robot) {
 /// M0: said on the command line, else the expected range in robot.yaml, else the given masses.
 double expected_mass(const Options& options, const RobotInputs& robot, const BodyModel& model) {
   if (options.expected_mass > 0.0) return options.expected_mass;
-  double mass = 0.0;
-  for (const int index : model.free_links) {
-    const Link& link = robot.robot.links[static_cast<std::size_t>(index)];
-    const auto range = robot.notes.expected_mass.find(link.name);
-    mass += range != robot.notes.expected_mass.end()
-                ? 0.5 * (range->second.lower + range->second.upper)
-                : link.inertia.mass();
-  }
+  const double mass = shapeid::expected_mass(robot.robot, robot.notes, model.free_links);
   if (!(mass > 0.0)) {
     throw InputError("the free links have no mass in the URDF",
                      "give --expected-mass, or expected_mass in robot.yaml");

@@ -145,4 +145,15 @@ RobotNotes read_robot_yaml(const std::string& path, Robot& robot) {
   return notes;
 }
 
+double expected_mass(const Robot& robot, const RobotNotes& notes, const std::vector<int>& links) {
+  double mass = 0.0;
+  for (const int index : links) {
+    const Link& link = robot.links[static_cast<std::size_t>(index)];
+    const auto range = notes.expected_mass.find(link.name);
+    mass += range != notes.expected_mass.end() ? 0.5 * (range->second.lower + range->second.upper)
+                                               : link.inertia.mass();
+  }
+  return mass;
+}
+
 }  // namespace shapeid

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "shapeid/models/robot.hpp"
 
@@ -26,5 +27,10 @@ struct RobotNotes {
 
 /// Reads robot.yaml and puts its contacts into `robot` (replacing those there). Throws InputError.
 [[nodiscard]] RobotNotes read_robot_yaml(const std::string& path, Robot& robot);
+
+/// M0, kg: what these links weigh together, each by the middle of its range in robot.yaml, else by
+/// the URDF. Zero if neither says anything.
+[[nodiscard]] double expected_mass(const Robot& robot, const RobotNotes& notes,
+                                   const std::vector<int>& links);
 
 }  // namespace shapeid

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "shapeid/models/robot_yaml.hpp"
+#include "shapeid/models/shapes_yaml.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/tests/support/generators.hpp"
 
@@ -74,13 +75,6 @@ void add_shapes(int link, BodyModel& model) {
   }
 }
 
-Robot bundled() {
-  const std::string path = SHAPEID_SOURCE_DIR "/models/robots/quadruped.";
-  Robot robot = read_urdf(path + "urdf").robot;
-  static_cast<void>(read_robot_yaml(path + "robot.yaml", robot));
-  return robot;
-}
-
 }  // namespace
 
 Robot any_robot(int fewest_links, int most_links) {
@@ -146,12 +140,26 @@ BodyModel whole_model(const Robot& robot) {
   return model;
 }
 
+std::string bundled_file(const std::string& ending) {
+  return SHAPEID_SOURCE_DIR "/models/robots/quadruped." + ending;
+}
+
+Robot bundled_quadruped() {
+  Robot robot = read_urdf(bundled_file("urdf")).robot;
+  static_cast<void>(read_robot_yaml(bundled_file("robot.yaml"), robot));
+  return robot;
+}
+
+BodyModel bundled_shapes(const Robot& robot) {
+  return read_shapes_yaml(bundled_file("shapes.yaml"), robot);
+}
+
 std::vector<NamedRobot> corner_robots() {
   std::vector<NamedRobot> robots = {{"one floating link", one_link(Root::floating)},
                                     {"one fixed link", one_link(Root::fixed)},
                                     {"one leg", one_leg()},
                                     {"sixty links", chain_of(60)},
-                                    {"bundled quadruped", bundled()}};
+                                    {"bundled quadruped", bundled_quadruped()}};
   Robot robot = one_link(Root::floating);
   robot.contacts = {point_on(0, Vector3d(0.1, 0.2, -0.3))};
   robots.push_back({"a foot alone", robot});

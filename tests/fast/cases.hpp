@@ -32,6 +32,15 @@ namespace shapeid::test {
 /// All links sought.
 [[nodiscard]] BodyModel whole_model(const Robot& robot);
 
+/// Path of the bundled quadruped's file, e.g. "robot.yaml".
+[[nodiscard]] std::string bundled_file(const std::string& ending);
+
+/// With its feet as contacts.
+[[nodiscard]] Robot bundled_quadruped();
+
+/// Its base as eleven shapes, the legs known.
+[[nodiscard]] BodyModel bundled_shapes(const Robot& robot);
+
 struct NamedRobot {
   std::string name;
   Robot robot;

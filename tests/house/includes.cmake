@@ -3,7 +3,7 @@
 # Called by ctest: cmake -DSOURCE=... -DFOLDER=fast -DALLOWED=... -P includes.cmake
 set(standard "<[a-z_]+>")
 set(own "\"shapeid/(models|${FOLDER})/[a-z_0-9]+[.]hpp\"")
-file(GLOB sources ${SOURCE}/${FOLDER}/*.hpp ${SOURCE}/${FOLDER}/*.cpp)
+file(GLOB sources ${SOURCE}/${FOLDER}/*.h ${SOURCE}/${FOLDER}/*.hpp ${SOURCE}/${FOLDER}/*.cpp)
 if(NOT sources)
   message(FATAL_ERROR "no sources in ${FOLDER}")
 endif()

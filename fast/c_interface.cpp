@@ -1,0 +1,267 @@
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "shapeid/fast/identifier.hpp"
+#include "shapeid/fast/shapeid.h"
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/robot_yaml.hpp"
+#include "shapeid/models/shapes_yaml.hpp"
+#include "shapeid/models/urdf.hpp"
+#include "shapeid/models/version.hpp"
+
+using shapeid::BodyModel;
+using shapeid::ContactTreatment;
+using shapeid::InputError;
+using shapeid::Robot;
+using shapeid::Sample;
+using shapeid::fast::Identifier;
+using shapeid::fast::IdentifierSettings;
+
+struct shapeid_identifier {
+  shapeid_identifier(const Robot& robot, const BodyModel& model,
+                     const IdentifierSettings& settings);
+
+  Identifier identifier;
+  Sample sample;  ///< with room for all that a feed copies
+  std::size_t shapes;
+  std::vector<std::string> joints, contacts, free_links;
+  bool answered = false;
+};
+
+shapeid_identifier::shapeid_identifier(const Robot& robot, const BodyModel& model,
+                                       const IdentifierSettings& settings)
+    : identifier(robot, model, settings), shapes(model.shapes.size()) {
+  sample.q = sample.dq = sample.ddq = sample.tau = Eigen::VectorXd::Zero(robot.joint_count());
+  sample.in_contact.resize(robot.contacts.size());
+  sample.contact_force.reserve(robot.contacts.size());
+  for (int j = 0; j < robot.joint_count(); ++j) joints.push_back(robot.joint(j).name);
+  for (const shapeid::Contact& contact : robot.contacts) contacts.push_back(contact.name);
+  for (const int link : model.free_links) {
+    free_links.push_back(robot.links[static_cast<std::size_t>(link)].name);
+  }
+}
+
+namespace {
+
+ContactTreatment treatment_of(shapeid_contacts contacts) {
+  switch (contacts) {
+    case SHAPEID_PROJECT_CONTACTS:
+      return ContactTreatment::project;
+    case SHAPEID_MEASURED_CONTACTS:
+      return ContactTreatment::measured;
+    case SHAPEID_IGNORE_CONTACTS:
+      return ContactTreatment::ignore;
+  }
+  throw InputError("no such treatment of contacts", "a value of shapeid_contacts");
+}
+
+shapeid::Root root_of(shapeid_root root) {
+  switch (root) {
+    case SHAPEID_FLOATING_ROOT:
+      return shapeid::Root::floating;
+    case SHAPEID_FIXED_ROOT:
+      return shapeid::Root::fixed;
+  }
+  throw InputError("no such root", "a value of shapeid_root");
+}
+
+BodyModel model_of(const char* shapes_yaml, const Robot& robot) {
+  if (shapes_yaml != nullptr) return shapeid::read_shapes_yaml(shapes_yaml, robot);
+  if (robot.root == shapeid::Root::fixed) {
+    throw InputError("which links are sought is not said",
+                     "give a shapes.yaml (a fixed base has no dynamics)");
+  }
+  return shapeid::default_shapes(robot, {0});
+}
+
+IdentifierSettings settings_of(const shapeid_settings& given, double usual_mass) {
+  IdentifierSettings settings;
+  settings.contacts = treatment_of(given.contacts);
+  if ((given.weight != nullptr) != (given.weight_count > 0)) {
+    throw InputError("weight and weight_count disagree", "both, or NULL and 0");
+  }
+  if (given.weight != nullptr) {
+    const auto count = static_cast<Eigen::Index>(given.weight_count);
+    settings.weight = Eigen::Map<const Eigen::VectorXd>(given.weight, count);
+  }
+  settings.window = given.window;
+  settings.stride = given.stride;
+  settings.alpha = given.alpha;
+  settings.expected_mass = given.expected_mass == 0.0 ? usual_mass : given.expected_mass;
+  if (!(given.lambda < 0.0)) settings.lambda = given.lambda;
+  if (given.mass_bound != 0.0) settings.mass_bound = given.mass_bound;
+  settings.division.most_divisions = given.most_divisions;
+  settings.division.step = given.division_step;
+  settings.division.patience = given.division_patience;
+  return settings;
+}
+
+std::unique_ptr<shapeid_identifier> create(const char* urdf, const char* robot_yaml,
+                                           const char* shapes_yaml, const shapeid_settings& given) {
+  if (urdf == nullptr) throw InputError("no URDF is named", "the path of a file");
+  shapeid::UrdfOptions options;
+  options.root = root_of(given.root);
+  Robot robot = shapeid::read_urdf(urdf, options).robot;
+  shapeid::RobotNotes notes;
+  if (robot_yaml != nullptr) notes = shapeid::read_robot_yaml(robot_yaml, robot);
+  const BodyModel model = model_of(shapes_yaml, robot);
+  const double usual_mass = shapeid::expected_mass(robot, notes, model.free_links);
+  return std::make_unique<shapeid_identifier>(robot, model, settings_of(given, usual_mass));
+}
+
+void say(const char* message, char* error, size_t error_size) noexcept {
+  if (error == nullptr || error_size == 0) return;
+  const std::size_t length = std::min(std::strlen(message), error_size - 1);
+  std::memcpy(error, message, length);
+  error[length] = '\0';
+}
+
+const char* name_at(const std::vector<std::string>& names, size_t place) noexcept {
+  return place < names.size() ? names[place].c_str() : nullptr;
+}
+
+/// Empty arrays may be anything, also NULL.
+bool is_there(const double* numbers, size_t count) noexcept {
+  return numbers != nullptr || count == 0;
+}
+
+bool fits(const shapeid_identifier& of, const shapeid_sample& sample) noexcept {
+  const size_t joints = sample.joint_count;
+  return joints == of.joints.size() && sample.contact_count == of.contacts.size() &&
+         is_there(sample.q, joints) && is_there(sample.dq, joints) &&
+         is_there(sample.ddq, joints) && is_there(sample.tau, joints);
+}
+
+void copy(const shapeid_sample& from, Sample& to) noexcept {
+  to.time = from.time;
+  std::copy_n(from.base_angular_velocity, 3, to.base_angular_velocity.data());
+  std::copy_n(from.base_angular_acceleration, 3, to.base_angular_acceleration.data());
+  std::copy_n(from.base_specific_force, 3, to.base_specific_force.data());
+  std::copy_n(from.q, from.joint_count, to.q.data());
+  std::copy_n(from.dq, from.joint_count, to.dq.data());
+  std::copy_n(from.ddq, from.joint_count, to.ddq.data());
+  std::copy_n(from.tau, from.joint_count, to.tau.data());
+  to.contact_force.clear();
+  for (size_t c = 0; c < from.contact_count; ++c) {
+    to.in_contact[c] = from.in_contact != nullptr && from.in_contact[c] != 0;
+    if (from.contact_force != nullptr) to.contact_force.emplace_back(from.contact_force + 3 * c);
+  }
+}
+
+const double* ten_of(const Eigen::VectorXd& all, size_t link) noexcept {
+  const auto first = 10 * static_cast<Eigen::Index>(link);
+  return first < all.size() ? all.data() + first : nullptr;
+}
+
+}  // namespace
+
+const char* shapeid_version(void) { return shapeid::version; }
+
+void shapeid_default_settings(shapeid_settings* settings) {
+  if (settings == nullptr) return;
+  const IdentifierSettings usual;
+  *settings = shapeid_settings{.root = SHAPEID_FLOATING_ROOT,
+                               .contacts = SHAPEID_PROJECT_CONTACTS,
+                               .weight = nullptr,
+                               .weight_count = 0,
+                               .window = usual.window,
+                               .stride = usual.stride,
+                               .alpha = usual.alpha,
+                               .expected_mass = 0.0,
+                               .lambda = -1.0,
+                               .mass_bound = 0.0,
+                               .most_divisions = usual.division.most_divisions,
+                               .division_step = usual.division.step,
+                               .division_patience = usual.division.patience};
+}
+
+shapeid_identifier* shapeid_create(const char* urdf, const char* robot_yaml,
+                                   const char* shapes_yaml, const shapeid_settings* settings,
+                                   char* error, size_t error_size) {
+  shapeid_settings usual;
+  shapeid_default_settings(&usual);
+  try {
+    return create(urdf, robot_yaml, shapes_yaml, settings != nullptr ? *settings : usual).release();
+  } catch (const std::exception& e) {
+    say(e.what(), error, error_size);
+  } catch (...) {
+    say("an exception that is no std::exception", error, error_size);
+  }
+  return nullptr;
+}
+
+void shapeid_destroy(shapeid_identifier* identifier) {
+  const std::unique_ptr<shapeid_identifier> last(identifier);
+}
+
+size_t shapeid_joint_count(const shapeid_identifier* identifier) {
+  return identifier != nullptr ? identifier->joints.size() : 0;
+}
+size_t shapeid_contact_count(const shapeid_identifier* identifier) {
+  return identifier != nullptr ? identifier->contacts.size() : 0;
+}
+size_t shapeid_free_link_count(const shapeid_identifier* identifier) {
+  return identifier != nullptr ? identifier->free_links.size() : 0;
+}
+size_t shapeid_shape_count(const shapeid_identifier* identifier) {
+  return identifier != nullptr ? identifier->shapes : 0;
+}
+
+const char* shapeid_joint_name(const shapeid_identifier* identifier, size_t place) {
+  return identifier != nullptr ? name_at(identifier->joints, place) : nullptr;
+}
+const char* shapeid_contact_name(const shapeid_identifier* identifier, size_t place) {
+  return identifier != nullptr ? name_at(identifier->contacts, place) : nullptr;
+}
+const char* shapeid_free_link_name(const shapeid_identifier* identifier, size_t place) {
+  return identifier != nullptr ? name_at(identifier->free_links, place) : nullptr;
+}
+
+shapeid_status shapeid_feed(shapeid_identifier* identifier, const shapeid_sample* sample) {
+  if (identifier == nullptr || sample == nullptr || !fits(*identifier, *sample)) {
+    return SHAPEID_WRONG_ARGUMENT;
+  }
+  copy(*sample, identifier->sample);
+  switch (identifier->identifier.feed(identifier->sample)) {
+    case Identifier::Fed::kept:
+      return SHAPEID_KEPT;
+    case Identifier::Fed::answered:
+      identifier->answered = true;
+      return SHAPEID_ANSWERED;
+    case Identifier::Fed::sample_declined:
+      return SHAPEID_SAMPLE_DECLINED;
+    case Identifier::Fed::window_declined:
+      break;
+  }
+  return SHAPEID_WINDOW_DECLINED;
+}
+
+shapeid_status shapeid_get_answer(const shapeid_identifier* identifier, shapeid_answer* answer) {
+  if (identifier == nullptr || answer == nullptr) return SHAPEID_WRONG_ARGUMENT;
+  const shapeid::fast::WindowAnswer& last = identifier->identifier.answer();
+  *answer = shapeid_answer{.time = last.time,
+                           .objective = last.value.total(),
+                           .gap = last.gap,
+                           .iterations = last.iterations,
+                           .divisions = last.divisions,
+                           .window_seconds = last.seconds,
+                           .slowest_sample_seconds = last.slowest_sample,
+                           .last_call_seconds = last.last_call};
+  return identifier->answered ? SHAPEID_ANSWERED : SHAPEID_KEPT;
+}
+
+const double* shapeid_parameters(const shapeid_identifier* identifier, size_t free_link) {
+  return identifier != nullptr ? ten_of(identifier->identifier.Phi(), free_link) : nullptr;
+}
+
+const double* shapeid_filtered_parameters(const shapeid_identifier* identifier, size_t free_link) {
+  return identifier != nullptr ? ten_of(identifier->identifier.filtered(), free_link) : nullptr;
+}
+
+const double* shapeid_masses(const shapeid_identifier* identifier) {
+  return identifier != nullptr ? identifier->identifier.undivided_masses().data() : nullptr;
+}

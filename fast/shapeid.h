@@ -1,0 +1,150 @@
+/* The fast identifier for programs in C (C99): what shapeid/fast/identifier.hpp does.
+ *
+ * Create an identifier from files, feed it samples at the rate of the robot, and read the
+ * parameters whenever a feed answers (docs/examples/identifier.c). No exception leaves a function.
+ * shapeid_create() allocates; nothing else does, but for division of polyhedra
+ * (fast/part_tree.hpp). An identifier is used by one thread at a time; different identifiers do not
+ * know of each other.
+ *
+ * SI units and radians. A contact or link is told by its place in the robot's order, which the
+ * ..._count and ..._name functions give; joints are in the order of shapeid_joint_name().
+ *
+ * Link against shapeid::fast; the linker is that of C++ (CMake: LANGUAGES C CXX). */
+#ifndef SHAPEID_FAST_SHAPEID_H
+#define SHAPEID_FAST_SHAPEID_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** "0.1.0". */
+const char* shapeid_version(void);
+
+/** Made by shapeid_create(), ended by shapeid_destroy(). */
+typedef struct shapeid_identifier shapeid_identifier;
+
+typedef enum shapeid_root {
+  SHAPEID_FLOATING_ROOT, /**< the URDF's root link moves freely */
+  SHAPEID_FIXED_ROOT     /**< it stands upright and still: an arm */
+} shapeid_root;
+
+/** What becomes of contact forces. */
+typedef enum shapeid_contacts {
+  SHAPEID_PROJECT_CONTACTS,  /**< unknown, eliminated by projection */
+  SHAPEID_MEASURED_CONTACTS, /**< measured, part of every sample */
+  SHAPEID_IGNORE_CONTACTS    /**< there are none */
+} shapeid_contacts;
+
+/** Start from shapeid_default_settings() and change what is to differ. */
+typedef struct shapeid_settings {
+  shapeid_root root;         /**< floating */
+  shapeid_contacts contacts; /**< project */
+  /** Diagonal of W, 1 / sigma^2 of each equation: base force (3), base moment (3) (floating root
+   * only), then a number for each joint. NULL (default): ones. Read by shapeid_create() alone. */
+  const double* weight;
+  size_t weight_count;   /**< numbers there: 6 + joints, or joints for a fixed root; 0 for NULL */
+  size_t window;         /**< samples a window: 10 */
+  size_t stride;         /**< samples from one window to the next: 10, at 500 Hz 20 ms */
+  double alpha;          /**< of filter (17), in (0, 1]: 0.5; 1 does not smooth */
+  double expected_mass;  /**< kg, of all free links; 0 (default): from robot.yaml, else the URDF */
+  double lambda;         /**< density term, >= 0; negative (default): from the first window */
+  double mass_bound;     /**< kg, for the gap; 0 (default): ten times the expected mass */
+  int most_divisions;    /**< in every window: 0 (default) divides nothing */
+  double division_step;  /**< divisions end when a step is below this: 1e-3 */
+  int division_patience; /**< ... this many times in a row: 3 */
+} shapeid_settings;
+
+/** Writes the defaults that stand above. Does nothing for NULL. */
+void shapeid_default_settings(shapeid_settings* settings);
+
+/** Reads the files and makes an identifier, or returns NULL and says in `error` why: one line that
+ * names the file and what is wrong with it, cut off at `error_size` bytes and ended by a zero.
+ *
+ * robot_yaml: contacts and expected masses (docs/formats/robot-yaml.md); NULL: nothing ever
+ * touches. shapes_yaml: which links are sought (docs/formats/shapes-yaml.md); NULL: the floating
+ * base, made of its collision bodies. settings: NULL for the defaults. error: may be NULL. */
+shapeid_identifier* shapeid_create(const char* urdf, const char* robot_yaml,
+                                   const char* shapes_yaml, const shapeid_settings* settings,
+                                   char* error, size_t error_size);
+
+/** Frees it; names and numbers that it gave out end with it. Does nothing for NULL. */
+void shapeid_destroy(shapeid_identifier* identifier);
+
+/** Zero for NULL. */
+size_t shapeid_joint_count(const shapeid_identifier* identifier);
+size_t shapeid_contact_count(const shapeid_identifier* identifier);
+/** Links that are sought. */
+size_t shapeid_free_link_count(const shapeid_identifier* identifier);
+/** Shapes of unknown mass, before any division. */
+size_t shapeid_shape_count(const shapeid_identifier* identifier);
+
+/** Names in the URDF, valid until shapeid_destroy(); NULL if there is no such place. */
+const char* shapeid_joint_name(const shapeid_identifier* identifier, size_t place);
+const char* shapeid_contact_name(const shapeid_identifier* identifier, size_t place);
+const char* shapeid_free_link_name(const shapeid_identifier* identifier, size_t place);
+
+/** One instant of the motion. Base quantities are in base-frame axes at the base link's origin; for
+ * a fixed root they are (0, 0, 0), (0, 0, 0) and (0, 0, 9.81). Arrays are read during the call
+ * only. */
+typedef struct shapeid_sample {
+  double time;                         /**< s */
+  double base_angular_velocity[3];     /**< rad/s, the gyro */
+  double base_angular_acceleration[3]; /**< rad/s^2 */
+  double base_specific_force[3];       /**< m/s^2, an accelerometer: (0, 0, 9.81) at rest */
+  size_t joint_count;                  /**< numbers in q, dq, ddq and tau: all joints */
+  const double* q;                     /**< rad or m */
+  const double* dq;                    /**< rad/s or m/s */
+  const double* ddq;                   /**< rad/s^2 or m/s^2 */
+  const double* tau;                   /**< joint-side torques or forces, N m or N */
+  size_t contact_count;                /**< numbers in in_contact: all contacts */
+  const unsigned char* in_contact;     /**< not zero: it touches. NULL: nothing touches */
+  /** Forces in base axes, N: x, y, z of contact 0, of contact 1, ...; NULL: not measured. */
+  const double* contact_force;
+} shapeid_sample;
+
+typedef enum shapeid_status {
+  SHAPEID_KEPT,            /**< no window is complete yet */
+  SHAPEID_ANSWERED,        /**< a window was solved: all that can be read below is new */
+  SHAPEID_SAMPLE_DECLINED, /**< not finite, or forces are missing: as if not fed */
+  SHAPEID_WINDOW_DECLINED, /**< not solved to the accuracy promised: the last answer stays */
+  SHAPEID_WRONG_ARGUMENT   /**< a NULL, or counts that are not the robot's: as if not called */
+} shapeid_status;
+
+/** Takes a sample; when a window is complete, solves. Bounded work. */
+shapeid_status shapeid_feed(shapeid_identifier* identifier, const shapeid_sample* sample);
+
+/** About the last window that was answered; zeros before the first. */
+typedef struct shapeid_answer {
+  double time;           /**< s, of the window's last sample */
+  double objective;      /**< f of (15) for the present shapes, before the filter */
+  double gap;            /**< f is at most this much above its minimum over the present shapes */
+  int iterations;        /**< small systems solved, of all divisions together */
+  int divisions;         /**< done in this window */
+  double window_seconds; /**< spent on the window: all its samples, solve and divisions */
+  double slowest_sample_seconds; /**< of the calls that only kept a sample */
+  double last_call_seconds;      /**< of the call that gave this answer */
+} shapeid_answer;
+
+/** Copies it to `answer`. SHAPEID_ANSWERED, SHAPEID_KEPT if no window was answered yet, or
+ * SHAPEID_WRONG_ARGUMENT. */
+shapeid_status shapeid_get_answer(const shapeid_identifier* identifier, shapeid_answer* answer);
+
+/** The ten parameters of a free link: m, m rx, m ry, m rz, Ixx, Ixy, Ixz, Iyy, Iyz, Izz; kg, kg m,
+ * kg m^2; in the link's axes about the link's origin, products with the tensor's sign (Ixy = -
+ * integral of x y dm). Of the last answer, before filter (17). Zeros before the first answer; NULL
+ * if there is no such link. What the pointer shows is the identifier's: valid until
+ * shapeid_destroy(), renewed by each feed that answers. */
+const double* shapeid_parameters(const shapeid_identifier* identifier, size_t free_link);
+/** The same after filter (17). It is the optimum of no window. */
+const double* shapeid_filtered_parameters(const shapeid_identifier* identifier, size_t free_link);
+/** Masses of the shapes before any division, kg, in the order of shapes.yaml: shapeid_shape_count()
+ * numbers, valid as above; NULL for NULL. */
+const double* shapeid_masses(const shapeid_identifier* identifier);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,144 @@
+// docs/examples/identifier.c as a program: a trot through it, and bad input.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "shapeid/fast/identifier.hpp"
+#include "shapeid/tests/fast/cases.hpp"
+#include "shapeid/tests/robot/scratch_folder.hpp"
+#include "shapeid/tests/support/trot.hpp"
+
+namespace shapeid {
+namespace {
+
+struct ProgramRun {
+  int status = -1;
+  std::string out, err;
+};
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+ProgramRun run_example(const std::string& arguments, const std::string& samples) {
+  const test::ScratchFolder folder;
+  const std::string in = folder.write("samples", samples);
+  const std::string out = folder.path("out"), err = folder.path("err");
+  const std::string line =
+      fmt::format("'{}' {} <'{}' >'{}' 2>'{}'", SHAPEID_EXAMPLE, arguments, in, out, err);
+  const int status = std::system(line.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+}
+
+std::string quadruped() {
+  return fmt::format("'{}' '{}' '{}'", test::bundled_file("urdf"), test::bundled_file("robot.yaml"),
+                     test::bundled_file("shapes.yaml"));
+}
+
+std::string line_of(const Sample& s) {
+  std::string line = fmt::format("{:.17g}", s.time);
+  const auto add = [&line](const auto& numbers) {
+    for (const double number : numbers) line += fmt::format(" {:.17g}", number);
+  };
+  add(s.base_angular_velocity);
+  add(s.base_angular_acceleration);
+  add(s.base_specific_force);
+  add(s.q);
+  add(s.dq);
+  add(s.ddq);
+  add(s.tau);
+  for (const bool touches : s.in_contact) line += touches ? " 1" : " 0";
+  return line + "\n";
+}
+
+std::vector<Sample> samples(std::size_t count) {
+  const Robot robot = test::bundled_quadruped();
+  return test::trot(robot, stacked_parameters(robot), 5, count, test::Noise::sensors);
+}
+
+std::vector<double> numbers_of(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<double>(in), {}};
+}
+
+// Numbers pass as text with 17 digits, which is all of a double, and the code is the same.
+TEST(CExample, PrintsWhatTheIdentifierAnswers) {
+  const Robot robot = test::bundled_quadruped();
+  fast::IdentifierSettings settings;
+  settings.expected_mass = 6.0;  // the middle of the range in quadruped.robot.yaml
+  fast::Identifier identifier(robot, test::bundled_shapes(robot), settings);
+  std::string input;
+  std::vector<std::vector<double>> expected;
+  for (const Sample& s : samples(200)) {
+    input += line_of(s);
+    if (identifier.feed(s) != fast::Identifier::Fed::answered) continue;
+    std::vector<double>& numbers = expected.emplace_back();
+    numbers = {identifier.answer().time, identifier.answer().value.total(),
+               identifier.answer().gap};
+    for (const double parameter : identifier.filtered()) numbers.push_back(parameter);
+  }
+  ASSERT_GT(expected.size(), 5U);
+
+  const ProgramRun run = run_example(quadruped(), input);
+  EXPECT_EQ(run.status, 0) << run.err;
+  std::istringstream lines(run.out);
+  std::vector<std::vector<double>> printed;
+  for (std::string line; std::getline(lines, line);) printed.push_back(numbers_of(line));
+  EXPECT_EQ(printed, expected);
+}
+
+TEST(CExample, LinesMayEndAsElsewhere) {
+  std::string unix_lines, dos_lines;
+  for (const Sample& s : samples(20)) {
+    unix_lines += line_of(s);
+    dos_lines += line_of(s);
+    dos_lines.insert(dos_lines.size() - 1, " \r");
+  }
+  unix_lines.pop_back();
+  EXPECT_EQ(run_example(quadruped(), unix_lines).out, run_example(quadruped(), dos_lines).out);
+}
+
+void expect_refused(const ProgramRun& run, const std::string& message) {
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.out, "");
+  EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find('\n'), run.err.size() - 1) << "one line: " << run.err;
+}
+
+TEST(CExample, RefusesBadFiles) {
+  const test::ScratchFolder folder;
+  const std::string bad = folder.write("bad.urdf", "<robot name='r'><link name='a'>");
+  expect_refused(run_example("nowhere.urdf a b", ""), "nowhere.urdf");
+  expect_refused(run_example(fmt::format("'{}' a b", bad), ""), "bad.urdf:");
+  expect_refused(run_example(fmt::format("'{}' nowhere.yaml b", test::bundled_file("urdf")), ""),
+                 "nowhere.yaml");
+  expect_refused(run_example("", ""), "usage");
+}
+
+TEST(CExample, RefusesBadLines) {
+  const std::vector<Sample> good = samples(2);
+  const std::string first = line_of(good[0]), second = line_of(good[1]);
+  const std::string shorter = second.substr(0, second.size() - 3) + "\n";
+  for (const std::string& wrong :
+       {std::string("\n"), shorter, "one " + second, "1 " + second, second.substr(0, 40)}) {
+    expect_refused(run_example(quadruped(), first + wrong), "samples:2: ");
+    expect_refused(run_example(quadruped(), first + wrong + first), "samples:2: ");
+  }
+}
+
+TEST(CExample, TooFewSamplesAreNoAnswer) {
+  const ProgramRun run = run_example(quadruped(), line_of(samples(1)[0]));
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.out, "");
+}
+
+}  // namespace
+}  // namespace shapeid
