@@ -85,6 +85,7 @@ Identifier::Fed Identifier::feed(const Sample& sample) noexcept {
   bool solved = false;
   if (complete) solved = solve(sliding_ ? sliding_->triangle().R() : rows_.triangle().R());
   if (in_block_ == block_) {
+    by_six_rows_ += rows_.samples_by_six_rows();
     rows_.clear();
     in_block_ = 0;
   }

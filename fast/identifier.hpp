@@ -76,8 +76,9 @@ class Identifier {
   [[nodiscard]] std::optional<double> lambda() const noexcept { return lambda_; }
   /// The divided shapes of the last window.
   [[nodiscard]] const Division& division() const noexcept { return division_; }
+  /// Since construction.
   [[nodiscard]] std::size_t samples_by_six_rows() const noexcept {
-    return rows_.samples_by_six_rows();
+    return by_six_rows_ + rows_.samples_by_six_rows();
   }
 
  private:
@@ -91,6 +92,7 @@ class Identifier {
   std::optional<SlidingTriangle> sliding_;  ///< the last blocks, if windows overlap
   Division division_;
   std::size_t in_block_ = 0, in_window_ = 0, since_last_ = 0;
+  std::size_t by_six_rows_ = 0;  ///< samples of earlier blocks
   bool has_answer_ = false;
   Outcome outcome_ = Outcome::solved;
   WindowAnswer answer_;
