@@ -202,6 +202,8 @@ Results read_all(const std::set<std::filesystem::path>& files) {
   for (const auto& file : files) {
     if (file.extension() == ".json") read_results(file, results);
   }
+  // Random interleaving leaves no order of its own.
+  std::ranges::sort(results.all, {}, &Result::name);
   return results;
 }
 
