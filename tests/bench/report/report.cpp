@@ -174,8 +174,8 @@ void print_stages(const Results& results) {
 /// One line a solver: "solve" and "triangle" beside each other where both exist.
 void print_all(const Results& results) {
   fmt::print(
-      "\n## All rows\n\n| row | solver | solve | from the triangle | correctness |\n"
-      "|---|---|---|---|---|\n");
+      "\n## All rows\n\n| row | solver | solve | from the triangle | correctness | worst KKT "
+      "residual |\n|---|---|---|---|---|---|\n");
   static const std::string solve = "/solve", triangle = "/triangle";
   for (const Result& r : results.all) {
     if (r.name.ends_with(triangle) || r.name.starts_with("stage/")) continue;
