@@ -3,19 +3,16 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "shapeid/fast/window.hpp"
-#include "shapeid/models/log.hpp"
-#include "shapeid/models/motion.hpp"
-#include "shapeid/models/urdf.hpp"
 #include "shapeid/reference/window.hpp"
 #include "shapeid/tests/fast/cases.hpp"
 #include "shapeid/tests/fast/expected_rows.hpp"
+#include "shapeid/tests/fast/measured_logs.hpp"
+#include "shapeid/tests/fast/window_runs.hpp"
+#include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid {
 namespace {
@@ -23,43 +20,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-std::filesystem::path data(const std::string& file) {
-  const char* const folder = std::getenv("SHAPEID_DATA");
-  return std::filesystem::path(folder != nullptr ? folder : SHAPEID_SOURCE_DIR "/../shared/data") /
-         file;
-}
-
-bool absent(const std::string& file) {
-  if (std::filesystem::exists(data(file))) return false;
-  fmt::print("skipped: {} is not there (set SHAPEID_DATA)\n", data(file).string());
-  return true;
-}
-
-struct Log {
-  Robot robot;
-  std::vector<Sample> samples;  ///< of its beginning
-};
-
-Log log_of(const std::string& urdf, Root root, const std::string& file, const std::string& mapping,
-           std::size_t most) {
-  UrdfOptions options;
-  options.root = root;
-  options.reject_impossible = false;
-  Log log{read_urdf(data(urdf), options).robot, {}};
-  const Mapping map =
-      read_mapping_yaml(SHAPEID_SOURCE_DIR "/docs/examples/" + mapping + ".mapping.yaml");
-  if (root == Root::floating) add_default_contacts(log.robot, data(file), map);
-  MotionReader reader(data(file), log.robot, {}, map, {});
-  while (log.samples.size() < most) {
-    std::optional<Sample> sample = reader.next();
-    if (!sample) break;
-    log.samples.push_back(*sample);
-  }
-  return log;
-}
-
 /// Windows of ten samples, one after the other; prints what paths they took.
-void compare_windows(const Log& log, const BodyModel& model, ContactTreatment contacts) {
+void compare_windows(const test::Log& log, const BodyModel& model, ContactTreatment contacts) {
   constexpr std::size_t length = 10;
   const VectorXd weight = VectorXd::Ones(log.robot.dof());
   fast::Window fast_window(log.robot, model, contacts, weight);
@@ -93,12 +55,28 @@ class FastMeasured : public testing::TestWithParam<const char*> {};
 
 TEST_P(FastMeasured, MiniCheetahsBaseAsTheReference) {
   const std::string folder = "mini_cheetah_umich/", file = folder + GetParam() + ".csv.gz";
-  if (absent(file)) return;
-  const Log log = log_of(folder + "mini_cheetah_from_mit_constants.urdf", Root::floating, file,
-                         "mini_cheetah", 3000);
+  if (test::absent(file)) return;
+  const test::Log log = test::log_of(folder + "mini_cheetah_from_mit_constants.urdf",
+                                     Root::floating, file, "mini_cheetah", 3000);
   ASSERT_EQ(log.robot.contacts.size(), 4U);
   fmt::print("{}\n", file);
   compare_windows(log, test::base_model(log.robot), ContactTreatment::project);
+}
+
+TEST_P(FastMeasured, MiniCheetahsWindowsAsTheReferenceSolvesThem) {
+  const std::string folder = "mini_cheetah_umich/", file = folder + GetParam() + ".csv.gz";
+  if (test::absent(file)) return;
+  const test::Log log = test::log_of(folder + "mini_cheetah_from_mit_constants.urdf",
+                                     Root::floating, file, "mini_cheetah", 2000);
+  fast::IdentifierSettings settings;
+  settings.expected_mass = log.robot.links[0].inertia.mass();
+  const test::WindowRuns runs =
+      test::run_windows(log.robot, test::base_model(log.robot), settings, log.samples);
+  fmt::print("{}\n  {}\n", file, describe(runs));
+  EXPECT_EQ(runs.first_wrong, "");
+  EXPECT_GT(runs.windows, 10 * runs.declined);
+  EXPECT_LT(runs.worst_objective, test::few_hundred_eps);
+  EXPECT_LT(runs.worst_filter, test::few_hundred_eps);
 }
 
 INSTANTIATE_TEST_SUITE_P(Logs, FastMeasured,
@@ -108,16 +86,16 @@ INSTANTIATE_TEST_SUITE_P(Logs, FastMeasured,
 
 TEST(FastMeasuredRobots, WholeMiniCheetahAsTheReference) {
   const std::string folder = "mini_cheetah_umich/", file = folder + "concrete_galloping_val.csv.gz";
-  if (absent(file)) return;
-  const Log log = log_of(folder + "mini_cheetah_from_mit_constants.urdf", Root::floating, file,
-                         "mini_cheetah", 600);
+  if (test::absent(file)) return;
+  const test::Log log = test::log_of(folder + "mini_cheetah_from_mit_constants.urdf",
+                                     Root::floating, file, "mini_cheetah", 600);
   compare_windows(log, test::whole_model(log.robot), ContactTreatment::project);
 }
 
 TEST(FastMeasuredRobots, ArmOnAFixedBaseAsTheReference) {
   const std::string folder = "ur10e_load/", file = folder + "ur-20_02_19_14harm50sec.csv.gz";
-  if (absent(file)) return;
-  const Log log = log_of(folder + "ur10e.urdf", Root::fixed, file, "ur10e", 1000);
+  if (test::absent(file)) return;
+  const test::Log log = test::log_of(folder + "ur10e.urdf", Root::fixed, file, "ur10e", 1000);
   compare_windows(log, test::whole_model(log.robot), ContactTreatment::ignore);
 }
 
