@@ -6,19 +6,11 @@
 namespace shapeid::fast {
 namespace {
 
-// The loops of this file run over a few to a few hundred numbers; four sums at once keep the
-// processor's adders busy without changing the order of sums from run to run.
+using Vector = Eigen::Map<Eigen::VectorXd>;
+using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+
 double dot(const double* a, const double* b, Eigen::Index n) noexcept {
-  double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
-  Eigen::Index i = 0;
-  for (; i + 4 <= n; i += 4) {
-    s0 += a[i] * b[i];
-    s1 += a[i + 1] * b[i + 1];
-    s2 += a[i + 2] * b[i + 2];
-    s3 += a[i + 3] * b[i + 3];
-  }
-  for (; i < n; ++i) s0 += a[i] * b[i];
-  return (s0 + s1) + (s2 + s3);
+  return ConstVector(a, n).dot(ConstVector(b, n));
 }
 
 }  // namespace
@@ -121,14 +113,14 @@ void ColumnQr::apply(const Reflection& r, double* x) const noexcept {
   double* y = x + r.first;
   const Eigen::Index n = r.end - r.first;
   const double share = r.scale * dot(v, y, n);
-  for (Eigen::Index i = 0; i < n; ++i) y[i] -= share * v[i];
+  Vector(y, n).noalias() -= share * ConstVector(v, n);
 }
 
 void ColumnQr::back_substitute(Eigen::VectorXd& x) const noexcept {
   for (Eigen::Index k = size_ - 1; k >= 0; --k) {
     x[k] /= T_(k, k);
     const double* column = &T_(0, k);
-    for (Eigen::Index i = 0; i < k; ++i) x[i] -= column[i] * x[k];
+    x.head(k).noalias() -= x[k] * ConstVector(column, k);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "shapeid/fast/many_links.hpp"
 #include "shapeid/fast/one_link.hpp"
@@ -55,6 +56,7 @@ MassSolver::MassSolver(int links, int most_shapes)
   const auto room = static_cast<std::size_t>(most_shapes);
   passive_.reserve(room);
   masses_.reserve(room);
+  tried_.reserve(room);
   refused_.reserve(room);
   saved_.reserve(room);
   entering_.reserve(room);
@@ -153,6 +155,13 @@ void MassSolver::start() noexcept {
   for (std::size_t i = 0; i < passive_.size(); ++i) entering_.push_back({passive_[i], masses_[i]});
   passive_.clear();
   masses_.clear();
+  // Link by link: columns of the first links are short, and stay so if no long one came before.
+  if (links() > 1) {
+    std::sort(entering_.begin(), entering_.end(), [this](const ShapeMass& a, const ShapeMass& b) {
+      return std::pair(columns_.link(a.place), a.place) <
+             std::pair(columns_.link(b.place), b.place);
+    });
+  }
   for (const ShapeMass& shape : entering_) enter_with_mass(shape.place, shape.mass);
 }
 
@@ -215,29 +224,53 @@ bool MassSolver::step_is_blocked() noexcept {
     std::copy_n(target.data(), masses_.size(), masses_.data());
     return false;
   }
+  if (lambda_ > 0.0 && may_cut_off(target)) return true;
   for (std::size_t i = 0; i < masses_.size(); ++i) {
     masses_[i] += length * (target[static_cast<Eigen::Index>(i)] - masses_[i]);
   }
   masses_[static_cast<std::size_t>(blocking)] = 0.0;
-  for (int i = static_cast<int>(masses_.size()) - 1; i >= 0; --i) {
-    if (!(masses_[static_cast<std::size_t>(i)] > 0.0)) leave(i);
-  }
+  leave_without_mass();
   return true;
 }
 
-int MassSolver::entering_shape() noexcept {
+void MassSolver::leave_without_mass() noexcept {
+  for (int i = static_cast<int>(masses_.size()) - 1; i >= 0; --i) {
+    if (!(masses_[static_cast<std::size_t>(i)] > 0.0)) leave(i);
+  }
+}
+
+// With hundreds of passive shapes a step at a time is long: all shapes whose target is negative
+// leave at once, if the objective falls all the same.
+bool MassSolver::may_cut_off(const Eigen::VectorXd& target) noexcept {
+  evaluate();
+  const double before = value_.total();
+  tried_ = masses_;
+  for (std::size_t i = 0; i < masses_.size(); ++i) {
+    masses_[i] = std::max(target[static_cast<Eigen::Index>(i)], 0.0);
+  }
+  evaluate();
+  if (value_.total() < before) {
+    leave_without_mass();
+    return true;
+  }
+  masses_ = tried_;
+  return false;
+}
+
+const std::vector<int>& MassSolver::entering_shapes() noexcept {
   if (!set_->keeps_slopes()) evaluate();
   const Eigen::VectorXd& slopes = set_->slopes(slopes_);
-  if (slopes.isZero(0.0)) return -1;  // as many passive shapes as rows: nothing is left to gain
-  const int j = columns_.steepest(slopes, smallest_slope);
-  if (j >= 0 || !(lambda_ > 0.0)) return j;
-  // Slopes of the size of lambda decide how mass spreads among shapes that the data do not tell
-  // apart: judged against each other.
-  sizes_ = slopes.cwiseAbs();
-  columns_.set_scale(sizes_, 1.0);
-  const int spreads = columns_.steepest(slopes, smallest_damped_slope);
-  columns_.set_scale(lengths_, length_);
-  return spreads;
+  if (columns_.steepest(slopes, smallest_slope) < 0 && lambda_ > 0.0) {
+    // Slopes of the size of lambda decide how mass spreads among shapes that the data do not tell
+    // apart: judged against each other.
+    sizes_ = slopes.cwiseAbs();
+    columns_.set_scale(sizes_, 1.0);
+    static_cast<void>(columns_.steepest(slopes, smallest_damped_slope));
+    columns_.set_scale(lengths_, length_);
+  }
+  // A damped system has as many unknowns however many shapes enter.
+  using Among = ShapeColumns::Among;
+  return columns_.steep_ones(lambda_ > 0.0 ? Among::groups : Among::links);
 }
 
 void MassSolver::refuse(int j) noexcept {
@@ -250,28 +283,42 @@ void MassSolver::admit_refused() noexcept {
   refused_.clear();
 }
 
-// The steepest shape enters if it takes a positive mass; in exact arithmetic it always does. False
-// if there is none: then the masses are the minimiser.
-bool MassSolver::one_enters() noexcept {
-  bool entered = false;
-  while (!entered) {
-    const int j = entering_shape();
-    if (j < 0) break;
-    if (!set_->enter(j)) {
-      ++iterations_;
-      refuse(j);
-      continue;
+// The steepest shape enters, and steep ones of other links with it, if they take positive masses.
+// In exact arithmetic at least one does: the way to the target goes down, and only the slopes of
+// those that enter are not zero. False if none enters: then the masses are the minimiser.
+bool MassSolver::some_enter() noexcept {
+  const std::size_t before = passive_.size();
+  while (passive_.size() == before) {
+    const std::vector<int>& shapes = entering_shapes();
+    if (shapes.empty()) break;
+    for (const int j : shapes) {
+      if (set_->enter(j)) {
+        add(j, 0.0);
+      } else {
+        refuse(j);
+      }
     }
-    add(j, 0.0);
-    entered = set_->target()[static_cast<Eigen::Index>(passive_.size()) - 1] > 0.0;
-    if (!entered) {
-      ++iterations_;
-      leave(static_cast<int>(passive_.size()) - 1);
-      refuse(j);
-    }
+    refuse_without_mass(before);
+    if (passive_.size() == before) ++iterations_;
   }
   admit_refused();
-  return entered;
+  return passive_.size() > before;
+}
+
+/// Of the shapes that entered at place `first` and behind it.
+void MassSolver::refuse_without_mass(std::size_t first) noexcept {
+  bool one_left = true;
+  while (one_left && passive_.size() > first) {
+    one_left = false;
+    const Eigen::VectorXd& target = set_->target();
+    for (std::size_t i = passive_.size(); i-- > first;) {
+      if (target[static_cast<Eigen::Index>(i)] > 0.0) continue;
+      const int j = passive_[i];
+      leave(static_cast<int>(i));
+      refuse(j);
+      one_left = true;
+    }
+  }
 }
 
 Outcome MassSolver::iterate() noexcept {
@@ -283,7 +330,7 @@ Outcome MassSolver::iterate() noexcept {
   int refinements = 0;
   while (true) {
     if (++iterations_ > last) return Outcome::too_many_steps;
-    if (step_is_blocked() || one_enters()) continue;
+    if (step_is_blocked() || some_enter()) continue;
     if (set_->keeps_slopes()) evaluate();
     if (refinements == most_refinements || !(largest_slope() > refined_slope)) break;
     ++refinements;

@@ -94,8 +94,11 @@ class MassSolver {
   void enter_with_mass(int j, double mass) noexcept;
   void leave(int place) noexcept;
   [[nodiscard]] bool step_is_blocked() noexcept;
-  [[nodiscard]] int entering_shape() noexcept;
-  [[nodiscard]] bool one_enters() noexcept;
+  [[nodiscard]] bool may_cut_off(const Eigen::VectorXd& target) noexcept;
+  void leave_without_mass() noexcept;
+  [[nodiscard]] const std::vector<int>& entering_shapes() noexcept;
+  [[nodiscard]] bool some_enter() noexcept;
+  void refuse_without_mass(std::size_t first) noexcept;
   void refuse(int j) noexcept;
   void admit_refused() noexcept;
   void evaluate() noexcept;
@@ -116,6 +119,7 @@ class MassSolver {
   double length_ = 0.0;  ///< of c
   std::vector<int> passive_;
   std::vector<double> masses_;       ///< of the passive shapes
+  std::vector<double> tried_;        ///< masses to come back to
   std::vector<int> refused_;         ///< barred until the next step that is taken
   std::vector<ShapeMass> saved_;     ///< as they were before the call
   std::vector<ShapeMass> entering_;  ///< on their way into a fresh factorisation

@@ -17,6 +17,9 @@ constexpr float uncertain = 13.0F / (1 << 24);
 /// Kept away from zero, so that a shape which no row feels has the price zero and not NaN.
 constexpr float smallest_scale = 1e-30F;
 
+/// Of the largest price: what counts as almost as large.
+constexpr float almost = 0.1F;
+
 using Prices = Eigen::Array<float, 16, 1>;
 
 struct Best {
@@ -48,6 +51,8 @@ ShapeColumns::ShapeColumns(int links, int most_shapes)
       last_of_link_(static_cast<std::size_t>(links), -1),
       lengths_(Eigen::VectorXd::Ones(Eigen::Index{10} * links)) {
   uncertain_.reserve(chunks_.size());
+  best_.reserve(chunks_.size());
+  steep_ones_.reserve(chunks_.size() + 1);
 }
 
 void ShapeColumns::clear() noexcept {
@@ -124,7 +129,9 @@ void ShapeColumns::unbar_all() noexcept {
 
 int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept {
   const double unit = unit_ > 0.0 ? 1.0 / unit_ : 1.0;
-  int best = -1;
+  steepest_ = -1;
+  best_.clear();
+  if (g.isZero(0.0)) return -1;  // as many passive shapes as rows: nothing is left to gain
   float most = uncertain;
   uncertain_.clear();
   for (int c = 0; c < used_chunks_; ++c) {
@@ -139,12 +146,35 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
     }
     const Best here = best_of((even + odd) * chunk.scale - chunk.barrier);
     if (here.price > -uncertain) uncertain_.push_back(c);
+    const int shape = chunk.shape[here.lane];
+    best_.push_back({shape, here.price});
     if (here.price > most) {
       most = here.price;
-      best = chunk.shape[here.lane];
+      steepest_ = shape;
     }
   }
-  return best < 0 && !uncertain_.empty() ? steepest_in_double(g, threshold) : best;
+  if (steepest_ < 0 && !uncertain_.empty()) {
+    best_.clear();
+    steepest_ = steepest_in_double(g, threshold);
+  }
+  return steepest_;
+}
+
+const std::vector<int>& ShapeColumns::steep_ones(Among among) noexcept {
+  steep_ones_.clear();
+  if (steepest_ < 0) return steep_ones_;
+  steep_ones_.push_back(steepest_);
+  float most = 0.0F;
+  for (const Priced& best : best_) most = std::max(most, best.price);
+  for (const Priced& best : best_) {
+    if (best.price < almost * most || best.shape == steepest_) continue;
+    const bool beaten =
+        among == Among::links && std::any_of(best_.begin(), best_.end(), [&](const Priced& other) {
+          return link(other.shape) == link(best.shape) && other.price > best.price;
+        });
+    if (!beaten) steep_ones_.push_back(best.shape);
+  }
+  return steep_ones_;
 }
 
 int ShapeColumns::steepest_in_double(const Eigen::VectorXd& g, double threshold) const noexcept {

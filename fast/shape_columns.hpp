@@ -44,6 +44,11 @@ class ShapeColumns {
   /// there is none. `g`: 10 links entries. All shapes are priced in single precision; double
   /// decides where single cannot.
   [[nodiscard]] int steepest(const Eigen::VectorXd& g, double threshold) noexcept;
+  /// After steepest(): that shape, then steep ones of other links, or of other groups of sixteen,
+  /// with prices almost as large. Single precision decides; where it could not, the steepest stands
+  /// alone.
+  enum class Among { links, groups };
+  [[nodiscard]] const std::vector<int>& steep_ones(Among among) noexcept;
   /// Bars a shape from steepest(), or admits it again.
   void bar(int j, bool barred) noexcept;
   /// Admits all shapes.
@@ -64,6 +69,10 @@ class ShapeColumns {
   struct Slot {
     int chunk, lane;
   };
+  struct Priced {
+    int shape;
+    float price;
+  };
 
   void write(int j, const Column& u) noexcept;
   void set_scale(Chunk& chunk) noexcept;
@@ -76,9 +85,12 @@ class ShapeColumns {
   std::vector<int> links_;                             ///< of every shape
   Eigen::Matrix<double, 10, Eigen::Dynamic> columns_;  ///< in double, one behind the other
   std::vector<int> last_of_link_;  ///< the chunk that a link's next shape goes to, or -1
-  std::vector<int> uncertain_;     ///< chunks that single precision cannot decide
-  Eigen::VectorXd lengths_;        ///< relative to the largest, so that single precision holds them
-  double unit_ = 1.0;              ///< the largest length x that of the right-hand side
+  std::vector<Priced> best_;       ///< of every chunk, at the last steepest()
+  int steepest_ = -1;              ///< at the last steepest()
+  std::vector<int> steep_ones_;
+  std::vector<int> uncertain_;  ///< chunks that single precision cannot decide
+  Eigen::VectorXd lengths_;     ///< relative to the largest, so that single precision holds them
+  double unit_ = 1.0;           ///< the largest length x that of the right-hand side
 };
 
 }  // namespace shapeid::fast
