@@ -59,6 +59,7 @@ EvenDensity::EvenDensity(const ShapeColumns& columns, const Eigen::VectorXd& V)
       slopes_(y_),
       noise_(y_) {
   passive_.reserve(static_cast<std::size_t>(columns.capacity()));
+  unfelt_.reserve(static_cast<std::size_t>(y_.size()));
 }
 
 void EvenDensity::set_lambda(double lambda) noexcept {
@@ -240,6 +241,7 @@ EvenDensity::Ten EvenDensity::weights(const Density& density, int rank, const Te
 void EvenDensity::solve() noexcept {
   const double damping = std::sqrt(lambda_);
   qr_.start(b_);
+  unfelt_.clear();
   for (int l = 0; l < columns_->links(); ++l) {
     Density& density = densities_[static_cast<std::size_t>(l)];
     if (density.outdated) rebuild(l);
@@ -259,10 +261,13 @@ void EvenDensity::solve() noexcept {
             R_->block<10, 10>(Eigen::Index{10} * b, Eigen::Index{10} * l).lazyProduct(e);
       }
       a[damped] = damping;
+      if (qr_.entering().head(damped).isZero(0.0)) unfelt_.push_back(density.first + k);
       sound_ = qr_.push(damped + 1) == ColumnQr::Push::entered && sound_;
     }
   }
   qr_.solve(y_);
+  // What no row feels is zero; rounding, over the root of lambda, would make masses of it.
+  for (const Eigen::Index k : unfelt_) y_[k] = 0.0;
   for (Density& density : densities_) {
     Ten y = Ten::Zero();
     y.head(density.rank) = y_.segment(density.first, density.rank);

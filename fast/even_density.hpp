@@ -75,6 +75,7 @@ class EvenDensity final : public PassiveSet {
   bool sound_ = true;
   bool solved_ = false;  ///< y_ and the weights are those of the passive shapes
   ColumnQr qr_;
+  std::vector<Eigen::Index> unfelt_;  ///< unknowns y that no row feels
   Eigen::VectorXd b_, y_, correction_, target_, slopes_;
   Eigen::VectorXd noise_;  ///< what rounding leaves of a slope R^T r that is zero
 };

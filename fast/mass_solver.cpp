@@ -52,7 +52,10 @@ MassSolver::MassSolver(int links, int most_shapes)
       Phi_(lengths_),
       r_(lengths_),
       slopes_(lengths_),
-      sizes_(lengths_) {
+      sizes_(lengths_),
+      other_lengths_(lengths_),
+      saved_Phi_(lengths_),
+      saved_slopes_(lengths_) {
   const auto room = static_cast<std::size_t>(most_shapes);
   passive_.reserve(room);
   masses_.reserve(room);
@@ -104,14 +107,22 @@ void MassSolver::start_at(int j, double mass) noexcept {
 }
 
 Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
-  column_sizes(R, lengths_);
+  column_sizes(R, other_lengths_);
   const double length = R.col(lengths_.size()).norm();
-  if (!std::isfinite(lengths_.sum() + length)) return Outcome::not_finite;
-  R_ = &R;
-  length_ = length;
-  columns_.set_scale(lengths_, length_);
+  if (!std::isfinite(other_lengths_.sum() + length)) return Outcome::not_finite;
+  const Eigen::MatrixXd* R_before = R_;
+  const double length_before = length_;
+  const auto take = [&](const Eigen::MatrixXd* triangle, double of_its_right_hand_side) {
+    R_ = triangle;
+    length_ = of_its_right_hand_side;
+    lengths_.swap(other_lengths_);
+    columns_.set_scale(lengths_, length_);
+  };
+  take(&R, length);
   started_ = false;
-  return solve_again();
+  const Outcome outcome = solve_again();
+  if (outcome != Outcome::solved) take(R_before, length_before);
+  return outcome;
 }
 
 Outcome MassSolver::solve_again() noexcept {
@@ -132,6 +143,9 @@ Outcome MassSolver::solve_again() noexcept {
 void MassSolver::save() noexcept {
   saved_.clear();
   for (const int j : passive_) saved_.push_back({j, m_[j]});
+  saved_Phi_.swap(Phi_);
+  saved_slopes_.swap(slopes_);
+  saved_value_ = value_;
 }
 
 void MassSolver::restore() noexcept {
@@ -143,6 +157,9 @@ void MassSolver::restore() noexcept {
     masses_.push_back(saved.mass);
     m_[saved.place] = saved.mass;
   }
+  saved_Phi_.swap(Phi_);
+  saved_slopes_.swap(slopes_);
+  value_ = saved_value_;
   started_ = false;
 }
 
@@ -414,7 +431,10 @@ Violation MassSolver::why_changed() const {
   // A few hundred roundings, as in any chain of a dozen stable steps; a wrong share of a mass is
   // off by 1e10 of them.
   const double allowed = 300.0 * std::numeric_limits<double>::epsilon() * (10.0 + shapes());
-  if (!((Phi - Phi_).cwiseAbs().array() <= allowed * terms.array()).all()) {
+  // As far as the rows feel Phi: mass may move among shapes whose columns R u depend on each other.
+  const auto R = R_->topLeftCorner(Phi.size(), Phi.size());
+  const Eigen::VectorXd moved = R * (Phi - Phi_), felt = R.cwiseAbs() * terms;
+  if (!(moved.cwiseAbs().array() <= allowed * felt.array()).all()) {
     return "the division changes Phi by up to " +
            std::to_string((Phi - Phi_).cwiseAbs().maxCoeff());
   }

@@ -54,11 +54,12 @@ class MassSolver {
   void start_at(int j, double mass) noexcept;
 
   /// Divides shape `j` at equal density: `first` (volume V1) takes its place, `second` (V2) becomes
-  /// the last shape. Phi and the objective stay as they are. False if there is no room.
+  /// the last shape. The objective stays as it is, and so does Phi as far as the rows feel it.
+  /// False if there is no room.
   [[nodiscard]] bool divide(int j, const Column& first, double V1, const Column& second,
                             double V2) noexcept;
-  /// Empty if U m and the density term still are those of the last answer, to rounding: what
-  /// divide() promises.
+  /// Empty if R U m and the density term still are those of the last answer, to rounding: what
+  /// divide() promises. Only after solve().
   [[nodiscard]] Violation why_changed() const;
   /// Solves again, for the triangle of the last solve(), after divide().
   Outcome solve_again() noexcept;
@@ -125,6 +126,9 @@ class MassSolver {
   std::vector<ShapeMass> entering_;  ///< on their way into a fresh factorisation
   Eigen::VectorXd coefficients_, Phi_, r_, slopes_, sizes_;
   Objective value_;
+  Eigen::VectorXd other_lengths_;             ///< of the triangle that is not in use
+  Eigen::VectorXd saved_Phi_, saved_slopes_;  ///< as they were before the call
+  Objective saved_value_;
   int iterations_ = 0;
 };
 

@@ -1,0 +1,198 @@
+// A QR decomposition whose columns come and go, against a dense one of the columns that are there.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "shapeid/fast/column_qr.hpp"
+#include "shapeid/tests/support/load_problem.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+
+namespace shapeid::fast {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using test::few_hundred_eps;
+using test::scaled;
+
+/// The columns that should be in the set, kept beside it.
+class Shadowed {
+ public:
+  Shadowed(Index rows, Index most, std::uint64_t seed)
+      : qr_(rows, most),
+        draw_(seed),
+        b_(VectorXd::NullaryExpr(rows, [&] { return draw_.sign(); })) {
+    qr_.start(b_);
+  }
+
+  [[nodiscard]] Index rows() const { return b_.size(); }
+  [[nodiscard]] const std::vector<VectorXd>& columns() const { return columns_; }
+  [[nodiscard]] int rebuilt() const { return rebuilt_; }
+
+  /// A random column, zero below row `end`, of any magnitude.
+  VectorXd random_column(Index end) {
+    VectorXd a = VectorXd::Zero(rows());
+    const double size = std::pow(10.0, draw_.between(-6.0, 6.0));
+    for (double& x : a.head(end)) x = size * draw_.sign();
+    return a;
+  }
+
+  ColumnQr::Push push(const VectorXd& a, Index end) {
+    ColumnQr::Push result = push_once(a, end);
+    if (result == ColumnQr::Push::crowded) {
+      rebuild();
+      result = push_once(a, end);
+    }
+    if (result == ColumnQr::Push::entered) columns_.push_back(a);
+    return result;
+  }
+
+  void remove(Index place) {
+    const bool removed = qr_.remove(place);
+    columns_.erase(columns_.begin() + place);
+    if (!removed) rebuild();
+  }
+
+  [[nodiscard]] MatrixXd A() const {
+    MatrixXd A(rows(), static_cast<Index>(columns_.size()));
+    for (Index k = 0; k < A.cols(); ++k) A.col(k) = columns_[static_cast<std::size_t>(k)];
+    return A;
+  }
+
+  [[nodiscard]] VectorXd dependence() const {
+    VectorXd x = VectorXd::Zero(rows());
+    qr_.dependence(x);
+    return x.head(qr_.size());
+  }
+
+  /// Columns are compared at length one: their own units are no matter.
+  void check() {
+    RC_ASSERT(qr_.size() == static_cast<Index>(columns_.size()));
+    if (columns_.empty()) return;
+    const VectorXd lengths = A().colwise().norm();
+    const MatrixXd unit = A() * lengths.cwiseInverse().asDiagonal();
+    VectorXd x = VectorXd::Zero(rows());
+    qr_.solve(x);
+    x = x.head(qr_.size()).cwiseProduct(lengths).eval();
+    const double size = b_.norm() + x.norm();
+    const Index sums = 4 * rows();
+    const VectorXd slopes = unit.transpose() * (b_ - unit * x);
+    RC_ASSERT(scaled(slopes.lpNorm<Eigen::Infinity>(), size, sums) < few_hundred_eps);
+
+    const VectorXd sigma = Eigen::JacobiSVD<MatrixXd>(unit).singularValues();
+    const double condition = sigma.maxCoeff() / sigma.minCoeff();
+    const VectorXd dense = unit.householderQr().solve(b_);
+    const double residual = (b_ - unit * dense).norm();
+    RC_ASSERT(scaled((x - dense).norm(), condition * (size + condition * residual), sums) <
+              few_hundred_eps);
+
+    // T^T T is A^T A.
+    VectorXd z = VectorXd::NullaryExpr(rows(), [&] { return draw_.sign(); });
+    const VectorXd right = z.head(qr_.size());
+    z.head(qr_.size()) = right.cwiseProduct(lengths);
+    qr_.solve_normal(z);
+    const VectorXd solved = z.head(qr_.size()).cwiseProduct(lengths);
+    const VectorXd left = unit.transpose() * (unit * solved);
+    RC_ASSERT(scaled((left - right).norm(), static_cast<double>(sigma.size()) * solved.norm(),
+                     sums) < few_hundred_eps);
+  }
+
+ private:
+  ColumnQr::Push push_once(const VectorXd& a, Index end) {
+    // Rows from `end` on need not be written.
+    qr_.entering().setConstant(std::numeric_limits<double>::quiet_NaN());
+    qr_.entering().head(end) = a.head(end);
+    return qr_.push(end);
+  }
+
+  void rebuild() {
+    ++rebuilt_;
+    qr_.start(b_);
+    for (const VectorXd& a : columns_) {
+      RC_ASSERT(push_once(a, rows()) == ColumnQr::Push::entered);
+    }
+  }
+
+  ColumnQr qr_;
+  test::Draw draw_;
+  VectorXd b_;
+  std::vector<VectorXd> columns_;
+  int rebuilt_ = 0;
+};
+
+RC_GTEST_PROP(ColumnQr, ColumnsComeAndGo, ()) {
+  const Index rows = *rc::gen::inRange<Index>(1, 30);
+  const Index most = *rc::gen::inRange<Index>(1, rows + 1);
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  Shadowed set(rows, most, seed);
+  test::Draw draw(seed + 1);
+  for (int step = 0; step < 60; ++step) {
+    const auto count = static_cast<Index>(set.columns().size());
+    if (count > 0 && (count == most || draw.between(0.0, 1.0) < 0.4)) {
+      set.remove(static_cast<Index>(draw.between(0.0, static_cast<double>(count))));
+    } else {
+      const auto end = static_cast<Index>(draw.between(1.0, static_cast<double>(rows + 1)));
+      static_cast<void>(set.push(set.random_column(end), end));
+    }
+    set.check();
+  }
+}
+
+// Columns that leave take room for reflections until a set must be started again.
+TEST(ColumnQr, IsCrowdedInTheEndAndStartsAgain) {
+  Shadowed set(12, 12, 5);
+  for (int k = 0; k < 12; ++k) {
+    ASSERT_EQ(set.push(set.random_column(12), 12), ColumnQr::Push::entered);
+  }
+  for (int step = 0; step < 40; ++step) {
+    set.remove(0);
+    ASSERT_EQ(set.push(set.random_column(12), 12), ColumnQr::Push::entered);
+    set.check();
+  }
+  EXPECT_GE(set.rebuilt(), 5);
+}
+
+RC_GTEST_PROP(ColumnQr, SaysWhatADependentColumnIsMadeOf, ()) {
+  const Index rows = *rc::gen::inRange<Index>(2, 25);
+  Shadowed set(rows, rows, *rc::gen::arbitrary<std::uint64_t>());
+  const Index count = *rc::gen::inRange<Index>(1, rows);
+  for (Index k = 0; k < count; ++k) {
+    static_cast<void>(set.push(set.random_column(rows), rows));
+  }
+  if (count > 1) set.remove(count / 2);
+  const MatrixXd A = set.A();
+  if (A.cols() == 0) return;
+  const VectorXd lengths = A.colwise().norm();
+  const VectorXd sum = A * lengths.cwiseInverse();
+  RC_ASSERT(set.push(sum, rows) == ColumnQr::Push::dependent);
+  const VectorXd x = set.dependence();
+  RC_ASSERT(scaled((A * x - sum).norm(), x.cwiseProduct(lengths).norm() + sum.norm(), 4 * rows) <
+            few_hundred_eps);
+  set.check();  // nothing changed
+  // A millionth of something new is enough to enter.
+  const VectorXd other = set.random_column(rows);
+  RC_ASSERT(set.push(sum / sum.norm() + 1e-6 * other / other.norm(), rows) ==
+            ColumnQr::Push::entered);
+  set.check();
+}
+
+TEST(ColumnQr, RefusesZerosAndMoreColumnsThanRows) {
+  Shadowed set(3, 5, 1);
+  EXPECT_EQ(set.push(VectorXd::Zero(3), 3), ColumnQr::Push::dependent);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(set.push(set.random_column(3), 3), ColumnQr::Push::entered);
+  }
+  EXPECT_EQ(set.push(set.random_column(3), 3), ColumnQr::Push::dependent);
+}
+
+}  // namespace
+}  // namespace shapeid::fast

@@ -1,0 +1,227 @@
+// The fast mass solver where there is little or nothing to solve, and where it declines.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "shapeid/tests/fast/triangle_cases.hpp"
+
+namespace shapeid::fast {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using test::TriangleCase;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Everything that a caller can ask for, to be compared bit by bit.
+struct State {
+  VectorXd m, V, Phi;
+  double data, density, gap;
+  std::vector<int> passive;
+
+  explicit State(const MassSolver& s)
+      : m(s.m()),
+        V(s.V()),
+        Phi(s.Phi()),
+        data(s.value().data),
+        density(s.value().density),
+        gap(s.gap(10.0)),
+        passive(s.passive()) {}
+  bool operator==(const State& o) const {
+    return m == o.m && V == o.V && Phi == o.Phi && data == o.data && density == o.density &&
+           gap == o.gap && passive == o.passive;
+  }
+  friend std::ostream& operator<<(std::ostream& out, const State& s) {
+    return out << "m " << s.m.transpose() << "\nPhi " << s.Phi.transpose() << "\nvalue " << s.data
+               << " + " << s.density << ", gap " << s.gap;
+  }
+};
+
+TriangleCase small_case(int links, bool density_term) {
+  return test::body_case(11, {.links = links, .shapes_a_link = 8, .density_term = density_term});
+}
+
+class EitherTerm : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(FastMassEdges, EitherTerm, testing::Bool());
+
+TEST_P(EitherTerm, DeclinesNumbersThatAreNotFinite) {
+  for (const int links : {1, 3}) {
+    const TriangleCase given = small_case(links, GetParam());
+    MassSolver solver(links, given.shapes() + 1);
+    load(given, solver);
+    ASSERT_EQ(solver.solve(given.R), Outcome::solved);
+    const State before(solver);
+    for (const double bad : {nan, infinity, -infinity}) {
+      for (Index column = given.R.cols() - 1; column >= 0; column -= 5) {
+        for (Index row = 0; row <= column; row += 5) {
+          MatrixXd R = given.R;
+          R(row, column) = bad;
+          ASSERT_EQ(solver.solve(R), Outcome::not_finite) << row << ' ' << column;
+          ASSERT_EQ(State(solver), before) << row << ' ' << column;
+        }
+      }
+    }
+    // The window before still stands: a division of it is solved as if nothing had happened.
+    const int j = solver.passive().front();
+    ASSERT_TRUE(solver.divide(j, given.column(j), given.problem.V[j] / 2.0, given.column(j),
+                              given.problem.V[j] / 2.0));
+    EXPECT_EQ(solver.solve_again(), Outcome::solved);
+  }
+}
+
+/// Two columns that are opposite but for 1e-11 of their length: what lies across takes masses whose
+/// moments cancel to eleven digits, more than the check of the answer allows to lose.
+TEST_P(EitherTerm, AnIllConditionedAnswerLeavesEverythingAsItWas) {
+  for (const int links : {1, 2}) {
+    const Index n = Index{10} * links;
+    MassSolver solver(links, 3);
+    solver.set_lambda(GetParam() ? 1e-30 : 0.0);
+    MassSolver::Column u = MassSolver::Column::Unit(0), v = -0.7 * u;
+    u[1] = v[1] = 1e-11;
+    ASSERT_TRUE(solver.append(links - 1, u, 1.0));
+    ASSERT_TRUE(solver.append(links - 1, v, 1.0));
+    MatrixXd R = MatrixXd::Identity(n + 1, n + 1);
+    // Rows that are not units, so that no product is exact.
+    for (Index j = 0; j < n; ++j) {
+      for (Index i = 0; i < j; ++i) R(i, j) = 0.1 * std::sin(static_cast<double>(1 + i + 7 * j));
+    }
+    R.rightCols<1>() = 0.3 * R.col(n - 10);
+    ASSERT_EQ(solver.solve(R), Outcome::solved);
+    const State before(solver);
+    MatrixXd other = R;
+    other.rightCols<1>() = 0.3 * R.col(n - 9) + 0.011 * R.col(n - 10);
+    ASSERT_EQ(solver.solve(other), Outcome::ill_conditioned);
+    EXPECT_EQ(State(solver), before);
+    ASSERT_EQ(solver.solve(R), Outcome::solved);  // and goes on from there
+    EXPECT_EQ(State(solver).m, before.m);
+  }
+}
+
+TEST(FastMassEdges, TooLittleRoomChangesNothing) {
+  const TriangleCase given = small_case(2, true);
+  MassSolver solver(2, given.shapes());
+  load(given, solver);
+  ASSERT_EQ(solver.solve(given.R), Outcome::solved);
+  const State before(solver);
+  EXPECT_FALSE(solver.append(0, given.column(0), 1.0));
+  const int j = solver.passive().front();
+  EXPECT_FALSE(solver.divide(j, given.column(j), 1.0, given.column(j), 1.0));
+  EXPECT_EQ(State(solver), before);
+  EXPECT_EQ(solver.shapes(), given.shapes());
+  EXPECT_EQ(solver.solve_again(), Outcome::solved);
+}
+
+TEST_P(EitherTerm, NoShapes) {
+  TriangleCase given = small_case(2, GetParam());
+  MassSolver solver(2, 4);
+  solver.set_lambda(given.problem.lambda);
+  ASSERT_EQ(solver.solve(given.R), Outcome::solved);
+  EXPECT_EQ(solver.m().size(), 0);
+  EXPECT_TRUE(solver.Phi().isZero(0.0));
+  EXPECT_NEAR(solver.value().data, given.problem.F.squaredNorm(),
+              1e-14 * given.problem.F.squaredNorm());
+  EXPECT_EQ(solver.gap(5.0), 0.0);
+}
+
+// No rows at all, no columns that are felt, or nothing to explain: no masses, from any start.
+TEST_P(EitherTerm, NothingToGain) {
+  for (const int links : {1, 2}) {
+    const TriangleCase given = small_case(links, GetParam());
+    MatrixXd no_rows = MatrixXd::Zero(given.R.rows(), given.R.cols()), unfelt = no_rows,
+             no_force = given.R;
+    unfelt.rightCols<1>() = given.R.rightCols<1>();
+    no_force.rightCols<1>().setZero();
+    for (const MatrixXd& R : {no_rows, unfelt, no_force}) {
+      for (const bool warm : {false, true}) {
+        SCOPED_TRACE((R.cwiseAbs().maxCoeff() == 0.0 ? "no rows"
+                      : R.isApprox(unfelt)           ? "unfelt"
+                                                     : "no force") +
+                     std::string(warm ? ", warm" : ", cold"));
+        MassSolver solver(links, given.shapes());
+        load(given, solver);
+        if (warm) test::start_at(test::any_start(3, given), solver);
+        ASSERT_EQ(solver.solve(R), Outcome::solved);
+        EXPECT_EQ(solver.value().data, R.rightCols<1>().squaredNorm());
+        EXPECT_EQ(solver.value().density, 0.0);
+        EXPECT_TRUE(solver.m().isZero(0.0)) << solver.m().transpose();
+      }
+    }
+  }
+}
+
+// As the first links of a robot on a fixed base: no row feels them, and another link explains all.
+TEST_P(EitherTerm, ALinkThatNoRowFeels) {
+  TriangleCase given = small_case(2, GetParam());
+  for (const Index first : {0, 10}) {
+    MatrixXd R = given.R;
+    R.middleCols(first, 10).setZero();
+    for (const bool warm : {false, true}) {
+      MassSolver solver(2, given.shapes());
+      load(given, solver);
+      if (warm) test::start_at(test::any_start(4, given), solver);
+      ASSERT_EQ(solver.solve(R), Outcome::solved) << first << ' ' << warm;
+      EXPECT_FALSE(solver.passive().empty());
+      if (!GetParam()) continue;  // at lambda = 0 any mass there is as good as none
+      for (const int j : solver.passive()) {
+        EXPECT_NE(10 * given.links[static_cast<std::size_t>(j)], first);
+      }
+    }
+  }
+}
+
+// A column of zeros takes no mass, and keeps none.
+TEST_P(EitherTerm, AShapeWithoutParameters) {
+  for (const int links : {1, 2}) {
+    const TriangleCase given = small_case(links, GetParam());
+    MassSolver solver(links, given.shapes() + 1);
+    load(given, solver);
+    ASSERT_TRUE(solver.append(0, MassSolver::Column::Zero(), 1.0));
+    ASSERT_EQ(solver.solve(given.R), Outcome::solved);
+    EXPECT_EQ(solver.m()[given.shapes()], 0.0);
+    solver.start_at(given.shapes(), 2.0);
+    ASSERT_EQ(solver.solve(given.R), Outcome::solved);
+    EXPECT_EQ(solver.m()[given.shapes()], 0.0);
+  }
+}
+
+// One shape, one row, by hand: f = 2 (3 m - 6)^2 + 4 m^2 / 0.5 is least at m = 36 / 26.
+TEST(FastMassEdges, OneShapeByHand) {
+  MatrixXd R = MatrixXd::Zero(11, 11);
+  R(0, 0) = 3.0 * std::sqrt(2.0);
+  R(0, 10) = 6.0 * std::sqrt(2.0);
+  MassSolver solver(1, 1);
+  ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(0), 0.5));
+  solver.set_lambda(4.0);
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  EXPECT_DOUBLE_EQ(solver.m()[0], 36.0 / 26.0);
+  EXPECT_DOUBLE_EQ(solver.value().density, 8.0 * solver.m()[0] * solver.m()[0]);
+  R(0, 10) = -R(0, 10);  // pulls the other way: the bound holds
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  EXPECT_EQ(solver.m()[0], 0.0);
+  EXPECT_TRUE(solver.passive().empty());
+}
+
+TEST(FastMassEdges, ClearedIsAsNew) {
+  const TriangleCase first = small_case(2, false), second = small_case(2, true);
+  MassSolver solver(2, first.shapes()), fresh(2, first.shapes());
+  load(first, solver);
+  ASSERT_EQ(solver.solve(first.R), Outcome::solved);
+  solver.clear();
+  EXPECT_EQ(solver.shapes(), 0);
+  load(second, solver);
+  load(second, fresh);
+  ASSERT_EQ(solver.solve(second.R), Outcome::solved);
+  ASSERT_EQ(fresh.solve(second.R), Outcome::solved);
+  EXPECT_EQ(State(solver), State(fresh));
+}
+
+}  // namespace
+}  // namespace shapeid::fast

@@ -1,0 +1,241 @@
+// The three kinds of passive shapes against dense least squares in long double, as shapes enter and
+// leave.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <Eigen/QR>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "shapeid/fast/even_density.hpp"
+#include "shapeid/fast/many_links.hpp"
+#include "shapeid/fast/one_link.hpp"
+#include "shapeid/tests/fast/agreement.hpp"
+#include "shapeid/tests/fast/triangle_cases.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+
+namespace shapeid::fast {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using test::damped_rounding;
+using test::few_hundred_eps;
+using test::scaled;
+using test::TriangleCase;
+using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+enum class Kind { one_link, many_links, even_density };
+
+/// A set of one of the three kinds, and beside it the places of the shapes that it should hold.
+class Watched {
+ public:
+  Watched(const TriangleCase& given, Kind kind)
+      : given_(given), columns_(given.link_count(), given.shapes()) {
+    for (int j = 0; j < given.shapes(); ++j) {
+      static_cast<void>(columns_.append(given.links[static_cast<std::size_t>(j)], given.column(j)));
+    }
+    if (kind == Kind::one_link) {
+      set_ = std::make_unique<OneLink>(columns_);
+    } else if (kind == Kind::many_links) {
+      set_ = std::make_unique<ManyLinks>(columns_);
+    } else {
+      auto set = std::make_unique<EvenDensity>(columns_, given.problem.V);
+      set->set_lambda(given.problem.lambda);
+      set_ = std::move(set);
+    }
+    set_->start(given.R);
+  }
+
+  [[nodiscard]] const std::vector<int>& passive() const { return passive_; }
+  [[nodiscard]] const VectorXd& slopes() { return set_->slopes(); }
+
+  /// False if the set refused the shape; then the reason that it gave has been checked.
+  bool enter(int j) {
+    if (set_->enter(j)) {
+      passive_.push_back(j);
+      return true;
+    }
+    const auto n = static_cast<Index>(passive_.size());
+    VectorXd x = VectorXd::Zero(std::max<Index>(n, Index{10} * given_.link_count()));
+    set_->dependence(x);
+    const MatrixXd A = given_.problem.Y * given_.problem.U;
+    VectorXd sum = VectorXd::Zero(A.rows());
+    double size = A.col(j).norm();
+    for (Index i = 0; i < n; ++i) {
+      const VectorXd a = A.col(passive_[static_cast<std::size_t>(i)]);
+      sum += x[i] * a;
+      size += std::abs(x[i]) * a.norm();
+    }
+    RC_ASSERT(scaled((sum - A.col(j)).norm(), size, A.rows()) < few_hundred_eps);
+    return false;
+  }
+
+  void leave(Index place) {
+    set_->leave(static_cast<int>(place));
+    passive_.erase(passive_.begin() + place);
+  }
+
+  /// Where the passive shapes alone minimise f, whatever the signs of their masses.
+  [[nodiscard]] LongVector minimum() const {
+    const MassProblem& p = given_.problem;
+    const auto n = static_cast<Index>(passive_.size());
+    if (n == 0) return LongVector::Zero(0);
+    const Index damping_rows = p.lambda > 0.0 ? n : 0;
+    LongMatrix A = LongMatrix::Zero(p.Y.rows() + damping_rows, n);
+    LongVector b = LongVector::Zero(A.rows());
+    b.head(p.F.size()) = p.F.cast<long double>();
+    for (Index i = 0; i < n; ++i) {
+      const Index j = passive_[static_cast<std::size_t>(i)];
+      A.col(i).head(p.Y.rows()) = p.Y.cast<long double>() * p.U.col(j).cast<long double>();
+      if (damping_rows > 0) {
+        A(p.Y.rows() + i, i) = std::sqrt(static_cast<long double>(p.lambda) / p.V[j]);
+      }
+    }
+    // Columns of one length: masses of large and small shapes alike to all digits.
+    const LongVector lengths = A.colwise().norm();
+    for (Index i = 0; i < n; ++i) A.col(i) /= lengths[i];
+    return Eigen::HouseholderQR<LongMatrix>(A).solve(b).cwiseQuotient(lengths);
+  }
+
+  /// The target after refinement as the solver does it, and the slopes before.
+  void check(double& worst_move) {
+    const MassProblem& p = given_.problem;
+    const LongVector expected = minimum();
+    const VectorXd g = set_->slopes();
+    for (int round = 0; round < 3; ++round) {
+      const VectorXd Phi = parameters();
+      set_->refine(Phi, p.Y.transpose() * (p.F - p.Y * Phi));
+    }
+    RC_ASSERT(set_->sound());
+    LongVector Phi = LongVector::Zero(p.U.rows());
+    VectorXd sizes = VectorXd::Zero(p.U.rows());
+    const VectorXd& target = set_->target();
+    double total = 0.0, apart = 0.0;
+    for (std::size_t i = 0; i < passive_.size(); ++i) {
+      const auto at = static_cast<Index>(i);
+      Phi += expected[at] * p.U.col(passive_[i]).cast<long double>();
+      sizes += std::abs(target[at]) * p.U.col(passive_[i]).cwiseAbs();
+      total += std::abs(target[at]);
+      apart = std::max(apart, static_cast<double>(std::abs(target[at] - expected[at])));
+    }
+    const LongVector r = p.F.cast<long double>() - p.Y.cast<long double>() * Phi;
+    const VectorXd slopes = (p.Y.cast<long double>().transpose() * r).cast<double>();
+    const double length = p.F.norm() + (p.Y.cwiseAbs() * sizes).norm();
+    const Index sums = p.Y.rows() + static_cast<Index>(passive_.size());
+    const VectorXd lengths = p.Y.colwise().norm();
+    for (Index i = 0; i < g.size(); ++i) {
+      RC_ASSERT(scaled(std::abs(g[i] - slopes[i]), lengths[i] * length, sums) < few_hundred_eps);
+    }
+    const VectorXd moved = p.Y * (parameters() - Phi.cast<double>());
+    RC_ASSERT(scaled(moved.norm(), length, sums) < few_hundred_eps);
+    if (total > 0.0) worst_move = std::max(worst_move, apart / total);
+  }
+
+ private:
+  [[nodiscard]] VectorXd parameters() {
+    VectorXd Phi = VectorXd::Zero(given_.problem.U.rows());
+    const VectorXd& target = set_->target();
+    for (std::size_t i = 0; i < passive_.size(); ++i) {
+      Phi += target[static_cast<Index>(i)] * given_.problem.U.col(passive_[i]);
+    }
+    return Phi;
+  }
+
+  const TriangleCase& given_;
+
+  ShapeColumns columns_;
+  std::unique_ptr<PassiveSet> set_;
+  std::vector<int> passive_;
+};
+
+/// Enters and leaves at random, and checks after every few steps. `fill`: how likely a step enters.
+double run(const TriangleCase& given, Kind kind, std::uint64_t seed, int steps, int check_every,
+           double fill) {
+  Watched set(given, kind);
+  test::Draw draw(seed);
+  std::vector<int> held(static_cast<std::size_t>(given.shapes()));
+  for (int j = 0; j < given.shapes(); ++j) held[static_cast<std::size_t>(j)] = j;
+  double worst_move = 0.0;
+  for (int step = 0; step < steps; ++step) {
+    const bool enters = draw.between(0.0, 1.0) < fill;
+    if (enters && !held.empty()) {
+      const auto at = static_cast<std::size_t>(draw.between(0.0, static_cast<double>(held.size())));
+      if (set.enter(held[at])) held.erase(held.begin() + static_cast<std::ptrdiff_t>(at));
+    } else if (!enters && !set.passive().empty()) {
+      const auto at =
+          static_cast<Index>(draw.between(0.0, static_cast<double>(set.passive().size())));
+      held.push_back(set.passive()[static_cast<std::size_t>(at)]);
+      set.leave(at);
+    }
+    if (step % check_every == 0) set.check(worst_move);
+  }
+  return worst_move;
+}
+
+RC_GTEST_PROP(OneLink, AsDenseLeastSquares, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  const TriangleCase given =
+      test::body_case(seed, {.shapes_a_link = *rc::gen::inRange(1, 30), .density_term = false});
+  run(given, Kind::one_link, seed, 80, 1, 0.6);
+}
+
+RC_GTEST_PROP(ManyLinks, AsDenseLeastSquares, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  const TriangleCase given = test::body_case(seed, {.links = *rc::gen::inRange(1, 5),
+                                                    .shapes_a_link = *rc::gen::inRange(1, 15),
+                                                    .density_term = false});
+  run(given, Kind::many_links, seed, 120, 4, 0.6);
+}
+
+RC_GTEST_PROP(EvenDensity, AsDenseLeastSquares, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  const TriangleCase given = test::body_case(
+      seed, {.links = *rc::gen::inRange(1, 4), .shapes_a_link = *rc::gen::inRange(1, 30)});
+  RC_ASSERT(run(given, Kind::even_density, seed, 80, 4, 0.6) < damped_rounding);
+}
+
+// A few rows only: many directions that no row feels.
+RC_GTEST_PROP(EvenDensity, AsDenseLeastSquaresWithFewRows, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  const TriangleCase given = test::body_case(seed, {.links = 2, .shapes_a_link = 12, .samples = 1});
+  RC_ASSERT(run(given, Kind::even_density, seed, 60, 4, 0.6) < damped_rounding);
+}
+
+TEST(EvenDensity, HundredsOfShapesOnALinkAsDenseLeastSquares) {
+  const TriangleCase given = test::body_case(3, {.links = 2, .shapes_a_link = 200});
+  const double filling = run(given, Kind::even_density, 1, 400, 80, 0.9);
+  const double coming_and_going = run(given, Kind::even_density, 2, 800, 160, 0.6);
+  fmt::print("masses off by {:.1e} of their sum filling up, {:.1e} coming and going\n", filling,
+             coming_and_going);
+  EXPECT_LT(std::max(filling, coming_and_going), damped_rounding);
+}
+
+/// Slopes of passive shapes are lambda m / V, so small that they are noise in R^T r; they must come
+/// to digits of their own, because shapes are weighed against each other by them.
+TEST(EvenDensity, SlopesOfTheSizeOfLambdaHaveDigits) {
+  const TriangleCase given = test::body_case(9, {.shapes_a_link = 60, .noise = 0.1});
+  Watched set(given, Kind::even_density);
+  for (int j = 0; j < given.shapes(); ++j) ASSERT_TRUE(set.enter(j));
+  const LongVector m = set.minimum();
+  const VectorXd& g = set.slopes();
+  for (int j = 0; j < given.shapes(); ++j) {
+    const double expected = given.problem.lambda * static_cast<double>(m[j]) / given.problem.V[j];
+    const double terms = given.column(j).cwiseAbs().dot(g.cwiseAbs());
+    // 1e-6 of them is what the condition leaves of w; R^T r in double would leave nothing.
+    EXPECT_LT(std::abs(given.column(j).dot(g) - expected), 1e-6 * terms) << j;
+  }
+}
+
+}  // namespace
+}  // namespace shapeid::fast

@@ -1,0 +1,207 @@
+// Pricing in single precision picks the shape that double would, but for what single cannot tell.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "shapeid/fast/shape_columns.hpp"
+#include "shapeid/tests/support/generators.hpp"
+#include "shapeid/tests/support/load_problem.hpp"
+
+namespace shapeid::fast {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// 13 roundings to single precision of terms that add up to one, on each side of a comparison.
+constexpr double single_rounding = 2.0 * 13.0 / (1 << 24);
+/// The lane's number takes the place of a price's last four bits.
+constexpr double lane_bits = 16.0 / (1 << 24);
+
+/// Shapes on links, some without numbers, some barred; lengths of all magnitudes.
+struct Market {
+  int links;
+  VectorXd lengths, g;
+  double length;
+  std::vector<int> link_of;
+  std::vector<ShapeColumns::Column> columns;
+  std::vector<bool> barred;
+
+  [[nodiscard]] ShapeColumns stored() const {
+    ShapeColumns stored(links, static_cast<int>(columns.size()));
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      RC_ASSERT(stored.append(link_of[j], columns[j]));
+    }
+    stored.set_scale(lengths, length);
+    for (std::size_t j = 0; j < columns.size(); ++j) stored.bar(static_cast<int>(j), barred[j]);
+    return stored;
+  }
+
+  [[nodiscard]] double price(int j) const {
+    const auto at = static_cast<std::size_t>(j);
+    const Index first = Index{10} * link_of[at];
+    const double most = columns[at].cwiseAbs().dot(lengths.segment<10>(first)) * length;
+    return most > 0.0 ? columns[at].dot(g.segment<10>(first)) / most : 0.0;
+  }
+
+  [[nodiscard]] int steepest() const {
+    int best = -1;
+    for (int j = 0; j < static_cast<int>(columns.size()); ++j) {
+      if (barred[static_cast<std::size_t>(j)]) continue;
+      if (best < 0 || price(j) > price(best)) best = j;
+    }
+    return best;
+  }
+};
+
+/// `size`: of the slopes, over the largest that they could be.
+Market any_market(double size) {
+  test::Draw draw(*rc::gen::arbitrary<std::uint64_t>());
+  Market market;
+  market.links = *rc::gen::inRange(1, 6);
+  market.lengths.resize(Index{10} * market.links);
+  market.g.resize(market.lengths.size());
+  market.length = std::pow(10.0, draw.between(-6.0, 6.0));
+  for (Index i = 0; i < market.g.size(); ++i) {
+    market.lengths[i] = std::pow(10.0, draw.between(-3.0, 3.0));
+    market.g[i] = size * draw.sign() * market.lengths[i] * market.length;
+  }
+  const int shapes = *rc::gen::inRange(0, 80);
+  for (int j = 0; j < shapes; ++j) {
+    ShapeColumns::Column u;
+    const double scale = std::pow(10.0, draw.between(-4.0, 4.0));
+    for (double& x : u) x = draw.between(0.0, 1.0) < 0.2 ? 0.0 : scale * draw.sign();
+    if (draw.between(0.0, 1.0) < 0.05) u.setZero();
+    market.link_of.push_back(static_cast<int>(draw.between(0.0, market.links)));
+    market.columns.push_back(u);
+    market.barred.push_back(draw.between(0.0, 1.0) < 0.3);
+  }
+  return market;
+}
+
+RC_GTEST_PROP(ShapeColumns, SteepestIsThatOfDoubleButForSinglePrecision, ()) {
+  const Market market = any_market(1.0);
+  ShapeColumns stored = market.stored();
+  const int best = market.steepest(), found = stored.steepest(market.g, single_rounding);
+  if (best < 0 || market.price(best) < single_rounding / 2.0) {
+    RC_ASSERT(found < 0);
+  } else if (found < 0) {
+    RC_ASSERT(market.price(best) < 2.0 * single_rounding);
+  } else {
+    RC_ASSERT(!market.barred[static_cast<std::size_t>(found)]);
+    RC_ASSERT(market.price(found) >=
+              market.price(best) - single_rounding - lane_bits * market.price(best));
+  }
+}
+
+// Slopes far below what single precision resolves: double decides among all that are not barred,
+// with prices whose scale alone is single.
+RC_GTEST_PROP(ShapeColumns, DoubleDecidesWhereSingleCannot, ()) {
+  const Market market = any_market(1e-9);
+  const double threshold = *test::magnitude(1e-13, 1e-9);
+  ShapeColumns stored = market.stored();
+  const int best = market.steepest(), found = stored.steepest(market.g, threshold);
+  if (best < 0 || market.price(best) < threshold * (1.0 - single_rounding)) {
+    RC_ASSERT(found < 0);
+  } else if (found < 0) {
+    RC_ASSERT(market.price(best) < threshold * (1.0 + single_rounding));
+  } else {
+    RC_ASSERT(!market.barred[static_cast<std::size_t>(found)]);
+    RC_ASSERT(market.price(found) >= market.price(best) * (1.0 - single_rounding));
+  }
+}
+
+// Slopes R^T r with || r || no longer than said cannot have a price beyond one.
+RC_GTEST_PROP(ShapeColumns, PricesLieBetweenMinusOneAndOne, ()) {
+  Market market = any_market(1.0);
+  test::Draw draw(*rc::gen::arbitrary<std::uint64_t>());
+  for (Index i = 0; i < market.g.size(); ++i) {
+    market.g[i] = (draw.sign() < 0.0 ? -1.0 : 1.0) * market.lengths[i] * market.length;
+  }
+  const ShapeColumns stored = market.stored();
+  for (int j = 0; j < stored.size(); ++j) {
+    const double slope = stored.column(j).dot(market.g.segment<10>(Index{10} * stored.link(j)));
+    const double price = stored.price(j, slope);
+    RC_ASSERT(std::abs(price) <= 1.0 + single_rounding);
+    RC_ASSERT(std::abs(price - market.price(j)) <= single_rounding * std::abs(price));
+  }
+}
+
+// Units are factors; powers of two change no digit, so they must not change the choice.
+RC_GTEST_PROP(ShapeColumns, UnitsDoNotChangeTheChoice, ()) {
+  const double size = *rc::gen::element(1.0, 1e-9);
+  Market market = any_market(size);
+  ShapeColumns stored = market.stored();
+  const int chosen = stored.steepest(market.g, 1e-12);
+  const double of_rows = std::ldexp(1.0, *rc::gen::inRange(-40, 41));
+  const double of_forces = std::ldexp(1.0, *rc::gen::inRange(-40, 41));
+  market.lengths *= of_rows;
+  market.length *= of_forces;
+  market.g *= of_rows * of_forces;
+  ShapeColumns other = market.stored();
+  RC_ASSERT(other.steepest(market.g, 1e-12) == chosen);
+}
+
+RC_GTEST_PROP(ShapeColumns, BarredShapesComeBackWhenAdmitted, ()) {
+  Market market = any_market(1.0);
+  ShapeColumns stored = market.stored();
+  stored.unbar_all();
+  std::fill(market.barred.begin(), market.barred.end(), false);
+  ShapeColumns fresh = market.stored();
+  RC_ASSERT(stored.steepest(market.g, 1e-14) == fresh.steepest(market.g, 1e-14));
+  for (int j = 0; j < stored.size(); ++j) stored.bar(j, true);
+  RC_ASSERT(stored.steepest(market.g, 1e-14) == -1);
+}
+
+// A column that is written later counts as if it had come first.
+RC_GTEST_PROP(ShapeColumns, ReplacedColumnsArePricedAnew, ()) {
+  Market market = any_market(1.0);
+  ShapeColumns stored = market.stored();
+  for (std::size_t j = 0; j < market.columns.size(); j += 3) {
+    market.columns[j] = 2.0 * market.columns[market.columns.size() - 1 - j].reverse().eval();
+    stored.replace(static_cast<int>(j), market.columns[j]);
+  }
+  ShapeColumns fresh = market.stored();
+  RC_ASSERT(stored.steepest(market.g, 1e-14) == fresh.steepest(market.g, 1e-14));
+  for (int j = 0; j < stored.size(); ++j) RC_ASSERT(stored.column(j) == fresh.column(j));
+}
+
+TEST(ShapeColumns, RoomIsForAllShapesOnAnyLinks) {
+  for (int on_first = 0; on_first <= 40; ++on_first) {
+    ShapeColumns stored(3, 40);
+    for (int j = 0; j < 40; ++j) {
+      ASSERT_TRUE(stored.append(j < on_first ? 0 : 1 + j % 2, ShapeColumns::Column::Ones()));
+    }
+    EXPECT_FALSE(stored.append(2, ShapeColumns::Column::Ones()));
+    EXPECT_EQ(stored.size(), 40);
+    stored.clear();
+    EXPECT_EQ(stored.size(), 0);
+    EXPECT_TRUE(stored.append(2, ShapeColumns::Column::Ones()));
+    EXPECT_EQ(stored.link(0), 2);
+  }
+}
+
+// Rows that do not feel a link: no price, and no NaN that would win or hide a comparison.
+TEST(ShapeColumns, UnfeltShapesHaveNoPrice) {
+  ShapeColumns stored(2, 4);
+  for (const int link : {0, 1, 0, 1}) {
+    ASSERT_TRUE(stored.append(link, ShapeColumns::Column::Ones()));
+  }
+  VectorXd lengths = VectorXd::Ones(20), g = VectorXd::Zero(20);
+  lengths.head<10>().setZero();
+  stored.set_scale(lengths, 1.0);
+  EXPECT_EQ(stored.price(0, 0.0), 0.0);
+  EXPECT_EQ(stored.steepest(g, 0.0), -1);
+  g[13] = 0.5;
+  EXPECT_EQ(stored.link(stored.steepest(g, 0.0)), 1);
+  stored.set_scale(VectorXd::Zero(20), 0.0);
+  EXPECT_EQ(stored.steepest(VectorXd::Zero(20), 0.0), -1);
+}
+
+}  // namespace
+}  // namespace shapeid::fast
