@@ -58,7 +58,10 @@ class Watched {
   }
 
   [[nodiscard]] const std::vector<int>& passive() const { return passive_; }
-  [[nodiscard]] const VectorXd& slopes() { return set_->slopes(); }
+  [[nodiscard]] VectorXd slopes() {
+    const MassProblem& p = given_.problem;
+    return set_->slopes(p.Y.transpose() * (p.F - p.Y * parameters()));
+  }
 
   /// False if the set refused the shape; then the reason that it gave has been checked.
   bool enter(int j) {
@@ -112,7 +115,7 @@ class Watched {
   void check(double& worst_move) {
     const MassProblem& p = given_.problem;
     const LongVector expected = minimum();
-    const VectorXd g = set_->slopes();
+    const VectorXd g = slopes();
     for (int round = 0; round < 3; ++round) {
       const VectorXd Phi = parameters();
       set_->refine(Phi, p.Y.transpose() * (p.F - p.Y * Phi));
@@ -228,7 +231,7 @@ TEST(EvenDensity, SlopesOfTheSizeOfLambdaHaveDigits) {
   Watched set(given, Kind::even_density);
   for (int j = 0; j < given.shapes(); ++j) ASSERT_TRUE(set.enter(j));
   const LongVector m = set.minimum();
-  const VectorXd& g = set.slopes();
+  const VectorXd g = set.slopes();
   for (int j = 0; j < given.shapes(); ++j) {
     const double expected = given.problem.lambda * static_cast<double>(m[j]) / given.problem.V[j];
     const double terms = given.column(j).cwiseAbs().dot(g.cwiseAbs());
