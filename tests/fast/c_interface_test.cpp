@@ -93,7 +93,7 @@ void expect_same(const shapeid_identifier* c, const Identifier& identifier) {
 
 /// Feeds a noisy trot to both and compares whenever they answer.
 void compare(const shapeid_settings& settings, const fast::IdentifierSettings& same,
-             std::vector<Sample> samples, int fewest_answers) {
+             const std::vector<Sample>& samples, int fewest_answers) {
   const Robot robot = test::bundled_quadruped();
   const Handle c = bundled(settings);
   ASSERT_NE(c, nullptr);
