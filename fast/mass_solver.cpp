@@ -405,6 +405,13 @@ bool MassSolver::divide(int j, const Column& first, double V1, const Column& sec
   const int other = shapes();
   if (!append(columns_.link(j), second, V2)) return false;
   const double mass = m_[j];
+  if (R_ == nullptr) {  // before the first solve() masses are but a place to start at
+    columns_.replace(j, first);
+    V_[j] = V1;
+    if (mass > 0.0) start_at(j, mass * V1 / (V1 + V2));
+    if (mass > 0.0) start_at(other, mass * V2 / (V1 + V2));
+    return true;
+  }
   if (mass > 0.0) {
     if (!started_) start();
     leave(static_cast<int>(std::find(passive_.begin(), passive_.end(), j) - passive_.begin()));

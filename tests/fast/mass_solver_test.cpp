@@ -39,7 +39,8 @@ struct Tally {
 
 /// The same minimum; for lambda > 0 also the same minimiser, as exactly as the problem's own
 /// gradient can tell in double.
-void expect_right(const PlantedProblem& planted, Tally& tally) {
+void expect_right(const PlantedProblem& planted, Tally& tally,
+                  double mass_roundings = few_hundred_eps) {
   const MassProblem& p = planted.problem;
   const std::optional<MassSolution> fast = fast::solve_masses(p);
   if (!fast) {
@@ -54,7 +55,7 @@ void expect_right(const PlantedProblem& planted, Tally& tally) {
   RC_ASSERT(scaled(std::abs(fast->value.total() - objective(p, fast->m).total()),
                    test::objective_terms(p, fast->m), p.F.size() + p.shapes()) < few_hundred_eps);
   if (p.lambda > 0.0) {
-    RC_ASSERT(scaled_mass_difference(p, fast->m, reference::solve_masses(p).m) < few_hundred_eps);
+    RC_ASSERT(scaled_mass_difference(p, fast->m, reference::solve_masses(p).m) < mass_roundings);
   }
 }
 
@@ -70,7 +71,11 @@ RC_GTEST_PROP(FastMasses, Degenerate, ()) {
 
 RC_GTEST_PROP(FastMasses, NearParallel, ()) {
   static Tally tally("near parallel");
-  expect_right(*planted_problem({.degenerate = true, .near_parallel = true}), tally);
+  // In double a gradient is small to promised_slope, 4e5 roundings, where columns are parallel to
+  // 1e-12 and below; masses then differ by as many. Seen: five hundred.
+  constexpr double promised_roundings = 1e4;
+  expect_right(*planted_problem({.degenerate = true, .near_parallel = true}), tally,
+               promised_roundings);
 }
 
 RC_GTEST_PROP(FastMasses, BadlyScaled, ()) {
