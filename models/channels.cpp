@@ -224,6 +224,10 @@ ChannelPlan plan_channels(const LogReader& log, const Robot& robot,
   }
   plan.hold_groups = finder.groups();
   plan.extra = finder.unused();
+  for (const std::string& name : plan.extra) {
+    const auto at = std::find(log.columns().begin(), log.columns().end(), name);
+    plan.extra_columns.push_back(static_cast<std::size_t>(at - log.columns().begin()));
+  }
   return plan;
 }
 
@@ -292,9 +296,14 @@ std::optional<MeasuredRow> MeasuredRows::next() {
       ++filtered_;
       continue;
     }
-    MeasuredRow measured{row->line, clock(*row),
+    MeasuredRow measured{row->line,
+                         clock(*row),
                          Eigen::VectorXd(static_cast<Eigen::Index>(plan_.channels.size())),
-                         contacts(*row)};
+                         contacts(*row),
+                         {}};
+    for (const std::size_t column : plan_.extra_columns) {
+      measured.extra.push_back(row->values[column]);
+    }
     for (std::size_t c = 0; c < plan_.channels.size(); ++c) {
       const Channel& channel = plan_.channels[c];
       measured.values[static_cast<Eigen::Index>(c)] =

@@ -35,7 +35,8 @@ struct ChannelPlan {
   };
   std::vector<Keep> keep;  ///< rows that do not have these values are left out
   int hold_groups = 0;
-  std::vector<std::string> extra;  ///< columns that are neither ours nor mapped
+  std::vector<std::string> extra;          ///< columns that are neither ours nor mapped
+  std::vector<std::size_t> extra_columns;  ///< where these are in the log
 
   [[nodiscard]] bool floating() const { return gyro >= 0; }
 };

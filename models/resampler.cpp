@@ -19,7 +19,7 @@ void Resampler::push(const MeasuredRow& row) {
     const double value = row.values[static_cast<Eigen::Index>(c)];
     if (!std::isnan(value)) tracks_[c].push_back({row.time, value});
   }
-  flags_.push_back({row.time, row.contacts});
+  flags_.push_back({row.time, row.contacts, row.extra});
 }
 
 void Resampler::finish() { finished_ = true; }
@@ -103,7 +103,8 @@ std::optional<GridRow> Resampler::next() {
       continue;
     }
     GridRow row{std::exchange(starts_segment_, false), time(),
-                Eigen::VectorXd(longest_step_.size()), flags_.front().contacts};
+                Eigen::VectorXd(longest_step_.size()), flags_.front().contacts,
+                flags_.front().extra};
     for (std::size_t c = 0; c < tracks_.size(); ++c) {
       const auto i = static_cast<Eigen::Index>(c);
       row.values[i] = interpolate(tracks_[c], longest_step_[i]);

@@ -15,6 +15,7 @@ struct MeasuredRow {
   double time = 0.0;          ///< s
   Eigen::VectorXd values;     ///< one a channel; NaN where this row measured nothing new
   std::vector<int> contacts;  ///< one a contact: 1 touches, 0 does not, -1 not known
+  std::vector<double> extra;  ///< the log's other columns, carried along; NaN where empty
 };
 
 /// A row of the regular grid.
@@ -23,6 +24,7 @@ struct GridRow {
   double time = 0.0;            ///< s
   Eigen::VectorXd values;       ///< one a channel
   std::vector<int> contacts;    ///< those of the nearest measured row
+  std::vector<double> extra;    ///< likewise
 };
 
 /// Interpolates every channel from its own measurements by the cubic through two of them on either
@@ -50,6 +52,7 @@ class Resampler {
   struct Flags {
     double time;
     std::vector<int> contacts;
+    std::vector<double> extra;
   };
   enum class State { ready, wait, gap };
   struct Look {

@@ -31,6 +31,9 @@ struct Sample {
   std::vector<bool> in_contact;
   /// Measured contact forces in base axes, N, one for each contact; empty if not measured.
   std::vector<Eigen::Vector3d> contact_force;
+  /// The log's other columns (MotionReport::extra) in the nearest row, as logged: neither scaled
+  /// nor filtered. NaN where the row had none. The dynamics do not use them.
+  std::vector<double> extra;
 };
 
 /// Empty if the sample has as many numbers as the robot needs, all finite.

@@ -52,6 +52,7 @@ Sample make_exact_sample(const ChannelPlan& plan, const Robot& robot, const Eige
   const Eigen::Index n = robot.joint_count();
   Sample sample;
   sample.time = row.time;
+  sample.extra = row.extra;
   sample.dq = row.values.segment(plan.dq, n);
   sample.ddq = row.values.segment(plan.ddq, n);
   set_values(plan, robot, row.values, sample);

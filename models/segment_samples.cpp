@@ -23,7 +23,7 @@ void SegmentSamples::push(const GridRow& row) {
     ++segments_;
   }
   ++rows_;
-  in_filter_.push_back({row.time, row.contacts});
+  in_filter_.push_back({row.time, row.contacts, row.extra});
   filter_.push(row.values);
   drain();
 }
@@ -43,10 +43,11 @@ void SegmentSamples::differentiate() {
   Stencil f;
   std::copy(filtered_.begin(), filtered_.end(), f.begin());
   Stamp& centre = filtered_stamps_[difference_reach];
-  settle({make_sample(plan_, robot_, imu_, centre.time, f[difference_reach],
-                      first_derivative(f, options_.rate), second_derivative(f, options_.rate),
-                      options_.use_logged_velocity),
-          std::move(centre.contacts), false});
+  Sample sample = make_sample(plan_, robot_, imu_, centre.time, f[difference_reach],
+                              first_derivative(f, options_.rate),
+                              second_derivative(f, options_.rate), options_.use_logged_velocity);
+  sample.extra = std::move(centre.extra);
+  settle({std::move(sample), std::move(centre.contacts), false});
   filtered_.pop_front();
   filtered_stamps_.pop_front();
 }

@@ -43,6 +43,7 @@ class SegmentSamples {
   struct Stamp {
     double time;
     std::vector<int> contacts;
+    std::vector<double> extra;
   };
   void drain();
   void differentiate();

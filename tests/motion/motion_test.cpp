@@ -178,6 +178,28 @@ TEST(Motion, SaysWhatCouldNotBeChecked) {
                               "no dq.* columns: units of q and time are not checked by slopes"});
 }
 
+TEST(Motion, OtherColumnsComeAlongFromTheNearestRow) {
+  const Scratch scratch;
+  std::string text = "time,q.j0,tau.j0,temperature.j0\n";
+  // The row at 0.4 s has no temperature, the others have the row's number.
+  for (int k = 0; k < 500; ++k) {
+    text += fmt::format("{},{},{},{}\n", 0.002 * k, 0.001 * k, 0.1 * k,
+                        k == 200 ? "" : std::to_string(k));
+  }
+  MotionOptions options;
+  for (const bool exact : {false, true}) {
+    options.smoothing = exact ? Smoothing::none : Smoothing::zero_phase;
+    const auto samples =
+        read_motion(scratch.file("a.csv", text), chain(1, Root::fixed), options).samples;
+    ASSERT_FALSE(samples.empty());
+    for (const Sample& s : samples) {
+      ASSERT_EQ(s.extra.size(), 1U);
+      const double row = std::round(s.time / 0.002);
+      EXPECT_TRUE(row == 200.0 ? std::isnan(s.extra[0]) : s.extra[0] == row) << s.time;
+    }
+  }
+}
+
 TEST(Motion, LoggedVelocityIsUsedWhenTrusted) {
   const Robot robot = chain(2, Root::fixed);
   const Scratch scratch;
