@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct Parameter {
   bool nonnegative = false;
   /// A usual size in the unit. Derivatives are taken over a small part of it.
   double size = 1.0;
+  /// Values beyond this are not believed; what is linearised has a range.
+  double limit = std::numeric_limits<double>::infinity();
 };
 
 /// A number that the columns do not depend on linearly, found by an outer search.
@@ -35,6 +38,8 @@ struct ShapeNumber {
   std::string name;
   std::string unit;
   double lower = 0.0, upper = 0.0, start = 0.0;  ///< positive; searched in the logarithm
+  /// Relative range of the search about where screening found it; 0: from lower to upper.
+  double nearby = 0.0;
 };
 
 /// One instant as the present model sees it.
@@ -56,8 +61,9 @@ struct Moment {
   std::function<Sample(double)> at;
 };
 
-/// s: how far effects may look to either side.
-inline constexpr double largest_shift = 0.03;
+/// s: how far one effect may look to either side, and how far several together.
+inline constexpr double largest_delay = 0.018;
+inline constexpr double largest_shift = 2.0 * largest_delay + 0.004;
 
 /// The matrices of one sample, in generalised order, before weights and projection.
 struct Rows {

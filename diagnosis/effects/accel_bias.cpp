@@ -17,8 +17,9 @@ Effect accel_bias() {
   e.title = "the accelerometer reads a constant too much";
   e.equation = "specific force -> specific force - (x, y, z)";
   e.site = SiteKind::accelerometer;
-  e.parameters = {
-      {"x", "m/s^2", false, 0.2}, {"y", "m/s^2", false, 0.2}, {"z", "m/s^2", false, 0.2}};
+  e.parameters = {{"x", "m/s^2", false, 0.2, 3.0},
+                  {"y", "m/s^2", false, 0.2, 3.0},
+                  {"z", "m/s^2", false, 0.2, 3.0}};
   e.confused_with = {"accel_misalignment (x, y)", "total mass and torque gains (z)",
                      "external_force on the base"};
   e.separate_by = "let the robot stand on its head, or on its side";

@@ -21,7 +21,9 @@ Effect accel_misalignment() {
   e.title = "the accelerometer is mounted askew: gravity is not where the base frame says";
   e.equation = "specific force turned by (x, y, z)";
   e.site = SiteKind::accelerometer;
-  e.parameters = {{"x", "rad", false, 0.02}, {"y", "rad", false, 0.02}, {"z", "rad", false, 0.02}};
+  e.parameters = {{"x", "rad", false, 0.02, 0.3},
+                  {"y", "rad", false, 0.02, 0.3},
+                  {"z", "rad", false, 0.02, 0.3}};
   e.confused_with = {"accel_bias", "centre of mass of the base"};
   e.separate_by = "let the robot stand in two directions on a slope";
   e.under_contact = "seen as far as the base's balance is";

@@ -22,7 +22,7 @@ Effect cogging() {
   e.site = SiteKind::joint;
   e.parameters = {{"a", "N m", false, 0.2}, {"b", "N m", false, 0.2}};
   // Slower than this it is a spring or gravity, faster a filter at 20 Hz leaves nothing of it.
-  e.shape = {{"N", "1/rad", 4.0, 200.0, 12.0}};
+  e.shape = {{"N", "1/rad", 4.0, 200.0, 12.0, 0.03}};
   e.confused_with = {"gear transmission error", "joint_spring"};
   e.separate_by = "turn the joint slowly at constant speed over its whole range";
   e.under_contact = "seen in swing; in stance only its part that no contact force can balance";

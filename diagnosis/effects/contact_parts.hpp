@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include <optional>
+
 #include "shapeid/diagnosis/effect.hpp"
 
 namespace shapeid::diagnosis {
@@ -18,6 +20,28 @@ inline Eigen::MatrixXd force_columns(const Instant& at, int contact, bool declar
   return -reference::point_jacobian(at.robot, at.motions, place.link, point)
               .topRows<3>()
               .transpose();
+}
+
+/// Where the rows of a contact begin in J; empty if it does not touch.
+inline std::optional<Eigen::Index> stance_row(const Robot& robot, const Sample& sample,
+                                              int contact) {
+  const auto wanted = static_cast<std::size_t>(contact);
+  if (wanted >= sample.in_contact.size() || !sample.in_contact[wanted]) return std::nullopt;
+  Eigen::Index row = 0;
+  for (std::size_t c = 0; c < wanted; ++c) {
+    const ContactKind kind = robot.contacts[c].kind;
+    if (!sample.in_contact[c]) continue;
+    row += kind == ContactKind::point ? 3 : kind == ContactKind::line ? 5 : 6;
+  }
+  return row;
+}
+
+/// Moves the point of a touching contact by `arm` (base axes): v_point += omega x arm.
+inline void move_point(const Robot& robot, const std::vector<reference::LinkMotion>& motions,
+                       int contact, const Eigen::Vector3d& arm, Eigen::Index row, Rows& rows) {
+  const int link = robot.contacts[static_cast<std::size_t>(contact)].link;
+  const auto turning = reference::point_jacobian(robot, motions, link, Eigen::Vector3d::Zero());
+  rows.J.middleRows<3>(row) -= reference::skew(arm) * turning.bottomRows<3>();
 }
 
 }  // namespace shapeid::diagnosis

@@ -17,7 +17,7 @@ Effect encoder_offset() {
   e.title = "the joint stands elsewhere than the encoder says";
   e.equation = "q_j -> q_j + d in Y and J";
   e.site = SiteKind::joint;
-  e.parameters = {{"d", "rad", false, 0.02}};
+  e.parameters = {{"d", "rad", false, 0.02, 0.3}};
   e.confused_with = {"centre of mass of the link", "contact_point", "torque_offset"};
   e.separate_by = "measure the joint's zero with a level or a calibration stop";
   e.under_contact = "seen where the foot then is; the link's own part as for any joint torque";

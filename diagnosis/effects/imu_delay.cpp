@@ -22,7 +22,7 @@ Effect imu_delay() {
   e.title = "the IMU is logged later than the joints";
   e.equation = "base motion at t is read at t + d";
   e.site = SiteKind::whole;
-  e.parameters = {{"d", "s", false, 0.004}};
+  e.parameters = {{"d", "s", false, 0.004, largest_delay}};
   e.confused_with = {"torque_delay", "accel_misalignment"};
   e.separate_by = "tap the robot: the same knock must come at the same time in all channels";
   e.under_contact = "seen as far as the base's balance is";

@@ -25,7 +25,7 @@ Effect link_length() {
   e.title = "the joint is farther from the one before it than the model says";
   e.equation = "placement of joint j moved by d along itself, in Y and J";
   e.site = SiteKind::joint;
-  e.parameters = {{"d", "m", false, 0.005}};
+  e.parameters = {{"d", "m", false, 0.005, 0.05}};
   e.confused_with = {"masses beyond the joint", "contact_point"};
   e.separate_by = "measure the link";
   e.under_contact = "seen where the foot then is";

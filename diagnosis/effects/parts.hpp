@@ -20,7 +20,7 @@ inline Eigen::MatrixXd joint_column(const Instant& at, int joint, double value) 
 inline double direction_of(double dq, double width) { return std::tanh(dq / width); }
 
 /// The width of the step of friction through rest. Filters and elastic joints blur it.
-inline ShapeNumber step_width() { return {"width", "rad/s", 0.003, 0.6, 0.05}; }
+inline ShapeNumber step_width() { return {"width", "rad/s", 0.003, 0.3, 0.05}; }
 
 inline bool is_floating(const Robot& robot, int) { return robot.root == Root::floating; }
 inline bool is_point_contact(const Robot& robot, int contact) {

@@ -19,7 +19,7 @@ Effect torque_gain() {
   e.title = "the torque is read too large by a factor (current constant, gear, efficiency)";
   e.equation = "tau_j -> (1 + g) tau_j";
   e.site = SiteKind::joint;
-  e.parameters = {{"g", "1", false, 0.1}};
+  e.parameters = {{"g", "1", false, 0.1, 0.8}};
   e.confused_with = {"masses beyond the joint", "load_friction"};
   e.separate_by = "attach a known load beyond the joint";
   e.under_contact = "in stance seen only against the base's balance and the other legs";

@@ -1,0 +1,262 @@
+#include "shapeid/diagnosis/consistent.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapeid/reference/mass_solver.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+// As in fits.cpp: keeps coinciding columns of effects apart.
+constexpr double regularity = 1e-10;
+
+/// Sums over [Y_free, E, F], with known links moved to F.
+class Sums {
+ public:
+  Sums(const BodyModel& shapes, Tally tally, const std::vector<bool>& since)
+      : tally_(std::move(tally)), effects_(tally_.columns() - tally_.inertial) {
+    for (const int link : shapes.free_links) {
+      for (Eigen::Index p = 0; p < 10; ++p) kept_.push_back(Eigen::Index{10} * link + p);
+    }
+    for (Eigen::Index e = 0; e <= effects_; ++e) kept_.push_back(tally_.inertial + e);
+    known_ = Eigen::VectorXd::Zero(tally_.columns() + 1);
+    known_.head(tally_.inertial) = shapes.known;
+    for (Block& block : tally_.blocks) reduce(block, since);
+  }
+
+  [[nodiscard]] Eigen::Index effects() const { return effects_; }
+  [[nodiscard]] Eigen::Index masses() const { return std::ssize(kept_) - effects_ - 1; }
+
+  /// Of all blocks but a tenth; -1: of all.
+  [[nodiscard]] Eigen::MatrixXd without(int tenth) const {
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(std::ssize(kept_), std::ssize(kept_));
+    for (std::size_t b = 0; b < tally_.blocks.size(); ++b) {
+      const int own = static_cast<int>(10 * b / tally_.blocks.size());
+      if (own != tenth) sum += tally_.blocks[b].sums;
+    }
+    return sum;
+  }
+
+ private:
+  void reduce(Block& block, const std::vector<bool>& since) const {
+    Eigen::MatrixXd G = block.sums;
+    const Eigen::Index F = tally_.columns();
+    const Eigen::VectorXd Gx = G * known_;
+    G(F, F) += known_.dot(Gx) - 2.0 * Gx[F];
+    G.col(F).head(F) -= Gx.head(F);
+    G.row(F).head(F) = G.col(F).head(F).transpose();
+    block.sums = G(kept_, kept_);
+    if (!block.reference) return;
+    for (std::size_t k = 0; k < since.size(); ++k) {
+      if (!since[k]) continue;
+      const Eigen::Index from = masses() + tally_.first[k] - tally_.inertial;
+      const Eigen::Index n = tally_.hypotheses[k].value.size();
+      block.sums.middleRows(from, n).setZero();
+      block.sums.middleCols(from, n).setZero();
+    }
+  }
+
+  Tally tally_;
+  Eigen::Index effects_;
+  std::vector<Eigen::Index> kept_;
+  Eigen::VectorXd known_;
+};
+
+/// Rows with the sums' squares, after the effects have taken what they can.
+struct Eliminated {
+  Eigen::MatrixXd rows;  ///< [Y_free, F]
+  Eigen::MatrixXd gain;  ///< theta = gain (Phi_free, -1) with the sign turned: see effects_of
+};
+
+Eliminated eliminate(const Eigen::MatrixXd& G, Eigen::Index masses, Eigen::Index effects) {
+  Eigen::MatrixXd outer(masses + 1, masses + 1);
+  outer.topLeftCorner(masses, masses) = G.topLeftCorner(masses, masses);
+  outer.topRightCorner(masses, 1) = G.topRightCorner(masses, 1);
+  outer.bottomLeftCorner(1, masses) = G.bottomLeftCorner(1, masses);
+  outer(masses, masses) = G(G.rows() - 1, G.cols() - 1);
+  Eigen::MatrixXd cross(effects, masses + 1);
+  cross << G.block(masses, 0, effects, masses), G.block(masses, G.cols() - 1, effects, 1);
+  Eliminated result{{}, Eigen::MatrixXd::Zero(effects, masses + 1)};
+  if (effects > 0) {
+    Eigen::MatrixXd E = G.block(masses, masses, effects, effects);
+    E.diagonal() *= 1.0 + regularity;
+    result.gain = E.ldlt().solve(cross);
+    outer -= cross.transpose() * result.gain;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(outer);
+  result.rows =
+      eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+  return result;
+}
+
+Eigen::VectorXd effects_of(const Eliminated& eliminated, const Eigen::VectorXd& Phi_free) {
+  Eigen::VectorXd x(Phi_free.size() + 1);
+  x << -Phi_free, 1.0;
+  return eliminated.gain * x;
+}
+
+class Solver {
+ public:
+  Solver(const Robot& robot, const Sums& sums, const LoopSettings& settings, const LoopResult& loop)
+      : sums_(sums), settings_(settings) {
+    const BodyModel& shapes = settings.shapes;
+    const Eigen::VectorXd given = stacked_parameters(robot);
+    prior_ = Eigen::VectorXd::Zero(sums.masses());
+    given_ = prior_;
+    for (std::size_t i = 0; i < shapes.free_links.size(); ++i) {
+      const Eigen::Index from = Eigen::Index{10} * shapes.free_links[i];
+      const auto at = 10 * static_cast<Eigen::Index>(i);
+      given_.segment<10>(at) = given.segment<10>(from);
+      prior_.segment<10>(at) =
+          std::sqrt(loop.prior) * settings.size.segment<10>(from).cwiseInverse();
+    }
+  }
+
+  [[nodiscard]] Eliminated rows(int tenth) const {
+    return eliminate(sums_.without(tenth), sums_.masses(), sums_.effects());
+  }
+
+  void set_rows(const Eliminated& eliminated, MassProblem& problem) const {
+    const Eigen::Index n = sums_.masses();
+    problem.Y.resize(eliminated.rows.rows() + n, n);
+    problem.Y << eliminated.rows.leftCols(n), Eigen::MatrixXd(prior_.asDiagonal());
+    problem.F.resize(problem.Y.rows());
+    problem.F << eliminated.rows.rightCols<1>(), prior_.cwiseProduct(given_);
+    problem.W = Eigen::VectorXd::Ones(problem.Y.rows());
+  }
+
+  [[nodiscard]] reference::DivisionRun divide(const Eliminated& eliminated) const {
+    const BodyModel& shapes = settings_.shapes;
+    MassProblem problem;
+    set_rows(eliminated, problem);
+    problem.U = shape_columns(shapes);
+    problem.V = shape_volumes(shapes);
+    problem.lambda = default_lambda(problem, settings_.expected_mass);
+    problem.mass_bound = 10.0 * settings_.expected_mass;
+    reference::DivisionOptions division;
+    division.most_divisions = settings_.divisions;
+    division.expected_mass = settings_.expected_mass;
+    return reference::divide_and_solve(shapes, problem, division);
+  }
+
+ private:
+  const Sums& sums_;
+  const LoopSettings& settings_;
+  Eigen::VectorXd prior_, given_;
+};
+
+/// Values of all effects, one after the other, back to their places. Transformations keep theirs.
+void put_back(const Eigen::VectorXd& theta, const std::vector<std::size_t>& linear,
+              std::vector<AppliedEffect>& effects) {
+  Eigen::Index column = 0;
+  for (const std::size_t k : linear) {
+    effects[k].value = theta.segment(column, effects[k].value.size());
+    column += effects[k].value.size();
+  }
+}
+
+/// The first effect with a parameter that cannot be negative and is.
+std::size_t impossible(const std::vector<AppliedEffect>& effects) {
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    for (std::size_t p = 0; p < effects[k].effect->parameters.size(); ++p) {
+      if (effects[k].effect->parameters[p].nonnegative &&
+          effects[k].value[static_cast<Eigen::Index>(p)] < 0.0) {
+        return k;
+      }
+    }
+  }
+  return effects.size();
+}
+
+/// Delete-a-tenth jackknife of Phi_free and theta.
+Eigen::VectorXd jackknife(const Solver& solver, const reference::DivisionRun& run,
+                          Eigen::Index effects) {
+  constexpr int tenths = 10;
+  Eigen::MatrixXd answers(run.solution.Phi.size() + effects, tenths);
+  MassProblem problem = run.problem;
+  for (int tenth = 0; tenth < tenths; ++tenth) {
+    const Eliminated eliminated = solver.rows(tenth);
+    solver.set_rows(eliminated, problem);
+    const Eigen::VectorXd Phi = reference::solve_masses(problem, run.solution.m).Phi;
+    answers.col(tenth) << Phi, effects_of(eliminated, Phi);
+  }
+  const Eigen::VectorXd mean = answers.rowwise().mean();
+  constexpr double factor = (tenths - 1.0) / tenths;
+  return (factor * (answers.colwise() - mean).rowwise().squaredNorm()).cwiseSqrt();
+}
+
+}  // namespace
+
+Consistent make_consistent(const Robot& robot, const Recording& log, const Recording* reference,
+                           const LoopSettings& settings, const LoopResult& loop) {
+  const BodyModel& shapes = settings.shapes;
+  Consistent result;
+  result.model = loop.model;
+  std::vector<bool> came_since;
+  for (const Found& f : loop.found) came_since.push_back(f.since_reference);
+  while (true) {
+    std::vector<AppliedEffect>& effects = result.model.effects;
+    std::vector<std::size_t> linear;
+    std::vector<AppliedEffect> columns;
+    std::vector<bool> since;
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+      if (effects[k].effect->transform.any()) continue;
+      linear.push_back(k);
+      columns.push_back(effects[k]);
+      since.push_back(came_since[k]);
+    }
+    TallyOptions options;
+    options.stride = settings.stride;
+    options.weight = loop.weight;
+    constexpr double blocks = 40.0;
+    options.block_seconds = log.duration() / blocks;
+    Tally tally = empty_tally(robot, columns);
+    if (reference != nullptr) {
+      RichModel earlier = result.model;
+      for (std::size_t k = effects.size(); k-- > 0;) {
+        if (came_since[k]) {
+          earlier.effects.erase(earlier.effects.begin() + static_cast<std::ptrdiff_t>(k));
+        }
+      }
+      add_to_tally(tally, robot, settings.contacts, earlier, *reference, options, true);
+    }
+    add_to_tally(tally, robot, settings.contacts, result.model, log, options, false);
+    const Sums sums(shapes, std::move(tally), since);
+    const Solver solver(robot, sums, settings, loop);
+    const Eliminated eliminated = solver.rows(-1);
+    result.run = solver.divide(eliminated);
+    const Eigen::VectorXd& Phi = result.run.solution.Phi;
+    put_back(effects_of(eliminated, Phi), linear, effects);
+    if (const std::size_t bad = impossible(effects); bad < effects.size()) {
+      const auto at = static_cast<std::ptrdiff_t>(bad);
+      result.dropped.push_back(effects[bad]);
+      effects.erase(effects.begin() + at);
+      came_since.erase(came_since.begin() + at);
+      continue;
+    }
+    result.model.Phi = all_parameters(shapes, Phi);
+    const Eigen::VectorXd errors = jackknife(solver, result.run, sums.effects());
+    result.Phi_error = Eigen::VectorXd::Zero(result.model.Phi.size());
+    for (std::size_t i = 0; i < shapes.free_links.size(); ++i) {
+      result.Phi_error.segment<10>(Eigen::Index{10} * shapes.free_links[i]) =
+          errors.segment<10>(10 * static_cast<Eigen::Index>(i));
+    }
+    std::vector<AppliedEffect> error_places = effects;
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+      error_places[k].value.setZero();
+      for (const Found& f : loop.found) {
+        const bool same = f.effect.effect == effects[k].effect && f.effect.site == effects[k].site;
+        if (same) error_places[k].value = f.standard_error;
+      }
+    }
+    put_back(errors.tail(sums.effects()), linear, error_places);
+    for (const AppliedEffect& a : error_places) result.effect_error.push_back(a.value);
+    return result;
+  }
+}
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,32 @@
+// The last step: masses of shapes instead of free parameters, so that every link is a body that can
+// exist, with the effects that were found.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "shapeid/diagnosis/loop.hpp"
+#include "shapeid/reference/division.hpp"
+
+namespace shapeid::diagnosis {
+
+struct Consistent {
+  RichModel model;
+  Eigen::VectorXd Phi_error;                  ///< 10 links: standard errors, zero for known links
+  std::vector<Eigen::VectorXd> effect_error;  ///< one vector an effect of the model
+  reference::DivisionRun run;
+  /// Effects whose sign became impossible when the masses had to be bodies, and which were left
+  /// out.
+  std::vector<AppliedEffect> dropped;
+};
+
+/// The effects' linear numbers are eliminated exactly (they are free columns), the masses of the
+/// settings' shapes solved and divided by the reference path, and the effects put back. Given
+/// inertias pull as strongly as screening found useful. Errors by leaving out tenths of the log
+/// (jackknife).
+[[nodiscard]] Consistent make_consistent(const Robot& robot, const Recording& log,
+                                         const Recording* reference, const LoopSettings& settings,
+                                         const LoopResult& loop);
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,247 @@
+#include "shapeid/diagnosis/fits.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace shapeid::diagnosis {
+namespace {
+
+// Relative to a column of unit length: keeps a factorisation regular where columns coincide, and is
+// far below what any noise leaves open.
+constexpr double regularity = 1e-10;
+
+}  // namespace
+
+SumWithError sum_with_error(const Eigen::VectorXd& values) {
+  const Eigen::Index n = values.size();
+  if (n < 2) return {values.sum(), std::numeric_limits<double>::infinity()};
+  const Eigen::VectorXd d = values.array() - values.mean();
+  double variance = d.squaredNorm();
+  // Newey and West (1987), Bartlett weights; anticorrelation is not allowed to shrink the error.
+  constexpr Eigen::Index lags = 2;
+  for (Eigen::Index lag = 1; lag <= std::min(lags, n - 1); ++lag) {
+    const double weight = 1.0 - static_cast<double>(lag) / (lags + 1.0);
+    variance += 2.0 * weight * std::max(0.0, d.head(n - lag).dot(d.tail(n - lag)));
+  }
+  variance *= static_cast<double>(n) / static_cast<double>(n - 1);
+  return {values.sum(), std::sqrt(variance)};
+}
+
+Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+  const Eigen::VectorXd difference = before - after;
+  const Eigen::VectorXd relative = difference.cwiseQuotient(before + after);
+  return {difference.sum() / before.sum(),
+          std::max(sum_with_error(difference).t(), sum_with_error(relative).t())};
+}
+
+BlockFits::BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::VectorXd& size,
+                     int folds)
+    : tally_(std::move(tally)), folds_(folds) {
+  const Eigen::Index p = tally_.columns();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(p);
+  x.head(tally_.inertial) = given;
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(p);
+  for (Block& block : tally_.blocks) {
+    if (block.reference) ++first_block_;
+    // F <- F - Y Phi_given
+    Eigen::MatrixXd& G = block.sums;
+    const Eigen::VectorXd Gx = G.topLeftCorner(p, p) * x;
+    G(p, p) += x.dot(Gx) - 2.0 * x.dot(G.col(p).head(p));
+    G.col(p).head(p) -= Gx;
+    G.row(p).head(p) = G.col(p).head(p).transpose();
+    diagonal += G.diagonal().head(p);
+  }
+  scale_ = diagonal.cwiseSqrt();
+  const double tiny = std::numeric_limits<double>::min();
+  scale_ = (scale_.array() > tiny).select(scale_, 1.0);
+  for (Block& block : tally_.blocks) {
+    block.sums.topRows(p).array().colwise() /= scale_.array();
+    block.sums.leftCols(p).array().rowwise() /= scale_.transpose().array();
+  }
+  // Effects have a prior too, so wide that it only matters where data say nothing.
+  constexpr double wide = 30.0;
+  Eigen::VectorXd sizes(p);
+  sizes.head(tally_.inertial) = size;
+  for (std::size_t k = 0; k < tally_.hypotheses.size(); ++k) {
+    Eigen::Index column = tally_.first[k];
+    for (const Parameter& parameter : tally_.hypotheses[k].effect->parameters) {
+      sizes[column++] = wide * parameter.size;
+    }
+  }
+  precision_ = sizes.cwiseProduct(scale_).cwiseAbs2().cwiseInverse();
+  folds_ = std::clamp(folds_, 2, std::max(2, static_cast<int>(held_blocks())));
+}
+
+int BlockFits::fold_of(std::size_t block) const {
+  if (block < first_block_) return -1;
+  return static_cast<int>((block - first_block_) * static_cast<std::size_t>(folds_) /
+                          static_cast<std::size_t>(held_blocks()));
+}
+
+const Eigen::MatrixXd& BlockFits::sums(int left_out, std::size_t from) const {
+  auto [place, is_new] = cache_.try_emplace({left_out, from});
+  if (is_new) {
+    const Eigen::Index size = tally_.columns() + 1;
+    place->second = Eigen::MatrixXd::Zero(size, size);
+    for (std::size_t b = from; b < tally_.blocks.size(); ++b) {
+      if (left_out < 0 || fold_of(b) != left_out) place->second += tally_.blocks[b].sums;
+    }
+  }
+  return place->second;
+}
+
+BlockFits::Columns BlockFits::listed(const std::vector<Term>& terms) {
+  Columns list;
+  for (const Term& term : terms) {
+    list.index.insert(list.index.end(), term.columns.begin(), term.columns.end());
+    list.from.insert(list.from.end(), term.columns.size(), term.from_block);
+  }
+  return list;
+}
+
+Eigen::MatrixXd BlockFits::normal(const Columns& a, const Columns& b, int left_out) const {
+  Eigen::MatrixXd N(a.count(), b.count());
+  for (Eigen::Index j = 0; j < b.count(); ++j) {
+    for (Eigen::Index i = 0; i < a.count(); ++i) {
+      const auto ui = static_cast<std::size_t>(i), uj = static_cast<std::size_t>(j);
+      N(i, j) = sums(left_out, std::max(a.from[ui], b.from[uj]))(a.index[ui], b.index[uj]);
+    }
+  }
+  return N;
+}
+
+Eigen::VectorXd BlockFits::target(const Columns& a, int left_out) const {
+  Eigen::VectorXd g(a.count());
+  for (Eigen::Index i = 0; i < a.count(); ++i) {
+    const auto u = static_cast<std::size_t>(i);
+    g[i] = sums(left_out, a.from[u])(a.index[u], tally_.columns());
+  }
+  return g;
+}
+
+Eigen::VectorXd BlockFits::ridge(const Columns& a) const {
+  Eigen::VectorXd r(a.count());
+  for (Eigen::Index i = 0; i < a.count(); ++i) {
+    const Eigen::Index column = a.index[static_cast<std::size_t>(i)];
+    r[i] = regularity + prior_ * precision_[column];
+  }
+  return r;
+}
+
+Eigen::VectorXd BlockFits::solve(const Columns& a, int left_out) const {
+  Eigen::MatrixXd N = normal(a, a, left_out);
+  N.diagonal() += ridge(a);
+  return N.ldlt().solve(target(a, left_out));
+}
+
+/// G (x, -1) in the rows of the listed columns and of F; columns that are not active yet count as
+/// zero.
+Eigen::VectorXd BlockFits::gradient_on(const Columns& a, const Eigen::VectorXd& x,
+                                       std::size_t block) const {
+  const Eigen::MatrixXd& G = tally_.blocks[block].sums;
+  std::vector<Eigen::Index> index = a.index;
+  index.push_back(tally_.columns());
+  Eigen::VectorXd full(a.count() + 1);
+  full << x, -1.0;
+  for (Eigen::Index i = 0; i < a.count(); ++i) {
+    if (block < a.from[static_cast<std::size_t>(i)]) full[i] = 0.0;
+  }
+  return G(index, index) * full;
+}
+
+double BlockFits::error_on(const Columns& a, const Eigen::VectorXd& x, std::size_t block) const {
+  const Eigen::VectorXd g = gradient_on(a, x, block);
+  double error = -g[a.count()];
+  for (Eigen::Index i = 0; i < a.count(); ++i) {
+    if (block >= a.from[static_cast<std::size_t>(i)]) error += x[i] * g[i];
+  }
+  return error;
+}
+
+Fit BlockFits::fit(const std::vector<Term>& terms) const {
+  const Columns a = listed(terms);
+  Eigen::MatrixXd N = normal(a, a, -1);
+  N.diagonal() += ridge(a);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(N);
+  const Eigen::VectorXd x = factor.solve(target(a, -1));
+
+  const auto count = static_cast<Eigen::Index>(tally_.blocks.size());
+  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(a.count(), count);
+  for (Eigen::Index b = 0; b < count; ++b) {
+    const auto block = static_cast<std::size_t>(b);
+    const Eigen::VectorXd g = gradient_on(a, x, block);
+    for (Eigen::Index i = 0; i < a.count(); ++i) {
+      if (block >= a.from[static_cast<std::size_t>(i)]) scores(i, b) = g[i];
+    }
+  }
+  const Eigen::MatrixXd influence = factor.solve(scores);
+  Fit fit{x, Eigen::VectorXd(a.count())};
+  for (Eigen::Index i = 0; i < a.count(); ++i) {
+    const double s = scale_[a.index[static_cast<std::size_t>(i)]];
+    fit.value[i] = x[i] / s;
+    fit.standard_error[i] = sum_with_error(influence.row(i).transpose()).error / s;
+  }
+  return fit;
+}
+
+Eigen::VectorXd BlockFits::held_out(const std::vector<Term>& terms) const {
+  const Columns a = listed(terms);
+  Eigen::VectorXd errors(held_blocks());
+  int fold = -1;
+  Eigen::VectorXd x;
+  for (Eigen::Index b = 0; b < held_blocks(); ++b) {
+    const std::size_t block = first_block_ + static_cast<std::size_t>(b);
+    if (fold_of(block) != fold) {
+      fold = fold_of(block);
+      x = solve(a, fold);
+    }
+    errors[b] = error_on(a, x, block);
+  }
+  return errors;
+}
+
+Eigen::VectorXd BlockFits::given_error() const {
+  Eigen::VectorXd errors(held_blocks());
+  for (Eigen::Index b = 0; b < held_blocks(); ++b) {
+    const Eigen::Index p = tally_.columns();
+    errors[b] = tally_.blocks[first_block_ + static_cast<std::size_t>(b)].sums(p, p);
+  }
+  return errors;
+}
+
+std::vector<BlockFits::Promise> BlockFits::promises(const std::vector<Term>& terms,
+                                                    const std::vector<Term>& candidates) const {
+  const Columns a = listed(terms);
+  Eigen::MatrixXd N = normal(a, a, -1);
+  // How much of a candidate the masses contain is asked of the data alone.
+  const Eigen::LDLT<Eigen::MatrixXd> bare(N + regularity *
+                                                  Eigen::MatrixXd::Identity(N.rows(), N.cols()));
+  N.diagonal() += ridge(a);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(N);
+  const Eigen::VectorXd x = factor.solve(target(a, -1));
+  std::vector<Promise> promises;
+  for (const Term& candidate : candidates) {
+    const Columns c = listed({candidate});
+    const Eigen::MatrixXd B = normal(a, c, -1);
+    const Eigen::MatrixXd C = normal(c, c, -1);
+    Eigen::MatrixXd schur = C - B.transpose() * factor.solve(B);
+    schur.diagonal() += ridge(c);
+    const Eigen::VectorXd g = target(c, -1) - B.transpose() * x;
+    const double left = (C - B.transpose() * bare.solve(B)).trace();
+    promises.push_back({g.dot(schur.ldlt().solve(g)), left / std::max(C.trace(), regularity)});
+  }
+  return promises;
+}
+
+double BlockFits::contained(const std::vector<Term>& terms, const Term& inner,
+                            const Term& outer) const {
+  std::vector<Term> all = terms;
+  const double free_before = promises(all, {inner}).front().free_share;
+  all.push_back(outer);
+  const double free_after = promises(all, {inner}).front().free_share;
+  return free_before > 0.0 ? 1.0 - free_after / free_before : 1.0;
+}
+
+}  // namespace shapeid::diagnosis

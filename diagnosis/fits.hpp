@@ -1,0 +1,108 @@
+// Linear fits and their held-out errors, from sums alone.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shapeid/diagnosis/tally.hpp"
+
+namespace shapeid::diagnosis {
+
+/// Columns that enter a fit together, from a block on (a payload that comes late, a change since
+/// the reference log).
+struct Term {
+  std::string id;
+  std::vector<Eigen::Index> columns;
+  std::vector<bool> nonnegative;  ///< one a column
+  std::size_t from_block = 0;
+};
+
+struct Fit {
+  Eigen::VectorXd value;           ///< one a column of the terms, in their order
+  Eigen::VectorXd standard_error;  ///< cluster-robust, one cluster a block, neighbours correlated
+};
+
+/// Sum with an error that allows for correlation of neighbours.
+struct SumWithError {
+  double sum = 0.0, error = 0.0;
+  [[nodiscard]] double t() const { return error > 0.0 ? sum / error : 0.0; }
+};
+[[nodiscard]] SumWithError sum_with_error(const Eigen::VectorXd& values);
+
+/// How much less squared error per block one fit has than another, and how sure that is. `t` is the
+/// larger of two: of the differences, which a few violent blocks may drown, and of the differences
+/// relative to each block's own error.
+struct Gain {
+  double share = 0.0, t = 0.0;
+};
+[[nodiscard]] Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after);
+
+class BlockFits {
+ public:
+  /// Unknown inertial parameters are deviations from `given` (10 links), with a prior of zero mean
+  /// and standard deviation `size` / sqrt(prior). Blocks are held out in `folds` contiguous groups.
+  BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::VectorXd& size, int folds);
+
+  void set_prior(double prior) { prior_ = prior; }
+  [[nodiscard]] double prior() const { return prior_; }
+  [[nodiscard]] int folds() const { return folds_; }
+  [[nodiscard]] const Tally& tally() const { return tally_; }
+  /// Blocks that can be held out: all but a reference log's.
+  [[nodiscard]] std::size_t first_block() const { return first_block_; }
+  [[nodiscard]] Eigen::Index held_blocks() const {
+    return static_cast<Eigen::Index>(tally_.blocks.size() - first_block_);
+  }
+
+  /// All blocks in; deviations for inertial columns.
+  [[nodiscard]] Fit fit(const std::vector<Term>& terms) const;
+  /// Weighted squared error of every block that can be held out, each predicted by the fit without
+  /// its fold.
+  [[nodiscard]] Eigen::VectorXd held_out(const std::vector<Term>& terms) const;
+  /// The same without fitting: the given model.
+  [[nodiscard]] Eigen::VectorXd given_error() const;
+
+  /// How much one more term would lower the squared error of the fit of all blocks, roughly, and
+  /// what share of the term's columns the others leave free: 0 for one that they already contain.
+  struct Promise {
+    double gain = 0.0, free_share = 0.0;
+  };
+  [[nodiscard]] std::vector<Promise> promises(const std::vector<Term>& terms,
+                                              const std::vector<Term>& candidates) const;
+  /// Share of the columns of `inner` that lies in the span of `terms` and `outer`: 1 if nested.
+  [[nodiscard]] double contained(const std::vector<Term>& terms, const Term& inner,
+                                 const Term& outer) const;
+
+ private:
+  struct Columns {
+    std::vector<Eigen::Index> index;
+    std::vector<std::size_t> from;
+    [[nodiscard]] Eigen::Index count() const { return std::ssize(index); }
+  };
+  [[nodiscard]] static Columns listed(const std::vector<Term>& terms);
+  [[nodiscard]] const Eigen::MatrixXd& sums(int left_out, std::size_t from) const;
+  [[nodiscard]] int fold_of(std::size_t block) const;
+  /// Normal matrix between two lists of columns over the blocks outside of a fold (-1: all in).
+  [[nodiscard]] Eigen::MatrixXd normal(const Columns& a, const Columns& b, int left_out) const;
+  [[nodiscard]] Eigen::VectorXd target(const Columns& a, int left_out) const;
+  [[nodiscard]] Eigen::VectorXd ridge(const Columns& a) const;
+  [[nodiscard]] Eigen::VectorXd solve(const Columns& a, int left_out) const;
+  [[nodiscard]] Eigen::VectorXd gradient_on(const Columns& a, const Eigen::VectorXd& x,
+                                            std::size_t block) const;
+  [[nodiscard]] double error_on(const Columns& a, const Eigen::VectorXd& x,
+                                std::size_t block) const;
+
+  Tally tally_;
+  Eigen::VectorXd scale_;      ///< columns are divided by it
+  Eigen::VectorXd precision_;  ///< of a prior of one, in scaled units
+  double prior_ = 1.0;
+  int folds_;
+  std::size_t first_block_ = 0;
+  mutable std::map<std::pair<int, std::size_t>, Eigen::MatrixXd> cache_;
+};
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,99 @@
+#include "shapeid/diagnosis/hypotheses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "shapeid/diagnosis/effects.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+// Of a parameter's usual size: small enough for the third derivative, large against rounding.
+constexpr double part_of_size = 0.01;
+
+/// The model's effects with the hypothesis among them, its parameter changed by `step`.
+std::vector<AppliedEffect> stepped(std::vector<AppliedEffect> effects,
+                                   const AppliedEffect& hypothesis, Eigen::Index parameter,
+                                   double step) {
+  auto place = std::find_if(effects.begin(), effects.end(), [&](const AppliedEffect& a) {
+    return a.effect == hypothesis.effect && a.site == hypothesis.site;
+  });
+  if (place == effects.end()) place = effects.insert(effects.end(), hypothesis);
+  place->value[parameter] += step;
+  return effects;
+}
+
+}  // namespace
+
+std::string hypothesis_id(const Robot& robot, const AppliedEffect& effect) {
+  return fmt::format("{}@{}", effect.effect->id,
+                     site_name(robot, effect.effect->site, effect.site));
+}
+
+std::vector<AppliedEffect> all_hypotheses(const Robot& robot) {
+  std::vector<AppliedEffect> hypotheses;
+  for (const Effect& effect : all_effects()) {
+    if (effect.is_payload) continue;
+    for (int site = 0; site < site_count(robot, effect.site); ++site) {
+      if (effect.applies != nullptr && !effect.applies(robot, site)) continue;
+      hypotheses.push_back(at_start(effect, site));
+    }
+  }
+  return hypotheses;
+}
+
+HypothesisColumns::HypothesisColumns(const Robot& robot, reference::ContactTreatment contacts,
+                                     const RichModel& model,
+                                     const std::vector<AppliedEffect>& hypotheses)
+    : model_(model), hypotheses_(hypotheses), viewer_(robot, contacts, model.effects) {
+  for (const AppliedEffect& h : hypotheses_) {
+    first_.push_back(count_);
+    count_ += h.value.size();
+    auto& differences = differences_.emplace_back();
+    if (!h.effect->transform.any()) continue;
+    for (Eigen::Index p = 0; p < h.value.size(); ++p) {
+      const double h_step = part_of_size * h.effect->parameters[static_cast<std::size_t>(p)].size;
+      differences.push_back({Viewer(robot, contacts, stepped(model.effects, h, p, h_step)),
+                             Viewer(robot, contacts, stepped(model.effects, h, p, -h_step)),
+                             2.0 * h_step});
+    }
+  }
+}
+
+Eigen::VectorXd HypothesisColumns::difference(const AppliedEffect& hypothesis, const Difference& d,
+                                              const Recording& recording, std::size_t index,
+                                              const View& view, const Prediction& predicted) const {
+  const auto force = [&](const Viewer& viewer) -> Eigen::VectorXd {
+    // What changes rows alone needs no new regressor.
+    const bool same_view = hypothesis.effect->transform.sample == nullptr &&
+                           hypothesis.effect->transform.robot == nullptr;
+    const Prediction changed =
+        predict(viewer, same_view ? view : viewer.view(recording, index), model_, predicted.load);
+    return changed.force - changed.J.transpose() * predicted.load.force;
+  };
+  return (force(d.plus) - force(d.minus)) / d.step;
+}
+
+Eigen::MatrixXd HypothesisColumns::at(const Recording& recording, std::size_t index,
+                                      const View& view, const Prediction& predicted) const {
+  const Instant instant{viewer_.robot(), view.sample,          view.motions,
+                        view.Y,          predicted.load.joint, view.elapsed};
+  Eigen::MatrixXd columns(viewer_.robot().dof(), count_);
+  for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
+    const AppliedEffect& h = hypotheses_[k];
+    if (h.effect->columns != nullptr) {
+      Rows rows{h.effect->columns(instant, h.site, h.shape), view.J};
+      viewer_.transform(view, rows);
+      columns.middleCols(first_[k], h.value.size()) = rows.E;
+      continue;
+    }
+    for (std::size_t p = 0; p < differences_[k].size(); ++p) {
+      columns.col(first_[k] + static_cast<Eigen::Index>(p)) =
+          difference(h, differences_[k][p], recording, index, view, predicted);
+    }
+  }
+  return columns;
+}
+
+}  // namespace shapeid::diagnosis

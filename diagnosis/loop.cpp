@@ -1,0 +1,501 @@
+#include "shapeid/diagnosis/loop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "shapeid/diagnosis/consistent.hpp"
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/refine.hpp"
+#include "shapeid/diagnosis/series.hpp"
+#include "shapeid/models/error.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool same_place(const AppliedEffect& a, const AppliedEffect& b) {
+  return a.effect == b.effect && a.site == b.site;
+}
+
+class Loop {
+ public:
+  Loop(const Robot& robot, const Recording& log, const Recording* reference,
+       const LoopSettings& settings)
+      : robot_(robot), log_(log), reference_(reference), settings_(settings) {
+    centre_ = stacked_parameters(robot);
+    result_.model.Phi = centre_;
+    result_.weight = settings.weight.size() > 0
+                         ? settings.weight
+                         : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
+    tally_options_.stride = settings.stride;
+    tally_options_.margin = settings.margin;
+    tally_options_.block_seconds = settings.block_seconds;
+    if (tally_options_.block_seconds <= 0.0) {
+      constexpr double wanted_blocks = 40.0, shortest = 0.5;
+      tally_options_.block_seconds = std::max(shortest, log.duration() / wanted_blocks);
+    }
+    masses_.id = "masses";
+    for (const int link : settings.shapes.free_links) {
+      for (Eigen::Index p = 0; p < 10; ++p) masses_.columns.push_back(10 * link + p);
+    }
+    masses_.nonnegative.assign(masses_.columns.size(), false);
+  }
+
+  LoopResult run() {
+    fit_masses();
+    for (round_ = 0; round_ < settings_.rounds; ++round_) {
+      const std::vector<std::string> before = ids();
+      reweigh();
+      auto start = std::chrono::steady_clock::now();
+      screen();
+      result_.screening_seconds += seconds_since(start);
+      start = std::chrono::steady_clock::now();
+      refit();
+      prune_transformations();
+      // The next round deviates from bodies that can exist, not from what was given.
+      centre_ = make_consistent(robot_, log_, reference_, settings_, result_).model.Phi;
+      result_.refit_seconds += seconds_since(start);
+      if (round_ > 0 && ids() == before) break;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::string> ids() const {
+    std::vector<std::string> list;
+    for (const Found& f : result_.found) list.push_back(f.id);
+    std::sort(list.begin(), list.end());
+    return list;
+  }
+
+  [[nodiscard]] BlockFits tallied(const std::vector<AppliedEffect>& hypotheses) {
+    Tally tally = empty_tally(robot_, hypotheses);
+    tally_options_.weight = result_.weight;
+    if (reference_ != nullptr) {
+      RichModel earlier = result_.model;
+      std::erase_if(earlier.effects, [&](const AppliedEffect& a) { return came_since(a); });
+      add_to_tally(tally, robot_, settings_.contacts, earlier, *reference_, tally_options_, true);
+    }
+    add_to_tally(tally, robot_, settings_.contacts, result_.model, log_, tally_options_, false);
+    constexpr std::size_t fewest_blocks = 8;
+    if (tally.blocks.size() < fewest_blocks) {
+      throw Refusal("too-short",
+                    fmt::format("the log gives {} blocks of {:.2g} s to hold out, at least {} are "
+                                "needed",
+                                tally.blocks.size(), tally_options_.block_seconds, fewest_blocks));
+    }
+    BlockFits fits(std::move(tally), centre_, settings_.size, settings_.folds);
+    fits.set_prior(result_.prior);
+    return fits;
+  }
+
+  [[nodiscard]] bool came_since(const AppliedEffect& a) const {
+    return std::any_of(result_.found.begin(), result_.found.end(), [&](const Found& f) {
+      return f.since_reference && same_place(f.effect, a);
+    });
+  }
+
+  void choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
+    double best = std::numeric_limits<double>::infinity();
+    for (double prior = 1e-4; prior < 2e4; prior *= 10.0) {
+      fits.set_prior(prior);
+      const double error = fits.held_out(terms).sum();
+      if (error < best) {
+        best = error;
+        result_.prior = prior;
+      }
+    }
+    fits.set_prior(result_.prior);
+  }
+
+  void set_masses(const Fit& fit) {
+    result_.model.Phi = centre_;
+    for (std::size_t i = 0; i < masses_.columns.size(); ++i) {
+      result_.model.Phi[masses_.columns[i]] += fit.value[static_cast<Eigen::Index>(i)];
+    }
+  }
+
+  void fit_masses() {
+    BlockFits fits = tallied({});
+    choose_prior(fits, {masses_});
+    set_masses(fits.fit({masses_}));
+  }
+
+  /// W = 1 / variance of what the present model leaves, row by row.
+  void reweigh() {
+    const Eigen::VectorXd rms =
+        series(robot_, settings_.contacts, result_.model, log_, settings_.stride).rms();
+    // A row that fits far better than the others would otherwise be fitted to its last digit.
+    constexpr double least_share = 0.02;
+    const double floor = std::max(least_share * rms.mean(), 1e-12);
+    result_.weight = rms.cwiseMax(floor).cwiseAbs2().cwiseInverse();
+  }
+
+  /// All hypotheses, those found with their numbers, ripple where the residual has most of it.
+  [[nodiscard]] std::vector<AppliedEffect> hypotheses() const {
+    std::vector<AppliedEffect> list = all_hypotheses(robot_);
+    const Series left = series(robot_, settings_.contacts, result_.model, log_, settings_.stride);
+    for (AppliedEffect& h : list) {
+      const auto found = std::find_if(result_.model.effects.begin(), result_.model.effects.end(),
+                                      [&](const AppliedEffect& a) { return same_place(a, h); });
+      if (found != result_.model.effects.end()) {
+        h = *found;
+      } else if (h.effect->id == "cogging") {
+        Eigen::VectorXd q(std::ssize(left.index));
+        for (Eigen::Index i = 0; i < q.size(); ++i) {
+          q[i] = log_[left.index[static_cast<std::size_t>(i)]].q[h.site];
+        }
+        const ShapeNumber& N = h.effect->shape.front();
+        h.shape[0] = strongest_ripple(q, left.residual.row(robot_.base_dof() + h.site).transpose(),
+                                      N.lower, N.upper);
+      }
+    }
+    for (const AppliedEffect& a : result_.model.effects) {
+      if (a.effect->is_payload) list.push_back(a);
+    }
+    return list;
+  }
+
+  [[nodiscard]] Term term_of(const Tally& tally, std::size_t hypothesis) const {
+    const AppliedEffect& h = tally.hypotheses[hypothesis];
+    Term term;
+    term.id = hypothesis_id(robot_, h);
+    for (Eigen::Index p = 0; p < h.value.size(); ++p) {
+      term.columns.push_back(tally.first[hypothesis] + p);
+      const bool changes = h.effect->transform.any();  // the column is of a change, of either sign
+      term.nonnegative.push_back(!changes &&
+                                 h.effect->parameters[static_cast<std::size_t>(p)].nonnegative);
+    }
+    return term;
+  }
+
+  /// A payload's term on the link's own columns.
+  [[nodiscard]] Candidate payload_candidate(const Effect& effect, int link, std::size_t from_block,
+                                            double onset) const {
+    Candidate c{at_start(effect, link), {}, false, {}};
+    if (c.effect.shape.size() > 0) c.effect.shape[0] = onset;
+    c.term.id = hypothesis_id(robot_, c.effect);
+    c.term.from_block = from_block;
+    for (Eigen::Index p = 0; p < 10; ++p) {
+      c.term.columns.push_back(10 * link + p);
+      c.term.nonnegative.push_back(p == 0);
+    }
+    return c;
+  }
+
+  [[nodiscard]] std::vector<Candidate> candidates(const BlockFits& fits) const {
+    const Tally& tally = fits.tally();
+    std::vector<Candidate> list;
+    for (std::size_t k = 0; k < tally.hypotheses.size(); ++k) {
+      const AppliedEffect& h = tally.hypotheses[k];
+      if (is_applied_transformation(h) || is_banned(h)) continue;
+      // The derivative of a transformation needs a model that is not wrong by other things.
+      if (round_ == 0 && h.effect->transform.any()) continue;
+      Candidate c{tally.hypotheses[k], term_of(tally, k), came_since(tally.hypotheses[k]), {}};
+      if (!c.since_reference) list.push_back(c);
+      if (reference_ != nullptr) {
+        c.since_reference = true;
+        c.term.from_block = fits.first_block();
+        list.push_back(c);
+      }
+    }
+    add_groups(list);
+    const std::size_t first = fits.first_block();
+    const auto blocks = static_cast<std::size_t>(fits.held_blocks());
+    for (int link = 0; link < robot_.link_count(); ++link) {
+      const Effect& always = *find_effect("payload");
+      const Effect& later = *find_effect("payload_from");
+      if (!always.applies(robot_, link)) continue;
+      const bool is_free = std::count(settings_.shapes.free_links.begin(),
+                                      settings_.shapes.free_links.end(), link) > 0;
+      if (reference_ != nullptr) {
+        Candidate c = payload_candidate(always, link, first, 0.0);
+        c.since_reference = true;
+        list.push_back(c);
+      } else if (!is_free) {
+        list.push_back(payload_candidate(always, link, 0, 0.0));
+      }
+      constexpr std::size_t onsets = 9;
+      for (std::size_t i = 1; i < onsets; ++i) {
+        const std::size_t block = first + i * blocks / onsets;
+        if (block == first) continue;
+        list.push_back(payload_candidate(later, link, block, tally.blocks[block].from));
+      }
+    }
+    return list;
+  }
+
+  /// The same effect at every joint together: what every drive has shows in the sum before it shows
+  /// in one.
+  static void add_groups(std::vector<Candidate>& list) {
+    const std::size_t singles = list.size();
+    for (const Effect& effect : all_effects()) {
+      if (effect.site != SiteKind::joint || effect.columns == nullptr) continue;
+      for (const bool since : {false, true}) {
+        Candidate group;
+        for (std::size_t k = 0; k < singles; ++k) {
+          if (list[k].effect.effect != &effect || list[k].since_reference != since) continue;
+          if (group.members.empty()) group = {list[k].effect, {}, since, {}};
+          group.members.push_back(k);
+          const Term& term = list[k].term;
+          group.term.from_block = term.from_block;
+          group.term.columns.insert(group.term.columns.end(), term.columns.begin(),
+                                    term.columns.end());
+        }
+        group.term.nonnegative.assign(group.term.columns.size(), false);
+        group.term.id = effect.id + "@every joint";
+        if (group.members.size() > 1) list.push_back(group);
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_applied_transformation(const AppliedEffect& h) const {
+    return h.effect->transform.any() &&
+           std::any_of(result_.model.effects.begin(), result_.model.effects.end(),
+                       [&](const AppliedEffect& a) { return same_place(a, h); });
+  }
+
+  /// Masses and the changes of transformations that are applied already: fitted along always.
+  [[nodiscard]] Term always(const Tally& tally) const {
+    Term term = masses_;
+    for (std::size_t k = 0; k < tally.hypotheses.size(); ++k) {
+      if (!is_applied_transformation(tally.hypotheses[k])) continue;
+      const Term change = term_of(tally, k);
+      term.columns.insert(term.columns.end(), change.columns.begin(), change.columns.end());
+    }
+    term.nonnegative.assign(term.columns.size(), false);
+    return term;
+  }
+
+  void screen() {
+    BlockFits fits = tallied(hypotheses());
+    const Term fixed = always(fits.tally());
+    const std::vector<Candidate> list = candidates(fits);
+    // From the beginning each time: what was accepted with worse weights has to prove itself again.
+    const Selection selection = select(fits, fixed, list, settings_.rule);
+    choose_prior(fits, chosen_terms(fixed, list, selection));
+    take(fits, fixed, list, selection);
+  }
+
+  [[nodiscard]] static std::vector<Term> chosen_terms(const Term& fixed,
+                                                      const std::vector<Candidate>& list,
+                                                      const Selection& selection) {
+    std::vector<Term> terms = {fixed};
+    for (const Verdict& v : selection.accepted) terms.push_back(list[v.candidate].term);
+    return terms;
+  }
+
+  /// An applied transformation that no longer lowers the held-out error is taken back for good.
+  void prune_transformations() {
+    for (std::size_t i = 0; i < result_.found.size();) {
+      if (!result_.found[i].effect.effect->transform.any()) {
+        ++i;
+        continue;
+      }
+      const Eigen::VectorXd with = held_out_of_model();
+      const std::vector<Found> all = result_.found;
+      result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
+      collect_effects();
+      const Gain gain = gain_of(held_out_of_model(), with);
+      constexpr double keep_t = 2.0;  // as for columns
+      if (gain.t > keep_t && gain.share > settings_.rule.least_gain) {
+        result_.found = all;
+        result_.found[i].gain = gain.share;
+        result_.found[i].t = gain.t;
+        collect_effects();
+        ++i;
+      } else {
+        banned_.push_back(all[i].effect);
+      }
+    }
+  }
+
+  /// Held-out error of the present effects, linear numbers refitted.
+  [[nodiscard]] Eigen::VectorXd held_out_of_model() {
+    const BlockFits fits = tallied(result_.model.effects);
+    Term fixed = always(fits.tally());
+    std::vector<Term> terms = {fixed};
+    for (std::size_t k = 0; k < fits.tally().hypotheses.size(); ++k) {
+      const AppliedEffect& a = fits.tally().hypotheses[k];
+      if (a.effect->transform.any()) continue;
+      terms.push_back(term_of(fits.tally(), k));
+      if (came_since(a)) terms.back().from_block = fits.first_block();
+    }
+    return fits.held_out(terms);
+  }
+
+  [[nodiscard]] bool is_banned(const AppliedEffect& h) const {
+    return std::any_of(banned_.begin(), banned_.end(),
+                       [&](const AppliedEffect& b) { return same_place(b, h); });
+  }
+
+  void take(const BlockFits& fits, const Term& fixed, const std::vector<Candidate>& list,
+            const Selection& selection) {
+    // Transformations that are applied already stay as they were judged.
+    std::erase_if(result_.found, [](const Found& f) { return !f.effect.effect->transform.any(); });
+    Eigen::Index column = std::ssize(fixed.columns);
+    for (const Verdict& verdict : selection.accepted) {
+      const Candidate& candidate = list[verdict.candidate];
+      const Eigen::Index n = std::ssize(candidate.term.columns);
+      Found found{candidate.effect,
+                  candidate.term.id,
+                  selection.fit.standard_error.segment(column, n),
+                  verdict.gain,
+                  verdict.t,
+                  candidate.since_reference,
+                  {}};
+      found.effect.value = selection.fit.value.segment(column, n);
+      column += n;
+      auto& names = found.ambiguous_with;
+      for (const std::size_t k : verdict.ambiguous) names.push_back(list[k].term.id);
+      std::sort(names.begin(), names.end());
+      names.erase(std::unique(names.begin(), names.end()), names.end());
+      result_.found.push_back(found);
+    }
+    set_masses(selection.fit);
+    step_transformations(fits.tally(), fixed, selection.fit);
+    collect_effects();
+    const auto per_sample = [&](const Eigen::VectorXd& errors) {
+      std::size_t samples = 0;
+      for (std::size_t b = fits.first_block(); b < fits.tally().blocks.size(); ++b) {
+        samples += fits.tally().blocks[b].samples;
+      }
+      return errors.sum() / static_cast<double>(samples * static_cast<std::size_t>(robot_.dof()));
+    };
+    result_.error_given = per_sample(selection.error_given);
+    result_.error_rigid = per_sample(selection.error_rigid);
+    result_.error_end = per_sample(selection.error_end);
+    result_.blocks = fits.tally().blocks.size();
+    result_.samples = 0;
+    for (const Block& b : fits.tally().blocks) result_.samples += b.samples;
+    result_.hypotheses = list.size();
+    const auto ranked = [&](const std::vector<Scored>& scores) {
+      std::vector<Ranked> ranking;
+      for (const Scored& s : scores) {
+        ranking.push_back({list[s.candidate].term.id, s.gain, s.t});
+      }
+      return ranking;
+    };
+    if (round_ == 0 && !selection.steps.empty()) {
+      std::vector<Scored> first = selection.steps.front().others;
+      first.insert(first.begin(), selection.steps.front().accepted);
+      result_.first_ranking = ranked(first);
+    }
+    result_.last_ranking = ranked(selection.last_ranking);
+    result_.hidden.clear();
+    for (const std::size_t k : selection.hidden) {
+      const std::string& id = list[k].term.id;
+      if (result_.hidden.empty() || result_.hidden.back() != id) result_.hidden.push_back(id);
+    }
+    result_.wrong_signs.clear();
+    for (const Scored& s : selection.wrong_signs) {
+      result_.wrong_signs.emplace_back(
+          list[s.candidate].term.id,
+          (s.fit.value.array() / s.fit.standard_error.array()).minCoeff());
+    }
+  }
+
+  /// Gauss-Newton: applied transformations move by what their columns were fitted with.
+  void step_transformations(const Tally& tally, const Term& fixed, const Fit& fit) {
+    auto column = std::ssize(masses_.columns);
+    for (std::size_t k = 0; k < tally.hypotheses.size() && column < std::ssize(fixed.columns);
+         ++k) {
+      if (!is_applied_transformation(tally.hypotheses[k])) continue;
+      for (Found& f : result_.found) {
+        if (!same_place(f.effect, tally.hypotheses[k])) continue;
+        const Eigen::Index n = f.effect.value.size();
+        f.effect.value += fit.value.segment(column, n);
+        f.standard_error = fit.standard_error.segment(column, n);
+        column += n;
+      }
+    }
+  }
+
+  void collect_effects() {
+    result_.model.effects.clear();
+    for (Found& f : result_.found) {
+      if (f.effect.effect->transform.any()) keep_within_limits(f.effect);
+      result_.model.effects.push_back(f.effect);
+    }
+  }
+
+  static void keep_within_limits(AppliedEffect& a) {
+    for (Eigen::Index p = 0; p < a.value.size(); ++p) {
+      const Parameter& parameter = a.effect->parameters[static_cast<std::size_t>(p)];
+      const double lower = parameter.nonnegative ? 0.0 : -parameter.limit;
+      a.value[p] = std::clamp(a.value[p], lower, parameter.limit);
+    }
+  }
+
+  /// Shape numbers by zooming grids, transformations by Gauss-Newton, masses along with both.
+  void refit() {
+    constexpr int passes = 3;
+    for (int pass = 0; pass < passes && needs_refit(); ++pass) {
+      std::vector<AppliedEffect> variants;
+      std::vector<std::vector<std::size_t>> of_found(result_.found.size());
+      for (std::size_t i = 0; i < result_.found.size(); ++i) {
+        for (const AppliedEffect& a : shape_variants(result_.found[i].effect, pass)) {
+          of_found[i].push_back(variants.size());
+          variants.push_back(a);
+        }
+      }
+      const BlockFits fits = tallied(variants);
+      std::vector<std::vector<Term>> choices;
+      for (std::size_t i = 0; i < of_found.size(); ++i) {
+        auto& terms = choices.emplace_back();
+        for (const std::size_t v : of_found[i]) {
+          terms.push_back(term_of(fits.tally(), v));
+          if (result_.found[i].since_reference) terms.back().from_block = fits.first_block();
+        }
+      }
+      const std::vector<std::size_t> chosen = best_variants(fits, masses_, choices);
+      std::vector<Term> terms = {masses_};
+      for (std::size_t i = 0; i < choices.size(); ++i) terms.push_back(choices[i][chosen[i]]);
+      const Fit fit = fits.fit(terms);
+      set_masses(fit);
+      Eigen::Index column = std::ssize(masses_.columns);
+      for (std::size_t i = 0; i < choices.size(); ++i) {
+        AppliedEffect& a = result_.found[i].effect;
+        const Eigen::Index n = a.value.size();
+        const Eigen::VectorXd value = fit.value.segment(column, n);
+        a.shape = variants[of_found[i][chosen[i]]].shape;
+        a.value = a.effect->transform.any() ? Eigen::VectorXd(a.value + value) : value;
+        result_.found[i].standard_error = fit.standard_error.segment(column, n);
+        column += n;
+      }
+      collect_effects();
+    }
+  }
+
+  [[nodiscard]] bool needs_refit() const {
+    return std::any_of(result_.found.begin(), result_.found.end(), [](const Found& f) {
+      return f.effect.effect->transform.any() || f.effect.shape.size() > 0;
+    });
+  }
+
+  const Robot& robot_;
+  const Recording& log_;
+  const Recording* reference_;
+  const LoopSettings& settings_;
+  Eigen::VectorXd centre_;  ///< of the prior, 10 links
+  Term masses_;
+  TallyOptions tally_options_;
+  std::vector<AppliedEffect> banned_;
+  int round_ = 0;
+  LoopResult result_;
+};
+
+}  // namespace
+
+LoopResult close_loop(const Robot& robot, const Recording& log, const Recording* reference,
+                      const LoopSettings& settings) {
+  return Loop(robot, log, reference, settings).run();
+}
+
+}  // namespace shapeid::diagnosis

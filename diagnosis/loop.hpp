@@ -1,0 +1,65 @@
+// From a recording to a richer model: weights, screening, refits of nonlinear numbers, again until
+// nothing changes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shapeid/diagnosis/selection.hpp"
+#include "shapeid/models/body_model.hpp"
+
+namespace shapeid::diagnosis {
+
+struct LoopSettings {
+  reference::ContactTreatment contacts = reference::ContactTreatment::project;
+  BodyModel shapes;            ///< of the free links; where their mass may be
+  double expected_mass = 0.0;  ///< M0 > 0, kg, of all free links
+  int divisions = 100;         ///< most divisions of the shapes
+  Eigen::VectorXd size;    ///< 10 links: how far parameters may reasonably be from the given ones
+  Eigen::VectorXd weight;  ///< diagonal of W to begin with; empty: ones
+  std::size_t stride = 1;  ///< every how many samples count
+  double margin = 0.0;     ///< s between blocks
+  double block_seconds = 0.0;  ///< 0: so that there are about forty, and none below half a second
+  int folds = 8;
+  int rounds = 4;  ///< of weights, screening and refits
+  SelectionRule rule;
+};
+
+/// An effect that was found, with what the selection said of it.
+struct Found {
+  AppliedEffect effect;
+  std::string id;
+  Eigen::VectorXd standard_error;
+  double gain = 0.0, t = 0.0;    ///< of having it, all others in
+  bool since_reference = false;  ///< not there in the reference log
+  std::vector<std::string> ambiguous_with;
+};
+
+/// A hypothesis that was looked at, for the ranking.
+struct Ranked {
+  std::string id;
+  double gain = 0.0, t = 0.0;
+};
+
+struct LoopResult {
+  RichModel model;  ///< least squares with the prior; not yet a consistent body
+  std::vector<Found> found;
+  std::vector<Ranked> first_ranking;  ///< beside masses alone
+  std::vector<Ranked> last_ranking;   ///< of what was left out
+  std::vector<std::string> hidden;    ///< cannot be told from masses and what was found
+  std::vector<std::pair<std::string, double>> wrong_signs;  ///< id, its parameter over its error
+  Eigen::VectorXd weight;
+  double prior = 1.0;
+  double error_given = 0.0, error_rigid = 0.0, error_end = 0.0;  ///< held-out, weighted, per sample
+  std::size_t samples = 0, hypotheses = 0, blocks = 0;
+  double screening_seconds = 0.0, refit_seconds = 0.0;
+};
+
+/// `reference` (may be null): an earlier log of the same robot; effects that came since are then
+/// hypotheses of their own, payloads among them. Throws Refusal "too-short" for less than eight
+/// blocks, "not-excited" if no joint moves.
+[[nodiscard]] LoopResult close_loop(const Robot& robot, const Recording& log,
+                                    const Recording* reference, const LoopSettings& settings);
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,78 @@
+#include "shapeid/diagnosis/recording.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace shapeid::diagnosis {
+
+Recording::Recording(std::vector<Sample> samples, double rate, std::vector<std::string> extra)
+    : samples_(std::move(samples)),
+      rate_(rate),
+      extra_(std::move(extra)),
+      segment_begin_(samples_.size()),
+      segment_end_(samples_.size()) {
+  constexpr double step_of_grid = 1.5;  // a missing sample makes it two
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const bool last =
+        i + 1 == samples_.size() || samples_[i + 1].time - samples_[i].time > step_of_grid / rate_;
+    if (!last) continue;
+    for (std::size_t k = begin; k <= i; ++k) {
+      segment_begin_[k] = begin;
+      segment_end_[k] = i + 1;
+    }
+    begin = i + 1;
+  }
+}
+
+double Recording::elapsed(std::size_t index) const {
+  return samples_[index].time - samples_.front().time;
+}
+
+double Recording::duration() const { return samples_.empty() ? 0.0 : elapsed(samples_.size() - 1); }
+
+/// Samples to either side that a shift and its cubic need.
+std::size_t Recording::reach() const {
+  return static_cast<std::size_t>(std::ceil(largest_shift * rate_)) + 2;
+}
+
+std::vector<std::size_t> Recording::usable(std::size_t stride) const {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < samples_.size(); i += stride) {
+    if (i >= segment_begin_[i] + reach() && i + reach() < segment_end_[i]) indices.push_back(i);
+  }
+  return indices;
+}
+
+Sample Recording::shifted(std::size_t index, double dt) const {
+  const double place = static_cast<double>(index) + dt * rate_;
+  const auto before = static_cast<std::size_t>(std::floor(place));
+  const double u = place - static_cast<double>(before);
+  Sample result = samples_[u < 0.5 ? before : before + 1];
+  if (u == 0.0) return result;
+  // Lagrange's cubic through the samples at -1, 0, 1, 2.
+  const std::array<double, 4> w = {
+      -u * (u - 1.0) * (u - 2.0) / 6.0, (u + 1.0) * (u - 1.0) * (u - 2.0) / 2.0,
+      -(u + 1.0) * u * (u - 2.0) / 2.0, (u + 1.0) * u * (u - 1.0) / 6.0};
+  const auto mix = [&](const auto& member) {
+    auto sum = (w[0] * member(samples_[before - 1])).eval();
+    for (std::size_t k = 1; k < w.size(); ++k) sum += w[k] * member(samples_[before - 1 + k]);
+    return sum;
+  };
+  result.time = samples_[index].time + dt;
+  result.q = mix([](const Sample& s) -> const auto& { return s.q; });
+  result.dq = mix([](const Sample& s) -> const auto& { return s.dq; });
+  result.ddq = mix([](const Sample& s) -> const auto& { return s.ddq; });
+  result.tau = mix([](const Sample& s) -> const auto& { return s.tau; });
+  result.base_angular_velocity =
+      mix([](const Sample& s) -> const auto& { return s.base_angular_velocity; });
+  result.base_angular_acceleration =
+      mix([](const Sample& s) -> const auto& { return s.base_angular_acceleration; });
+  result.base_specific_force =
+      mix([](const Sample& s) -> const auto& { return s.base_specific_force; });
+  return result;
+}
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,44 @@
+// The samples of a log in memory, because effects look at neighbours and fits go over them often.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "shapeid/diagnosis/effect.hpp"
+#include "shapeid/models/sample.hpp"
+
+namespace shapeid::diagnosis {
+
+class Recording {
+ public:
+  /// Samples in the order of time, on a grid of `rate` Hz with gaps. `extra` names what
+  /// Sample::extra holds.
+  Recording(std::vector<Sample> samples, double rate, std::vector<std::string> extra = {});
+
+  [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
+  [[nodiscard]] const Sample& operator[](std::size_t index) const { return samples_[index]; }
+  [[nodiscard]] double rate() const { return rate_; }
+  [[nodiscard]] const std::vector<std::string>& extra() const { return extra_; }
+  /// s since the first sample
+  [[nodiscard]] double elapsed(std::size_t index) const;
+  [[nodiscard]] double duration() const;
+
+  /// Every stride-th sample that has neighbours for largest_shift on both sides. The same samples
+  /// serve every hypothesis, also those that look at no neighbour.
+  [[nodiscard]] std::vector<std::size_t> usable(std::size_t stride) const;
+
+  /// The motion `dt` seconds after a usable sample, by the cubic through four neighbours. Contact
+  /// flags, forces and extras are those of the nearest sample. |dt| <= largest_shift.
+  [[nodiscard]] Sample shifted(std::size_t index, double dt) const;
+
+ private:
+  [[nodiscard]] std::size_t reach() const;
+
+  std::vector<Sample> samples_;
+  double rate_;
+  std::vector<std::string> extra_;
+  std::vector<std::size_t> segment_begin_, segment_end_;  ///< of each sample's segment
+};
+
+}  // namespace shapeid::diagnosis

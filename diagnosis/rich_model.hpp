@@ -1,0 +1,82 @@
+// Rigid links with effects, and what this model says about one sample.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+#include "shapeid/diagnosis/effect.hpp"
+#include "shapeid/diagnosis/recording.hpp"
+#include "shapeid/reference/sample_rows.hpp"
+
+namespace shapeid::diagnosis {
+
+/// An effect at a place with its numbers.
+struct AppliedEffect {
+  const Effect* effect = nullptr;
+  int site = 0;
+  Eigen::VectorXd shape;  ///< one for each of Effect::shape
+  Eigen::VectorXd value;  ///< one for each of Effect::parameters
+};
+
+/// The start of the search: shape numbers at their start, values zero.
+[[nodiscard]] AppliedEffect at_start(const Effect& effect, int site);
+
+struct RichModel {
+  Eigen::VectorXd Phi;  ///< 10 links of the robot
+  std::vector<AppliedEffect> effects;
+};
+
+/// A sample as the model sees it: transformations done.
+struct View {
+  Sample sample;
+  const Robot* robot = nullptr;
+  std::vector<reference::LinkMotion> motions;
+  Eigen::MatrixXd Y;  ///< dof x 10 links, before Transformation::rows
+  Eigen::MatrixXd J;  ///< contact rows x dof, likewise
+  double elapsed = 0.0;
+};
+
+/// Prepares views of a robot with the transformations among some effects. The robot must outlive
+/// this.
+class Viewer {
+ public:
+  Viewer(const Robot& robot, reference::ContactTreatment contacts,
+         const std::vector<AppliedEffect>& effects);
+
+  [[nodiscard]] View view(const Recording& recording, std::size_t index) const;
+  /// Applies the row transformations, in order.
+  void transform(const View& view, Rows& rows) const;
+  [[nodiscard]] const Robot& robot() const { return robot_; }
+  [[nodiscard]] reference::ContactTreatment contacts() const { return contacts_; }
+  /// The sample after the first `count` sample transformations.
+  [[nodiscard]] Sample moved(const Recording& recording, std::size_t index, double dt,
+                             std::size_t count) const;
+
+ private:
+  Robot robot_;
+  reference::ContactTreatment contacts_;
+  std::vector<AppliedEffect> transforming_;
+};
+
+/// Y Phi + E theta and J with all transformations done: the model's rows before any projection.
+struct Prediction {
+  Eigen::VectorXd force;  ///< dof: what joints and contacts together must provide
+  Eigen::MatrixXd J;      ///< contact rows x dof
+  PredictedLoad load;     ///< of the rigid links
+};
+[[nodiscard]] Prediction predict(const Viewer& viewer, const View& view, const RichModel& model);
+/// The same with the load given.
+[[nodiscard]] Prediction predict(const Viewer& viewer, const View& view, const RichModel& model,
+                                 const PredictedLoad& load);
+
+/// S^T tau as logged, plus measured contact forces if these are used, dof.
+[[nodiscard]] Eigen::VectorXd logged_force(const Viewer& viewer, const View& view);
+
+/// Predicted minus logged, after the part that contact forces can explain is taken out
+/// (P = I - J^T (J^T)^+), dof: the yardstick.
+[[nodiscard]] Eigen::VectorXd residual(const Viewer& viewer, const View& view,
+                                       const RichModel& model);
+
+}  // namespace shapeid::diagnosis

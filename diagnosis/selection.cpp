@@ -1,0 +1,283 @@
+#include "shapeid/diagnosis/selection.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace shapeid::diagnosis {
+namespace {
+
+// Gains closer than this many standard errors of their difference are not told apart.
+constexpr double separable = 2.0;
+// Less than this share of a candidate's columns left free by the others: the data cannot see it.
+constexpr double hidden_share = 1e-4;
+// One hypothesis contains another if this share of its columns is in the other's span.
+constexpr double nested_share = 0.9999;
+// A term that no longer gains this many standard errors at the end is dropped again.
+constexpr double keep_t = 2.0;
+
+class Search {
+ public:
+  Search(const BlockFits& fits, const Term& masses, const std::vector<Candidate>& candidates,
+         const SelectionRule& rule)
+      : fits_(fits), masses_(masses), candidates_(candidates), rule_(rule) {}
+
+  Selection run() {
+    result_.error_given = fits_.given_error();
+    result_.error_rigid = fits_.held_out({masses_});
+    limit_ = limit_for(rule_.least_t, fits_.held_blocks());
+    do {
+      while (std::ssize(accepted_) < rule_.most_terms && advance()) {
+      }
+    } while (prune());
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<Term> terms(const std::vector<std::size_t>& chosen) const {
+    std::vector<Term> list = {masses_};
+    for (const std::size_t k : chosen) list.push_back(candidates_[k].term);
+    return list;
+  }
+
+  [[nodiscard]] std::vector<Term> with(std::size_t k) const {
+    std::vector<Term> list = terms(accepted_);
+    list.push_back(candidates_[k].term);
+    return list;
+  }
+
+  /// It, another onset of it, or a member of the group is in already, or was dropped.
+  [[nodiscard]] bool taken(std::size_t k) const {
+    const auto spent = [&](std::size_t single) {
+      return std::count(dropped_.begin(), dropped_.end(), single) > 0 ||
+             std::any_of(accepted_.begin(), accepted_.end(),
+                         [&](std::size_t other) { return same_place(single, other); });
+    };
+    const auto& members = candidates_[k].members;
+    return members.empty() ? spent(k) : std::any_of(members.begin(), members.end(), spent);
+  }
+
+  [[nodiscard]] bool same_place(std::size_t k, std::size_t other) const {
+    const Candidate &a = candidates_[k], &b = candidates_[other];
+    return a.effect.effect == b.effect.effect && a.effect.site == b.effect.site &&
+           a.since_reference == b.since_reference;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> shortlist(int length) {
+    std::vector<std::size_t> open;
+    std::vector<Term> open_terms;
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+      if (taken(k)) continue;
+      open.push_back(k);
+      open_terms.push_back(candidates_[k].term);
+    }
+    const auto promises = fits_.promises(terms(accepted_), open_terms);
+    std::vector<std::size_t> order(open.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return promises[a].gain > promises[b].gain;
+    });
+    result_.hidden.clear();
+    std::vector<std::size_t> list;
+    for (const std::size_t i : order) {
+      if (promises[i].free_share < hidden_share) {
+        result_.hidden.push_back(open[i]);
+      } else if (std::ssize(list) < length) {
+        list.push_back(open[i]);
+      }
+    }
+    return list;
+  }
+
+  /// True if a parameter that cannot be negative is, and significantly.
+  [[nodiscard]] bool wrong_sign(std::size_t k, const Fit& fit, double least_t) const {
+    const auto& nonnegative = candidates_[k].term.nonnegative;
+    for (std::size_t i = 0; i < nonnegative.size(); ++i) {
+      const auto p = static_cast<Eigen::Index>(i);
+      if (nonnegative[i] && fit.value[p] < -least_t * fit.standard_error[p]) return true;
+    }
+    return false;
+  }
+
+  /// Some parameter differs from zero, and none leaves the range in which it is believed.
+  [[nodiscard]] bool credible(std::size_t k, const Fit& fit) const {
+    const Effect& effect = *candidates_[k].effect.effect;
+    if (!candidates_[k].members.empty()) return true;  // judged one by one at the end
+    const Eigen::ArrayXd each = fit.value.array() / fit.standard_error.array();
+    const double z = effect.is_payload ? each[0] : each.abs().maxCoeff();  // a load has mass
+    if (!(z > rule_.least_z)) return false;
+    for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+      const auto at = static_cast<Eigen::Index>(p);
+      // The column of a transformation is that of a change.
+      const double start = effect.transform.any() ? candidates_[k].effect.value[at] : 0.0;
+      if (std::abs(start + fit.value[at]) > effect.parameters[p].limit) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] Fit fit_of(std::size_t k) const {
+    const Fit all = fits_.fit(with(k));
+    const Eigen::Index n = std::ssize(candidates_[k].term.columns);
+    return {all.value.tail(n), all.standard_error.tail(n)};
+  }
+
+  bool advance() {
+    const Eigen::VectorXd before = fits_.held_out(terms(accepted_));
+    std::vector<Scored> ranking;
+    std::vector<Eigen::VectorXd> errors;
+    for (const std::size_t k : shortlist(rule_.shortlist)) {
+      const Eigen::VectorXd after = fits_.held_out(with(k));
+      const Gain gain = gain_of(before, after);
+      Scored scored{k, gain.share, gain.t, {}, false};
+      if (passes(scored)) {
+        scored.fit = fit_of(k);
+        if (!credible(k, scored.fit)) scored.gain = scored.t = 0.0;
+        // Of a group the members with a wrong sign are dropped at the end.
+        scored.wrong_sign = candidates_[k].members.empty() && wrong_sign(k, scored.fit, 0.0);
+      }
+      ranking.push_back(scored);
+      errors.push_back(after);
+    }
+    note_wrong_signs(ranking);
+    std::vector<std::size_t> order(ranking.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return ranking[a].gain > ranking[b].gain;
+    });
+    result_.last_ranking.clear();
+    for (const std::size_t i : order) result_.last_ranking.push_back(ranking[i]);
+
+    const auto best = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
+      return passes(ranking[i]) && !ranking[i].wrong_sign;
+    });
+    if (best == order.end()) return false;
+
+    // Of those that cannot be told from the best the simplest is taken.
+    std::size_t chosen = *best;
+    for (const std::size_t i : order) {
+      if (!passes(ranking[i]) || ranking[i].wrong_sign) continue;
+      if (gain_of(errors[i], errors[*best]).t > separable) continue;
+      if (cost(ranking[i].candidate) < cost(ranking[chosen].candidate)) chosen = i;
+    }
+    SelectionStep step;
+    step.accepted = ranking[chosen];
+    for (const std::size_t i : order) {
+      if (i != chosen) step.others.push_back(ranking[i]);
+    }
+    accept(ranking[chosen].candidate);
+    result_.steps.push_back(std::move(step));
+    return true;
+  }
+
+  void accept(std::size_t k) {
+    const auto& members = candidates_[k].members;
+    if (members.empty()) accepted_.push_back(k);
+    accepted_.insert(accepted_.end(), members.begin(), members.end());
+  }
+
+  [[nodiscard]] bool passes(const Scored& s) const {
+    return s.t > limit_ && s.gain > rule_.least_gain;
+  }
+
+  /// Parameters, those of shape and transformations counted on top.
+  [[nodiscard]] std::size_t cost(std::size_t k) const {
+    const Effect& e = *candidates_[k].effect.effect;
+    return candidates_[k].term.columns.size() + e.shape.size() + (e.transform.any() ? 1 : 0);
+  }
+
+  void note_wrong_signs(const std::vector<Scored>& ranking) {
+    result_.wrong_signs.clear();
+    for (const Scored& s : ranking) {
+      if (s.wrong_sign && wrong_sign(s.candidate, s.fit, rule_.least_t)) {
+        result_.wrong_signs.push_back(s);
+      }
+    }
+  }
+
+  /// Drops what later terms made superfluous or gave an impossible sign, the worst first.
+  /// What was dropped does not come back. True if anything was.
+  bool prune() {
+    const std::size_t dropped_before = dropped_.size();
+    while (!accepted_.empty()) {
+      const Fit all = fits_.fit(terms(accepted_));
+      const Eigen::VectorXd with_all = fits_.held_out(terms(accepted_));
+      double least = keep_t;
+      std::size_t worst = accepted_.size();
+      Eigen::Index column = std::ssize(masses_.columns);
+      for (std::size_t i = 0; i < accepted_.size(); ++i) {
+        const Eigen::Index n = std::ssize(candidates_[accepted_[i]].term.columns);
+        const Fit own{all.value.segment(column, n), all.standard_error.segment(column, n)};
+        column += n;
+        std::vector<std::size_t> without = accepted_;
+        without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
+        const Gain gain = gain_of(fits_.held_out(terms(without)), with_all);
+        const double t = wrong_sign(accepted_[i], own, 0.0) || gain.share < 0.0 ? -1.0 : gain.t;
+        if (t < least) {
+          least = t;
+          worst = i;
+        }
+      }
+      if (worst == accepted_.size()) break;
+      dropped_.push_back(accepted_[worst]);
+      accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(worst));
+    }
+    return dropped_.size() > dropped_before;
+  }
+
+  void finish() {
+    result_.error_end = fits_.held_out(terms(accepted_));
+    result_.fit = fits_.fit(terms(accepted_));
+    const std::vector<std::size_t> all = accepted_;
+    for (const std::size_t k : all) {
+      accepted_ = all;
+      std::erase(accepted_, k);
+      result_.accepted.push_back(verdict(k));
+    }
+    accepted_ = all;
+  }
+
+  /// Of candidate k, beside those that are accepted now.
+  [[nodiscard]] Verdict verdict(std::size_t k) {
+    const Eigen::VectorXd without = fits_.held_out(terms(accepted_));
+    const Gain gain = gain_of(without, result_.error_end);
+    Verdict verdict{k, gain.share, gain.t, {}};
+    const std::vector<std::size_t> hidden = result_.hidden;
+    for (const std::size_t other : shortlist(rule_.rivals)) {
+      if (other == k || same_place(k, other) || !candidates_[other].members.empty()) continue;
+      const Eigen::VectorXd instead = fits_.held_out(with(other));
+      const Gain own = gain_of(without, instead);
+      if (!passes({other, own.share, own.t, {}, false})) continue;
+      if (gain_of(instead, result_.error_end).t > separable) continue;
+      if (wrong_sign(other, fit_of(other), 0.0)) continue;
+      const bool nested = fits_.contained(terms(accepted_), candidates_[k].term,
+                                          candidates_[other].term) > nested_share;
+      if (!nested) verdict.ambiguous.push_back(other);
+    }
+    result_.hidden = hidden;
+    return verdict;
+  }
+
+  const BlockFits& fits_;
+  const Term& masses_;
+  const std::vector<Candidate>& candidates_;
+  const SelectionRule& rule_;
+  double limit_ = 0.0;
+  std::vector<std::size_t> accepted_, dropped_;
+  Selection result_;
+};
+
+}  // namespace
+
+double limit_for(double least_t, Eigen::Index blocks) {
+  const double z = least_t, freedom = static_cast<double>(std::max<Eigen::Index>(blocks - 1, 1));
+  return z + (z * z * z + z) / (4.0 * freedom);  // Cornish and Fisher, first order
+}
+
+Selection select(const BlockFits& fits, const Term& masses,
+                 const std::vector<Candidate>& candidates, const SelectionRule& rule) {
+  return Search(fits, masses, candidates, rule).run();
+}
+
+}  // namespace shapeid::diagnosis

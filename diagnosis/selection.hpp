@@ -1,0 +1,74 @@
+// Which hypotheses lower the error on blocks that were not fitted, one after the other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shapeid/diagnosis/fits.hpp"
+
+namespace shapeid::diagnosis {
+
+/// A hypothesis as a term of a fit.
+struct Candidate {
+  AppliedEffect effect;
+  Term term;
+  bool since_reference = false;  ///< active in the log, absent in the reference log
+  /// Of a group (friction at every joint): candidates that it stands for. Accepted together, judged
+  /// one by one at the end.
+  std::vector<std::size_t> members;
+};
+
+/// The rule of acceptance. The best hypothesis is accepted if the sum over held-out blocks of its
+/// gain exceeds `least_t` standard errors (enlarged for few blocks) and `least_gain` of the error
+/// that is left. A parameter of z standard errors has a held-out gain of z^2 - 2 in units of the
+/// noise, with a standard error of 2 |z|: `least_t` = 2.5 asks for z of about 5.4. With some
+/// hundred hypotheses tried, chance alone passes less often than once in ten thousand logs; what
+/// passes wrongly is structure that no hypothesis describes.
+struct SelectionRule {
+  double least_t = 2.5;
+  double least_gain = 0.002;
+  double least_z = 4.0;  ///< standard errors by which some parameter must differ from zero
+  int most_terms = 60;
+  int shortlist = 24;  ///< of the candidates, by promise, whose held-out error is computed
+  int rivals = 10;     ///< likewise of those that might take an accepted one's place
+};
+
+struct Scored {
+  std::size_t candidate = 0;
+  double gain = 0.0;        ///< share of the held-out squared error that it takes away
+  double t = 0.0;           ///< gain over its standard error
+  Fit fit;                  ///< of its parameters, all blocks in
+  bool wrong_sign = false;  ///< significantly negative where it cannot be
+};
+
+struct SelectionStep {
+  Scored accepted;
+  std::vector<Scored> others;  ///< the shortlist, best first
+};
+
+/// What is in the end said of an accepted candidate.
+struct Verdict {
+  std::size_t candidate = 0;
+  double gain = 0.0, t = 0.0;  ///< of having it, all other accepted ones in
+  /// Candidates that in its place do as well, as far as the data can tell.
+  std::vector<std::size_t> ambiguous;
+};
+
+struct Selection {
+  std::vector<SelectionStep> steps;
+  std::vector<Verdict> accepted;     ///< what remained at the end
+  std::vector<Scored> last_ranking;  ///< of what was not accepted
+  std::vector<Scored> wrong_signs;   ///< evidence of something else
+  std::vector<std::size_t> hidden;   ///< the data cannot tell them from masses and what is fitted
+  Eigen::VectorXd error_given, error_rigid, error_end;  ///< per held-out block
+  Fit fit;                                              ///< masses, then accepted in their order
+};
+
+/// `masses`: columns that are fitted always, the free links' above all.
+[[nodiscard]] Selection select(const BlockFits& fits, const Term& masses,
+                               const std::vector<Candidate>& candidates, const SelectionRule& rule);
+
+/// `least_t` with many blocks, more with few: the quantile of Student's t of the same level.
+[[nodiscard]] double limit_for(double least_t, Eigen::Index blocks);
+
+}  // namespace shapeid::diagnosis

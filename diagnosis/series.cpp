@@ -1,0 +1,49 @@
+#include "shapeid/diagnosis/series.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+
+namespace shapeid::diagnosis {
+
+Eigen::VectorXd Series::rms() const {
+  const auto count = static_cast<double>(std::max<Eigen::Index>(residual.cols(), 1));
+  return (residual.rowwise().squaredNorm() / count).cwiseSqrt();
+}
+
+Series series(const Robot& robot, reference::ContactTreatment contacts, const RichModel& model,
+              const Recording& recording, std::size_t stride) {
+  const Viewer viewer(robot, contacts, model.effects);
+  Series result;
+  result.index = recording.usable(stride);
+  result.residual.resize(robot.dof(), std::ssize(result.index));
+  result.predicted.resize(robot.dof(), std::ssize(result.index));
+  for (std::size_t i = 0; i < result.index.size(); ++i) {
+    const View view = viewer.view(recording, result.index[i]);
+    const auto column = static_cast<Eigen::Index>(i);
+    result.residual.col(column) = residual(viewer, view, model);
+    result.predicted.col(column) = logged_force(viewer, view) + result.residual.col(column);
+  }
+  return result;
+}
+
+double strongest_ripple(const Eigen::VectorXd& x, const Eigen::VectorXd& y, double lower,
+                        double upper) {
+  // Half of what the range of x resolves.
+  const double range = x.maxCoeff() - x.minCoeff();
+  const double step = std::max(0.5 / std::max(range, 0.05), (upper - lower) / 2000.0);
+  double best = lower, most = 0.0;
+  for (double N = lower; N <= upper; N += step) {
+    Eigen::MatrixX3d A(x.size(), 3);
+    A << (N * x.array()).cos(), (N * x.array()).sin(), Eigen::ArrayXd::Ones(x.size());
+    const Eigen::Vector3d g = A.transpose() * y;
+    const double explained = g.dot((A.transpose() * A).ldlt().solve(g));
+    if (explained > most) {
+      most = explained;
+      best = N;
+    }
+  }
+  return best;
+}
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,94 @@
+#include "shapeid/diagnosis/tally.hpp"
+
+#include <cmath>
+
+#include "shapeid/reference/projection.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+/// Sums of rows, taken many at a time.
+class RowSums {
+ public:
+  RowSums(Eigen::Index columns, Eigen::Index tallest)
+      : rows_(2 * columns + tallest, columns), sums_(Eigen::MatrixXd::Zero(columns, columns)) {}
+
+  void add(const Eigen::MatrixXd& rows) {
+    if (used_ + rows.rows() > rows_.rows()) flush();
+    rows_.middleRows(used_, rows.rows()) = rows;
+    used_ += rows.rows();
+  }
+
+  Eigen::MatrixXd finish() {
+    flush();
+    Eigen::MatrixXd whole = sums_.selfadjointView<Eigen::Lower>();
+    sums_.setZero();
+    return whole;
+  }
+
+ private:
+  void flush() {
+    sums_.selfadjointView<Eigen::Lower>().rankUpdate(rows_.topRows(used_).transpose());
+    used_ = 0;
+  }
+
+  Eigen::MatrixXd rows_, sums_;
+  Eigen::Index used_ = 0;
+};
+
+}  // namespace
+
+Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses) {
+  Tally tally;
+  tally.inertial = Eigen::Index{10} * robot.link_count();
+  tally.hypotheses = hypotheses;
+  Eigen::Index column = tally.inertial;
+  for (const AppliedEffect& h : hypotheses) {
+    tally.first.push_back(column);
+    column += h.value.size();
+  }
+  return tally;
+}
+
+void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment contacts,
+                  const RichModel& model, const Recording& recording, const TallyOptions& options,
+                  bool reference) {
+  const HypothesisColumns hypotheses(robot, contacts, model, tally.hypotheses);
+  const Viewer& viewer = hypotheses.viewer();
+  const Eigen::Index width = tally.inertial + hypotheses.count() + 1;
+  const Eigen::VectorXd root = options.weight.cwiseSqrt();
+  RowSums sums(width, robot.dof());
+  Block block;
+  const auto close = [&] {
+    if (block.samples == 0) return;
+    block.sums = sums.finish();
+    block.reference = reference;
+    tally.blocks.push_back(block);
+    block = {};
+  };
+
+  int number = 0;
+  Eigen::MatrixXd M(robot.dof(), width);
+  for (const std::size_t index : recording.usable(options.stride)) {
+    const double elapsed = recording.elapsed(index);
+    const int here = static_cast<int>(elapsed / options.block_seconds);
+    if (here != number) close();
+    number = here;
+    if (elapsed - here * options.block_seconds > options.block_seconds - options.margin) continue;
+
+    const View view = viewer.view(recording, index);
+    const Prediction predicted = predict(viewer, view, model);
+    Rows rows{view.Y, view.J};
+    viewer.transform(view, rows);
+    M.leftCols(tally.inertial) = rows.E;
+    M.middleCols(tally.inertial, hypotheses.count()) =
+        hypotheses.at(recording, index, view, predicted);
+    M.rightCols<1>() = logged_force(viewer, view);
+    const Eigen::MatrixXd Q2 = reference::contact_free_basis(rows.J, options.weight).Q2;
+    sums.add(Q2.transpose() * (root.asDiagonal() * M));
+    if (block.samples++ == 0) block.from = elapsed;
+  }
+  close();
+}
+
+}  // namespace shapeid::diagnosis

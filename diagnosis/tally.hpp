@@ -1,0 +1,49 @@
+// Rows of a log summed up: one symmetric matrix a block of time, from which every linear fit and
+// its error on any block follow.
+//
+// The sums are M^T M of the weighted, contact-free rows M = [Y, E, F]. They add and subtract, which
+// makes leaving out a block free. A triangle would keep twice the digits; here noise limits the
+// answer long before rounding, columns are scaled to one, and a prior keeps every fit regular.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "shapeid/diagnosis/hypotheses.hpp"
+
+namespace shapeid::diagnosis {
+
+/// Sums of one block.
+struct Block {
+  Eigen::MatrixXd sums;  ///< (columns + 1) square; F is the last column
+  std::size_t samples = 0;
+  double from = 0.0;       ///< s since the log's start
+  bool reference = false;  ///< of the reference log: never held out
+};
+
+struct Tally {
+  std::vector<Block> blocks;  ///< in the order of time, those of a reference log first
+  Eigen::Index inertial = 0;  ///< columns of Y: 10 links, all of the robot
+  std::vector<AppliedEffect> hypotheses;
+  std::vector<Eigen::Index> first;  ///< column of each hypothesis
+  [[nodiscard]] Eigen::Index columns() const { return blocks.front().sums.cols() - 1; }
+};
+
+struct TallyOptions {
+  std::size_t stride = 1;
+  double block_seconds = 1.0;
+  Eigen::VectorXd weight;  ///< diagonal of W, generalised order
+  double margin = 0.0;     ///< s left out at the end of each block, because filters reach across
+};
+
+/// One pass over a log. `robot` as given; the model's transformations are applied.
+void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment contacts,
+                  const RichModel& model, const Recording& recording, const TallyOptions& options,
+                  bool reference);
+
+[[nodiscard]] Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses);
+
+}  // namespace shapeid::diagnosis
