@@ -4,7 +4,11 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
+#include "shapeid/app/recordings.hpp"
+#include "shapeid/diagnosis/effects_yaml.hpp"
+#include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
 #include "shapeid/models/problem_json.hpp"
@@ -48,15 +52,74 @@ Comparison compare(const RobotInputs& robot, const MotionInputs& inputs, const R
           same_log ? "every fifth two seconds of the log" : options.test_log};
 }
 
+/// Rigid links and known effects over a log in memory: effects look at neighbouring samples.
+class EffectsRun {
+ public:
+  EffectsRun(const RobotInputs& robot, const MotionInputs& inputs, const RunOptions& options)
+      : robot_(&robot.robot),
+        model_{stacked_parameters(robot.robot),
+               diagnosis::read_effects_yaml(options.effects, robot.robot)},
+        log_(read_recording(inputs.log, robot, inputs,
+                            options.test_log.empty() ? std::optional(Part::fitted) : std::nullopt)),
+        viewer_(robot.robot, log_.contacts, model_.effects),
+        usable_(log_.recording.usable(1)) {}
+
+  [[nodiscard]] const RecordedLog& log() const { return log_; }
+
+  std::optional<Sample> next() {
+    if (next_ == usable_.size()) return std::nullopt;
+    return viewer_.moved(log_.recording, usable_[next_++]);
+  }
+
+  [[nodiscard]] reference::SampleRows rows(const Sample& moved, const BodyModel& bodies) const {
+    diagnosis::RichModel known = model_;
+    known.Phi = bodies.known;
+    for (const int link : bodies.free_links) {
+      // Where an effect needs the load before the masses are known, the given ones predict it.
+      const Eigen::Index at = Eigen::Index{10} * link;
+      known.Phi.segment<10>(at) = model_.Phi.segment<10>(at);
+    }
+    const double elapsed = moved.time - log_.recording[0].time;
+    return mass_rows(viewer_, viewer_.view(moved, elapsed), known, bodies.free_links);
+  }
+
+  [[nodiscard]] Comparison compare(const RobotInputs& robot, const MotionInputs& inputs,
+                                   const RunOptions& options, const Eigen::VectorXd& found) const {
+    const bool same_log = options.test_log.empty();
+    const RecordedLog test =
+        read_recording(same_log ? inputs.log : options.test_log, robot, inputs,
+                       same_log ? std::optional(Part::held_out) : std::nullopt);
+    const auto rms = [&](const diagnosis::RichModel& model) -> Eigen::VectorXd {
+      return diagnosis::series(*robot_, test.contacts, model, test.recording, 1).rms();
+    };
+    return {test.recording.usable(1).size(), rms({Eigen::VectorXd::Zero(found.size()), {}}),
+            rms({model_.Phi, {}}), rms({found, model_.effects}),
+            same_log ? "every fifth two seconds of the log" : options.test_log};
+  }
+
+ private:
+  const Robot* robot_;
+  diagnosis::RichModel model_;
+  RecordedLog log_;
+  diagnosis::Viewer viewer_;
+  std::vector<std::size_t> usable_;
+  std::size_t next_ = 0;
+};
+
 }  // namespace
 
 Result run_identification(const RobotInputs& robot, const BodyModel& model,
                           const MotionInputs& inputs, const RunOptions& options,
                           const std::function<void(const reference::DivisionRun&)>& watch) {
+  std::optional<EffectsRun> effects;
+  if (!options.effects.empty()) effects.emplace(robot, inputs, options);
   LogSamples log(inputs.log, robot, inputs);
   PartOfLog samples(log, options.test_log.empty() ? std::optional(Part::fitted) : std::nullopt);
   reference::IdentifySettings settings = options.settings;
   settings.contacts = log.contacts();
+  if (effects) {
+    settings.rows = [&](const Sample& moved) { return effects->rows(moved, model); };
+  }
   if (settings.weight.size() == 0) settings.weight = weight(robot);
   if (inputs.row_cutoff > 0.0) {
     settings.row_filter.emplace();
@@ -68,13 +131,15 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   result.robot_file = inputs.robot;
   result.log_file = inputs.log;
   result.found = identify(
-      robot.robot, model, [&] { return samples.next(); }, settings, watch);
-  result.motion = log.report();
+      robot.robot, model, [&] { return effects ? effects->next() : samples.next(); }, settings,
+      watch);
+  result.motion = effects ? effects->log().motion : log.report();
   result.notes = robot.robot.notes;
   result.notes.insert(result.notes.end(), robot.warnings.begin(), robot.warnings.end());
   result.notes.insert(result.notes.end(), result.motion.notes.begin(), result.motion.notes.end());
   choose_written_links(result, robot.robot, options.least_mass);
-  result.heldout = compare(robot, inputs, options, result.found.Phi);
+  result.heldout = effects ? effects->compare(robot, inputs, options, result.found.Phi)
+                           : compare(robot, inputs, options, result.found.Phi);
   return result;
 }
 

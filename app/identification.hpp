@@ -12,6 +12,7 @@ namespace shapeid::app {
 
 struct RunOptions {
   std::string test_log;  ///< held-out motion; empty: every fifth two seconds of the log
+  std::string effects;   ///< effects.yaml: what is known besides rigid links; may be empty
   double least_mass = 0.0;
   reference::IdentifySettings settings;
 };

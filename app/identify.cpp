@@ -129,6 +129,8 @@ void add_identify(CLI::App& app) {
   verb->add_option("--expected-mass", options->expected_mass,
                    "kg, of all sought links together (default: as given)")
       ->check(CLI::PositiveNumber);
+  verb->add_option("--effects", options->run.effects,
+                   "effects.yaml of diagnose: friction and the like, taken as known");
   verb->add_option("--min-mass", options->run.least_mass,
                    "kg: a link found lighter keeps its given inertia")
       ->check(CLI::NonNegativeNumber)

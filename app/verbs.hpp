@@ -7,6 +7,7 @@ namespace shapeid::app {
 
 void add_identify(CLI::App& app);
 void add_load(CLI::App& app);
+void add_diagnose(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_simulate(CLI::App& app);

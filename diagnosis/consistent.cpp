@@ -181,7 +181,9 @@ Eigen::VectorXd jackknife(const Solver& solver, const reference::DivisionRun& ru
   for (int tenth = 0; tenth < tenths; ++tenth) {
     const Eliminated eliminated = solver.rows(tenth);
     solver.set_rows(eliminated, problem);
-    const Eigen::VectorXd Phi = reference::solve_masses(problem, run.solution.m).Phi;
+    const Eigen::VectorXd Phi = run.solution.Phi.size() > 0
+                                    ? reference::solve_masses(problem, run.solution.m).Phi
+                                    : run.solution.Phi;
     answers.col(tenth) << Phi, effects_of(eliminated, Phi);
   }
   const Eigen::VectorXd mean = answers.rowwise().mean();
@@ -228,7 +230,8 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     const Sums sums(shapes, std::move(tally), since);
     const Solver solver(robot, sums, settings, loop);
     const Eliminated eliminated = solver.rows(-1);
-    result.run = solver.divide(eliminated);
+    // With every link trusted there is no mass to solve for.
+    if (sums.masses() > 0) result.run = solver.divide(eliminated);
     const Eigen::VectorXd& Phi = result.run.solution.Phi;
     put_back(effects_of(eliminated, Phi), linear, effects);
     if (const std::size_t bad = impossible(effects); bad < effects.size()) {

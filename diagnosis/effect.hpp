@@ -89,6 +89,7 @@ struct Transformation {
 /// joint), the parameters and shape numbers by name, and arrays over the joints.
 struct TorqueCode {
   std::string motion;  ///< before the rigid links: changes q, dq, ddq
+  std::string link;    ///< between: `at` (torque_header.cpp) has the links' motion and wrenches
   std::string torque;  ///< after them: changes tau; load[j] holds what the rigid links ask for
 };
 

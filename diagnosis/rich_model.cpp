@@ -38,11 +38,18 @@ Sample Viewer::moved(const Recording& recording, std::size_t index, double dt,
   return last.effect->transform.sample(moment, last.site, last.value);
 }
 
+Sample Viewer::moved(const Recording& recording, std::size_t index) const {
+  return moved(recording, index, 0.0, transforming_.size());
+}
+
 View Viewer::view(const Recording& recording, std::size_t index) const {
+  return view(moved(recording, index), recording.elapsed(index));
+}
+
+View Viewer::view(Sample moved, double elapsed) const {
   View view;
-  view.sample = moved(recording, index, 0.0, transforming_.size());
-  view.robot = &robot_;
-  view.elapsed = recording.elapsed(index);
+  view.sample = std::move(moved);
+  view.elapsed = elapsed;
   view.motions = reference::link_motions(robot_, view.sample);
   view.Y = reference::regressor(robot_, view.sample);
   view.J = contacts_ == reference::ContactTreatment::project
@@ -84,6 +91,31 @@ Prediction predict(const Viewer& viewer, const View& view, const RichModel& mode
   }
   viewer.transform(view, rows);
   return {rows.E, std::move(rows.J), load};
+}
+
+reference::SampleRows mass_rows(const Viewer& viewer, const View& view, const RichModel& model,
+                                const std::vector<int>& free_links) {
+  const PredictedLoad load =
+      predicted_load(viewer.robot(), logged_force(viewer, view), view.Y * model.Phi, view.J);
+  const Instant instant{viewer.robot(), view.sample, view.motions,
+                        view.Y,         load.joint,  view.elapsed};
+  const Eigen::Index sought = 10 * std::ssize(free_links);
+  Rows rows{Eigen::MatrixXd(viewer.robot().dof(), sought + 1), view.J};
+  Eigen::VectorXd known = model.Phi;
+  Eigen::Index column = 0;
+  for (const int link : free_links) {
+    rows.E.middleCols<10>(column) = view.Y.middleCols<10>(Eigen::Index{10} * link);
+    known.segment<10>(Eigen::Index{10} * link).setZero();
+    column += 10;
+  }
+  rows.E.rightCols<1>() = view.Y * known;
+  for (const AppliedEffect& a : model.effects) {
+    if (a.effect->columns != nullptr) {
+      rows.E.rightCols<1>() += a.effect->columns(instant, a.site, a.shape) * a.value;
+    }
+  }
+  viewer.transform(view, rows);
+  return {rows.E.leftCols(sought), logged_force(viewer, view) - rows.E.rightCols<1>(), rows.J};
 }
 
 Eigen::VectorXd residual(const Viewer& viewer, const View& view, const RichModel& model) {

@@ -31,7 +31,6 @@ struct RichModel {
 /// A sample as the model sees it: transformations done.
 struct View {
   Sample sample;
-  const Robot* robot = nullptr;
   std::vector<reference::LinkMotion> motions;
   Eigen::MatrixXd Y;  ///< dof x 10 links, before Transformation::rows
   Eigen::MatrixXd J;  ///< contact rows x dof, likewise
@@ -46,15 +45,20 @@ class Viewer {
          const std::vector<AppliedEffect>& effects);
 
   [[nodiscard]] View view(const Recording& recording, std::size_t index) const;
+  /// Of a sample whose own transformations are done already (moved()).
+  [[nodiscard]] View view(Sample moved, double elapsed) const;
   /// Applies the row transformations, in order.
   void transform(const View& view, Rows& rows) const;
   [[nodiscard]] const Robot& robot() const { return robot_; }
   [[nodiscard]] reference::ContactTreatment contacts() const { return contacts_; }
-  /// The sample after the first `count` sample transformations.
+  /// The sample after all sample transformations.
+  [[nodiscard]] Sample moved(const Recording& recording, std::size_t index) const;
+
+ private:
+  /// The sample dt later after the first `count` of the transformations.
   [[nodiscard]] Sample moved(const Recording& recording, std::size_t index, double dt,
                              std::size_t count) const;
 
- private:
   Robot robot_;
   reference::ContactTreatment contacts_;
   std::vector<AppliedEffect> transforming_;
@@ -70,6 +74,12 @@ struct Prediction {
 /// The same with the load given.
 [[nodiscard]] Prediction predict(const Viewer& viewer, const View& view, const RichModel& model,
                                  const PredictedLoad& load);
+
+/// Rows of the mass problem for the links that are sought, with everything else that the model
+/// knows (other links, effects) moved over: what reference::sample_rows() says of rigid links.
+[[nodiscard]] reference::SampleRows mass_rows(const Viewer& viewer, const View& view,
+                                              const RichModel& model,
+                                              const std::vector<int>& free_links);
 
 /// S^T tau as logged, plus measured contact forces if these are used, dof.
 [[nodiscard]] Eigen::VectorXd logged_force(const Viewer& viewer, const View& view);

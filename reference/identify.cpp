@@ -16,17 +16,21 @@ namespace {
 /// Contiguous blocks of rows; twice as long each time there are too many.
 class Blocks {
  public:
-  Blocks(Window window, std::optional<RowFilter> filter, double seconds)
-      : window_(std::move(window)), filter_(std::move(filter)), seconds_(seconds) {}
+  using RowsOf = std::function<SampleRows(const Sample&)>;
+  Blocks(Window window, std::optional<RowFilter> filter, RowsOf rows, double seconds)
+      : window_(std::move(window)),
+        filter_(std::move(filter)),
+        rows_(std::move(rows)),
+        seconds_(seconds) {}
 
   void add(const Sample& sample) {
     if (filter_) {
-      filter_->push(sample);
+      filter_->push(sample.time, rows_(sample));
       add_filtered();
       return;
     }
     close_before(sample.time);
-    window_.add(sample);
+    window_.add(rows_(sample));
   }
 
   std::vector<RowBlock> finish() {
@@ -66,6 +70,7 @@ class Blocks {
 
   Window window_;
   std::optional<RowFilter> filter_;
+  RowsOf rows_;
   double seconds_, start_ = 0.0;
   std::vector<RowBlock> blocks_;
 };
@@ -127,7 +132,11 @@ Identification identify(const Robot& robot, const BodyModel& model, const Sample
   if (settings.row_filter) {
     filter.emplace(robot, model, settings.contacts, weight, *settings.row_filter);
   }
-  Blocks collected(window, std::move(filter), settings.block_seconds);
+  const auto rigid = [&](const Sample& sample) {
+    return sample_rows(robot, model.known, model.free_links, settings.contacts, sample);
+  };
+  Blocks collected(window, std::move(filter), settings.rows ? settings.rows : rigid,
+                   settings.block_seconds);
   Identification result;
   while (const std::optional<Sample> sample = next()) {
     collected.add(*sample);

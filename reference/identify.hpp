@@ -27,6 +27,9 @@ struct IdentifySettings {
   double block_seconds = 0.5;        ///< contiguous blocks for standard errors
   /// Low-pass the rows in time; the samples then need little smoothing of their own.
   std::optional<RowFilterOptions> row_filter;
+  /// Rows of a sample when more than rigid links is known of the robot (friction, ...); empty:
+  /// sample_rows().
+  std::function<SampleRows(const Sample&)> rows;
 };
 
 struct Identification {

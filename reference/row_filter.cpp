@@ -30,12 +30,15 @@ RowFilter::RowFilter(const Robot& robot, const BodyModel& model, ContactTreatmen
 }
 
 void RowFilter::push(const Sample& sample) {
-  constexpr double step_of_grid = 1.5;  // a missing sample makes it two
-  if (last_ && sample.time - *last_ > step_of_grid / options_.rate) finish();
-  last_ = sample.time;
-  times_.push_back(sample.time);
+  push(sample.time, sample_rows(*robot_, known_, free_links_, contacts_, sample));
+}
 
-  const SampleRows rows = sample_rows(*robot_, known_, free_links_, contacts_, sample);
+void RowFilter::push(double time, const SampleRows& rows) {
+  constexpr double step_of_grid = 1.5;  // a missing sample makes it two
+  if (last_ && time - *last_ > step_of_grid / options_.rate) finish();
+  last_ = time;
+  times_.push_back(time);
+
   const Eigen::MatrixXd Q2 = contact_free_basis(rows.J, weight_).Q2;
   Eigen::MatrixXd YF(rows.Y.rows(), rows.Y.cols() + 1);
   YF << rows.Y, rows.F;

@@ -42,6 +42,8 @@ class RowFilter {
 
   /// In the order of time. A step that is not one of the grid begins a new segment.
   void push(const Sample& sample);
+  /// The same with the sample's time (s) and rows given.
+  void push(double time, const SampleRows& rows);
   /// No more samples.
   void finish();
   [[nodiscard]] std::optional<FilteredRows> next();

@@ -32,7 +32,10 @@ Window::Window(const Robot& robot, const BodyModel& model, ContactTreatment cont
 }
 
 void Window::add(const Sample& sample) {
-  const SampleRows rows = sample_rows(*robot_, known_, free_links_, contacts_, sample);
+  add(sample_rows(*robot_, known_, free_links_, contacts_, sample));
+}
+
+void Window::add(const SampleRows& rows) {
   // Without rows in J this only multiplies by W^(1/2).
   const ContactFreeRows free = eliminate_contacts(rows.Y, rows.F, rows.J, weight_);
   add_rows(free.Y, free.F);

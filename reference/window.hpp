@@ -23,6 +23,8 @@ class Window {
          Eigen::VectorXd weight);
 
   void add(const Sample& sample);
+  /// The same with the sample's rows given, not weighted yet and with contact forces in them.
+  void add(const SampleRows& rows);
   /// One instant's rows, weighted and free of contact forces already, e.g. a RowFilter's.
   void add_rows(const Eigen::MatrixXd& Y, const Eigen::VectorXd& F);
   void clear();

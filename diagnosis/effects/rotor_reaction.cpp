@@ -42,7 +42,9 @@ Effect rotor_reaction() {
   e.source = "Featherstone, Rigid Body Dynamics Algorithms (2008), 9.6";
   e.applies = turns;
   e.columns = columns;
-  e.code.torque = "reaction(j, k, q, dq, ddq, tau);";
+  e.code.link =
+      "at.n[at.parent(j)] += k * (at.z[j] * ddq[j] + cross(at.w[at.parent(j)], at.z[j]) * dq[j]);"
+      " tau[j] += k * dot(at.z[j], at.alpha[at.parent(j)]);";
   return e;
 }
 

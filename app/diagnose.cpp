@@ -1,0 +1,106 @@
+// shapeid diagnose: what the model lacks, and a richer one.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "shapeid/app/diagnosis_report.hpp"
+#include "shapeid/app/diagnosis_result.hpp"
+#include "shapeid/app/identification.hpp"
+#include "shapeid/app/verbs.hpp"
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/effects_yaml.hpp"
+#include "shapeid/diagnosis/torque_header.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/file_output.hpp"
+
+namespace shapeid::app {
+namespace {
+
+struct Options {
+  DiagnoseOptions diagnose;
+  Delivery delivery;
+  bool strict = false;
+};
+
+void write_files(const Options& options, const RobotInputs& robot, DiagnosisRun& run) {
+  const std::filesystem::path folder(options.delivery.folder);
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) {
+    throw InputError({folder.string()}, "cannot be made: " + failed.message(), "another folder");
+  }
+  const auto write = [&](const std::string& name, const std::string& content) {
+    write_file((folder / name).string(), content);
+    fmt::print(stderr, "wrote {}\n", (folder / name).string());
+  };
+  const Robot& r = robot.robot;
+  write("identified.urdf", diagnosed_urdf(run, r, options.diagnose.inputs.robot));
+  write("effects.yaml", diagnosis::write_effects_yaml(r, run.consistent.model.effects));
+  write("predict_torque.hpp", diagnosis::torque_header(r, run.consistent.model));
+  write("result.json", diagnosis_json(run, r, options.diagnose).dump(2) + "\n");
+  write("report.html", diagnosis_report(run, r, options.diagnose));
+}
+
+void diagnose(Options& options) {
+  const RobotInputs robot = read_robot(options.diagnose.inputs);
+  DiagnosisRun run = run_diagnosis(robot, options.diagnose);
+  if (!options.delivery.folder.empty()) write_files(options, robot, run);
+  if (options.delivery.json) {
+    fmt::print("{}\n", diagnosis_json(run, robot.robot, options.diagnose).dump(2));
+  } else {
+    fmt::print("{}", diagnosis_text(run, robot.robot));
+  }
+  if (options.strict && !run.structures.empty()) {
+    throw Refusal("unexplained",
+                  fmt::format("the residual of {} follows {}, and no effect explains "
+                              "it (--strict)",
+                              run.structures.front().joint, run.structures.front().variable));
+  }
+}
+
+/// The catalogue needs neither robot nor log: it is printed while the arguments are read.
+void print_catalogue(std::int64_t) {
+  fmt::print("{}", diagnosis::catalogue_page());
+  throw CLI::Success();
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  DiagnoseOptions& d = options->diagnose;
+  CLI::App* verb =
+      app.add_subcommand("diagnose", "what the model lacks: effects, their sizes, a richer model");
+  verb->add_flag_function("--list", print_catalogue, "print the effects that can be found");
+  d.inputs.add_to(*verb);
+  add_delivery_options(*verb, options->delivery);
+  verb->add_option("--test", d.test,
+                   "log for the final comparison (default: every fifth two seconds of the log)");
+  verb->add_option("--reference", d.reference,
+                   "earlier log of the same robot: what has come since is then a finding");
+  auto* shapes = verb->add_option("--shapes", d.shapes,
+                                  "shapes.yaml (default: one generous box a sought link)");
+  auto* named = verb->add_option("--free", d.free_links,
+                                 "links of unknown inertia (default: the floating base, or all "
+                                 "links of a fixed one)");
+  auto* whole = verb->add_flag("--whole-body", d.whole_body, "the inertia of no link is known");
+  auto* trust = verb->add_flag("--trust", d.trust, "the given inertias are right");
+  named->excludes(shapes)->excludes(whole)->excludes(trust);
+  trust->excludes(shapes)->excludes(whole);
+  whole->excludes(shapes);
+  verb->add_option("--expected-mass", d.expected_mass,
+                   "kg, of all sought links (default: as given)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--least-t", d.rule.least_t,
+                   "standard errors by which an effect must lower the held-out error")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--least-gain", d.rule.least_gain, "share by which it must lower it")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb->add_flag("--strict", options->strict, "exit status 1 if structure stays unexplained");
+  verb->callback([options] { diagnose(*options); });
+}
+
+}  // namespace shapeid::app

@@ -1,0 +1,201 @@
+#include "shapeid/app/diagnosis_plots.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "shapeid/app/gnuplot.hpp"
+
+namespace shapeid::app {
+namespace {
+
+using diagnosis::Series;
+
+constexpr const char* grey = "#8a8a8a";
+constexpr const char* orange = "#d9822b";
+constexpr const char* blue = "#1f5fa8";
+
+std::string canvas(int width, int height) {
+  return fmt::format(
+      "set terminal svg size {},{} noenhanced background '#ffffff' font 'sans-serif,12'\n"
+      "set grid lc rgb '#dddddd'\nset border lc rgb '#666666'\nset key outside top horizontal\n",
+      width, height);
+}
+
+/// Columns of numbers under a name that plot commands can use.
+template <typename Row>
+std::string data(const std::string& name, Eigen::Index rows, const Row& row) {
+  std::string block = fmt::format("${} << EOD\n", name);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    for (const double x : row(i)) block += fmt::format("{:.5g} ", x);
+    block += "\n";
+  }
+  return block + "EOD\n";
+}
+
+const Sample& sample_at(const DiagnosisRun& run, Eigen::Index i) {
+  return run.test[run.after.index[static_cast<std::size_t>(i)]];
+}
+
+}  // namespace
+
+std::string torque_picture(const DiagnosisRun& run, const Robot& robot, int joint) {
+  const Eigen::Index row = robot.base_dof() + joint;
+  const double start = sample_at(run, 0).time;
+  constexpr double shown = 6.0;  // s
+  Eigen::Index count = 0;
+  while (count < run.after.residual.cols() && sample_at(run, count).time - start < shown) ++count;
+  std::string script =
+      canvas(820, 360) + data("d", count, [&](Eigen::Index i) {
+        const double tau = run.after.predicted(row, i) - run.after.residual(row, i);
+        return std::array{sample_at(run, i).time - start, tau,
+                          run.before.predicted(row, i),   run.after.predicted(row, i),
+                          run.before.residual(row, i),    run.after.residual(row, i)};
+      });
+  script += fmt::format(
+      "set multiplot layout 2,1 margins 0.09,0.98,0.12,0.9 spacing 0.05\nset format x ''\n"
+      "set ylabel 'torque (N m)'\n"
+      "plot $d using 1:2 with lines lw 2 lc rgb '{0}' title 'logged', $d using 1:3 with lines lc "
+      "rgb '{1}' title 'given model', $d using 1:4 with lines lc rgb '{2}' title 'found'\n"
+      "unset key\nset format x '%g'\nset xlabel 'time (s)'\nset ylabel 'residual (N m)'\n"
+      "plot $d using 1:5 with lines lc rgb '{1}', $d using 1:6 with lines lc rgb '{2}'\n"
+      "unset multiplot\n",
+      grey, orange, blue);
+  return gnuplot(script);
+}
+
+std::string scatter_picture(const DiagnosisRun& run, const Robot& robot, int joint) {
+  const Eigen::Index row = robot.base_dof() + joint;
+  constexpr Eigen::Index most = 400;  // points a panel: more hide each other
+  const Eigen::Index stride = std::max<Eigen::Index>(1, run.after.residual.cols() / most);
+  const Eigen::Index count = run.after.residual.cols() / stride;
+  const double start = sample_at(run, 0).time;
+  std::string script = canvas(820, 240) + "unset key\nset xtics rotate by -45 font ',10'\n" +
+                       data("d", count, [&](Eigen::Index i) {
+                         const Sample& s = sample_at(run, i * stride);
+                         return std::array{s.dq[joint],
+                                           s.q[joint],
+                                           run.after.predicted(row, i * stride),
+                                           s.time - start,
+                                           run.before.residual(row, i * stride),
+                                           run.after.residual(row, i * stride)};
+                       });
+  script +=
+      "set multiplot layout 1,4 margins 0.07,0.985,0.25,0.94 spacing 0.035\n"
+      "set ylabel 'residual (N m)'\n";
+  const std::array<const char*, 4> labels = {"velocity (rad/s)", "position (rad)", "torque (N m)",
+                                             "time (s)"};
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    script += fmt::format(
+        "set xlabel '{}'\n"
+        "plot $d using {}:5 with points pt 7 ps 0.18 lc rgb '{}', $d using {}:6 with points pt 7 "
+        "ps 0.22 lc rgb '{}'\nunset ylabel\nset format y ''\n",
+        labels[k], k + 1, orange, k + 1, blue);
+  }
+  return gnuplot(script + "unset multiplot\n");
+}
+
+std::string autocorrelation_picture(const DiagnosisRun& run, const Robot& robot) {
+  const int columns = 4, rows = (robot.joint_count() + columns - 1) / columns;
+  constexpr int lags = 40;
+  std::string script = canvas(820, 60 + 150 * rows) + "unset key\nset yrange [-0.6:1]\n" +
+                       fmt::format("set multiplot layout {},{}\n", rows, columns);
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    const Eigen::Index row = robot.base_dof() + j;
+    const auto before = diagnosis::autocorrelation(run.test, run.before, row, lags);
+    const auto after = diagnosis::autocorrelation(run.test, run.after, row, lags);
+    script += data("d", std::ssize(after.value), [&](Eigen::Index i) {
+      const auto k = static_cast<std::size_t>(i);
+      return std::array{static_cast<double>(i) * after.step, before.value[k], after.value[k]};
+    });
+    script += fmt::format(
+        "set title '{}'\nplot {} with filledcurves y1={} fs solid 0.2 noborder lc rgb '#444444', "
+        "$d using 1:2 with lines lc rgb '{}', $d using 1:3 with lines lw 1.5 lc rgb '{}'\n",
+        robot.joint(j).name, after.band, -after.band, orange, blue);
+  }
+  return gnuplot(script + "unset multiplot\n");
+}
+
+std::string ranking_picture(const DiagnosisRun& run) {
+  constexpr std::size_t shown = 15;
+  const auto count = static_cast<Eigen::Index>(std::min(shown, run.loop.first_ranking.size()));
+  std::string script = canvas(820, 80 + 24 * static_cast<int>(count)) +
+                       "unset key\nset lmargin 36\nset xlabel 'held-out gain (% of the squared "
+                       "error)'\nset style fill solid 0.8\nset yrange [*:*] reverse\n$d << EOD\n";
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const diagnosis::Ranked& r = run.loop.first_ranking[static_cast<std::size_t>(i)];
+    const double error = r.t > 0.0 ? 100.0 * std::abs(r.gain / r.t) : 0.0;
+    script += fmt::format("{} {:.4g} {:.4g} \"{}\"\n", i, 100.0 * r.gain, error, r.id);
+  }
+  script += fmt::format(
+      "EOD\nplot $d using (0):1:(0):2:($1-0.35):($1+0.35):ytic(4) with boxxyerrorbars lc rgb '{}', "
+      "$d using 2:1:3 with xerrorbars pt 0 lc rgb '#333333'\n",
+      blue);
+  return gnuplot(script);
+}
+
+std::string inertia_picture(const DiagnosisRun& run, const Robot& robot, int link) {
+  const auto outline = [](const InertialParameters& body, int a, int b) {
+    std::vector<std::array<double, 2>> points;
+    if (!(body.mass() > 0.0)) return points;
+    const Eigen::Matrix3d about = body.tensor_about_centre();
+    const Eigen::Matrix3d moments =
+        (0.5 * about.trace() * Eigen::Matrix3d::Identity() - about) / body.mass();
+    Eigen::Matrix2d plane;
+    plane << moments(a, a), moments(a, b), moments(b, a), moments(b, b);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(plane);
+    const Eigen::Matrix2d root =
+        eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    const Eigen::Vector3d centre = body.centre_of_mass();
+    constexpr int corners = 60;
+    for (int i = 0; i <= corners; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / corners;
+      // The ellipsoid of uniform density with these moments has sqrt(5) of their roots as axes.
+      const Eigen::Vector2d p =
+          Eigen::Vector2d(centre[a], centre[b]) +
+          std::sqrt(5.0) * root * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      points.push_back({p.x(), p.y()});
+    }
+    return points;
+  };
+  const InertialParameters given = robot.links[static_cast<std::size_t>(link)].inertia;
+  const InertialParameters found{run.consistent.model.Phi.segment<10>(Eigen::Index{10} * link)};
+  std::string script =
+      canvas(820, 260) + "set multiplot layout 1,2\nset size ratio -1\nset xlabel 'x (m)'\n";
+  const std::array<std::pair<int, const char*>, 2> views = {std::pair{2, "z (m)"}, {1, "y (m)"}};
+  for (const auto& [axis, label] : views) {
+    std::string plots;
+    for (const bool is_found : {false, true}) {
+      const auto points = outline(is_found ? found : given, 0, axis);
+      if (points.empty()) continue;
+      const std::string name = is_found ? "found" : "given";
+      script += data(name, std::ssize(points),
+                     [&](Eigen::Index i) { return points[static_cast<std::size_t>(i)]; });
+      plots += fmt::format("{}${} with lines lw 2 lc rgb '{}' title '{}'",
+                           plots.empty() ? "" : ", ", name, is_found ? blue : orange, name);
+    }
+    if (plots.empty()) return {};
+    script += fmt::format("set ylabel '{}'\nplot {}\n", label, plots);
+  }
+  return gnuplot(script + "unset multiplot\n");
+}
+
+std::string structure_picture(const diagnosis::Structure& structure) {
+  std::string script =
+      canvas(420, 240) + "unset key\n" + data("d", std::ssize(structure.at), [&](Eigen::Index i) {
+        const auto k = static_cast<std::size_t>(i);
+        return std::array{structure.at[k], structure.value[k]};
+      });
+  return gnuplot(script + fmt::format("set xlabel '{}'\nset ylabel 'residual of {} (N m)'\n"
+                                      "plot $d with linespoints pt 7 ps 0.5 lc rgb '{}'\n",
+                                      structure.variable, structure.joint, blue));
+}
+
+}  // namespace shapeid::app

@@ -1,0 +1,29 @@
+// Pictures of a diagnosis, drawn by gnuplot as SVG.
+#pragma once
+
+#include <string>
+
+#include "shapeid/app/diagnosis_run.hpp"
+
+namespace shapeid::app {
+
+/// Logged torque with both predictions, and both residuals below, over some seconds of the test
+/// motion.
+[[nodiscard]] std::string torque_picture(const DiagnosisRun& run, const Robot& robot, int joint);
+
+/// What is left after, over the joint's velocity, position, predicted torque, and time.
+[[nodiscard]] std::string scatter_picture(const DiagnosisRun& run, const Robot& robot, int joint);
+
+/// Autocorrelation of the residual before and after, with the band of white noise, every joint.
+[[nodiscard]] std::string autocorrelation_picture(const DiagnosisRun& run, const Robot& robot);
+
+/// Hypotheses by held-out gain, as they stood beside rigid links alone.
+[[nodiscard]] std::string ranking_picture(const DiagnosisRun& run);
+
+/// Given and found inertia of a link as ellipses of its second moments, seen along y and z.
+[[nodiscard]] std::string inertia_picture(const DiagnosisRun& run, const Robot& robot, int link);
+
+/// The empirical curve of what stays unexplained.
+[[nodiscard]] std::string structure_picture(const diagnosis::Structure& structure);
+
+}  // namespace shapeid::app

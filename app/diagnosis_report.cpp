@@ -1,0 +1,162 @@
+#include "shapeid/app/diagnosis_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "shapeid/app/diagnosis_plots.hpp"
+#include "shapeid/app/html.hpp"
+#include "shapeid/app/result.hpp"
+#include "shapeid/diagnosis/hypotheses.hpp"
+
+namespace shapeid::app {
+namespace {
+
+using Table = std::vector<std::vector<std::string>>;
+
+std::string short_number(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : "-"; }
+
+Table errors_table(const DiagnosisRun& run, const Robot& robot) {
+  const TestErrors& e = run.errors;
+  Table table = {{"row", "predicting zero", "given model", "found", "noise floor", "unfiltered"}};
+  const auto names = row_names(robot);
+  const int base = robot.base_dof();
+  for (Eigen::Index row = 0; row < e.zero.size(); ++row) {
+    const bool joint = row >= base;
+    table.push_back({names[static_cast<std::size_t>(row)], short_number(e.zero[row]),
+                     short_number(e.given[row]), short_number(e.found[row]),
+                     joint ? short_number(e.noise_floor[row - base]) : "",
+                     joint ? short_number(e.unfiltered_found[row - base]) : ""});
+  }
+  table.push_back({"all joints", short_number(overall(e.zero, robot)),
+                   short_number(overall(e.given, robot)), short_number(overall(e.found, robot)),
+                   short_number(e.noise_floor.norm()), short_number(e.unfiltered_found.norm())});
+  return table;
+}
+
+Table findings_table(const DiagnosisRun& run, const Robot& robot) {
+  Table table = {
+      {"effect", "value", "s.e.", "unit", "gain (%)", "gain / s.e.", "cannot be told from"}};
+  const auto& effects = run.consistent.model.effects;
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    const auto& a = effects[k];
+    std::string gain, t, others;
+    for (const diagnosis::Found& f : run.loop.found) {
+      if (f.effect.effect != a.effect || f.effect.site != a.site) continue;
+      gain = short_number(100.0 * f.gain);
+      t = short_number(f.t);
+      for (const std::string& id : f.ambiguous_with) others += (others.empty() ? "" : ", ") + id;
+    }
+    for (std::size_t p = 0; p < a.effect->parameters.size(); ++p) {
+      const auto at = static_cast<Eigen::Index>(p);
+      table.push_back({p == 0 ? hypothesis_id(robot, a) : "",
+                       a.effect->parameters[p].name + " = " + short_number(a.value[at]),
+                       short_number(run.consistent.effect_error[k][at]),
+                       a.effect->parameters[p].unit, p == 0 ? gain : "", p == 0 ? t : "",
+                       p == 0 ? others : ""});
+    }
+  }
+  return table;
+}
+
+Table parameters_table(const DiagnosisRun& run, const Robot& robot, int link) {
+  constexpr std::array<const char*, 10> names = {
+      "m (kg)",       "m rx (kg m)",  "m ry (kg m)",  "m rz (kg m)",  "Ixx (kg m^2)",
+      "Ixy (kg m^2)", "Ixz (kg m^2)", "Iyy (kg m^2)", "Iyz (kg m^2)", "Izz (kg m^2)"};
+  constexpr double of_95_percent = 1.96;
+  Table table = {{"parameter", "given", "found", "95 % interval"}};
+  const Link& given = robot.links[static_cast<std::size_t>(link)];
+  for (Eigen::Index p = 0; p < 10; ++p) {
+    const Eigen::Index at = Eigen::Index{10} * link + p;
+    const double value = run.consistent.model.Phi[at];
+    const double half = of_95_percent * run.consistent.Phi_error[at];
+    table.push_back({names[static_cast<std::size_t>(p)], short_number(given.inertia.values[p]),
+                     short_number(value),
+                     fmt::format("{:.3g} to {:.3g}", value - half, value + half)});
+  }
+  return table;
+}
+
+void add_undetermined(Page& page, const DiagnosisRun& run, const Robot& robot) {
+  page.heading("What could not be determined");
+  if (!run.loop.hidden.empty()) {
+    std::string list;
+    for (const std::string& id : run.loop.hidden) list += (list.empty() ? "" : ", ") + id;
+    page.paragraph("Not to be told from inertias and from what was found, in this data: " + list +
+                   ".");
+  }
+  for (const auto& [id, z] : run.loop.wrong_signs) {
+    page.paragraph(
+        fmt::format("{} would be negative by {:.0f} standard errors, which it cannot be: "
+                    "evidence of something else.",
+                    id, -z));
+  }
+  for (const auto& a : run.consistent.dropped) {
+    page.paragraph(hypothesis_id(robot, a) +
+                   " was left out: its sign is impossible once the links are bodies.");
+  }
+  if (run.structures.empty()) page.paragraph("The residual follows no signal that was tested.");
+  constexpr std::size_t shown = 6;
+  for (std::size_t i = 0; i < std::min(shown, run.structures.size()); ++i) {
+    const diagnosis::Structure& s = run.structures[i];
+    page.picture(structure_picture(s),
+                 fmt::format("Unexplained: {} over {}, {:.1f} % of its residual variance on blocks "
+                             "left out, {:.1f} standard errors",
+                             s.joint, s.variable, 100.0 * s.share, s.t));
+  }
+}
+
+}  // namespace
+
+std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
+                             const DiagnoseOptions& options) {
+  Page page("What the model of " + robot.name + " lacks");
+  page.paragraph(fmt::format(
+      "Log {}, tested on {} ({} samples used for nothing else). Every channel "
+      "went through the same zero-phase filter of {:g} Hz. {} hypotheses in {} "
+      "blocks; screening {:.1f} s, refits {:.1f} s.",
+      options.inputs.log, run.errors.where, run.errors.samples, options.inputs.cutoff,
+      run.loop.hypotheses, run.loop.blocks, run.loop.screening_seconds, run.loop.refit_seconds));
+  page.heading("Error before and after");
+  page.paragraph(
+      "Predicted minus logged torque, root mean square, N m (base rows: N and N m). "
+      "Unfiltered: the found model against the torque as logged.");
+  page.table(errors_table(run, robot));
+  page.heading("What was found");
+  if (run.consistent.model.effects.empty()) {
+    page.paragraph("No effect lowers the error on held-out blocks by more than chance.");
+  } else {
+    page.table(findings_table(run, robot));
+  }
+  if (!run.loop.first_ranking.empty()) {
+    page.picture(ranking_picture(run),
+                 "Hypotheses beside rigid links alone, with standard errors. "
+                 "The best was accepted, and the search went on.");
+  }
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    page.heading("Joint " + robot.joint(j).name);
+    page.picture(torque_picture(run, robot, j),
+                 "Test motion: logged and predicted torque, and "
+                 "their difference");
+    page.picture(scatter_picture(run, robot, j), "Residual before (orange) and after (blue)");
+  }
+  page.heading("Autocorrelation of the residual");
+  page.picture(
+      autocorrelation_picture(run, robot),
+      "Over the lag in s, before (orange) and after (blue); the band is that of white noise");
+  page.heading("Inertial parameters");
+  for (const int link : run.settings.shapes.free_links) {
+    page.paragraph("Link " + robot.links[static_cast<std::size_t>(link)].name);
+    page.table(parameters_table(run, robot, link));
+    const std::string picture = inertia_picture(run, robot, link);
+    if (!picture.empty()) page.picture(picture, "Ellipsoids of the same mass and moments");
+  }
+  add_undetermined(page, run, robot);
+  if (!run.notes.empty()) page.heading("Notes");
+  for (const std::string& note : run.notes) page.paragraph(note);
+  return page.html();
+}
+
+}  // namespace shapeid::app

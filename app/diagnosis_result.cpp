@@ -1,0 +1,301 @@
+#include "shapeid/app/diagnosis_result.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <regex>
+
+#include "shapeid/app/result.hpp"
+#include "shapeid/diagnosis/hypotheses.hpp"
+#include "shapeid/models/urdf.hpp"
+#include "shapeid/models/version.hpp"
+
+namespace shapeid::app {
+namespace {
+
+using diagnosis::AppliedEffect;
+using nlohmann::json;
+
+json number(double x) { return std::isfinite(x) ? json(x) : json(); }
+
+json numbers(const Eigen::VectorXd& v) {
+  json list = json::array();
+  for (const double x : v) list.push_back(number(x));
+  return list;
+}
+
+/// What the selection said of an effect of the final model.
+const diagnosis::Found* found_for(const DiagnosisRun& run, const AppliedEffect& effect) {
+  for (const diagnosis::Found& f : run.loop.found) {
+    if (f.effect.effect == effect.effect && f.effect.site == effect.site) return &f;
+  }
+  return nullptr;
+}
+
+json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
+  const AppliedEffect& a = run.consistent.model.effects[k];
+  const Eigen::VectorXd& error = run.consistent.effect_error[k];
+  json values = json::object();
+  for (std::size_t p = 0; p < a.effect->parameters.size(); ++p) {
+    const auto at = static_cast<Eigen::Index>(p);
+    values[a.effect->parameters[p].name] = {{"value", a.value[at]},
+                                            {"unit", a.effect->parameters[p].unit},
+                                            {"standard_error", number(error[at])}};
+  }
+  for (std::size_t s = 0; s < a.effect->shape.size(); ++s) {
+    values[a.effect->shape[s].name] = {{"value", a.shape[static_cast<Eigen::Index>(s)]},
+                                       {"unit", a.effect->shape[s].unit}};
+  }
+  json entry = {{"effect", a.effect->id},
+                {"site", site_name(robot, a.effect->site, a.site)},
+                {"value", a.value[0]},
+                {"unit", a.effect->parameters[0].unit},
+                {"standard_error", number(error[0])},
+                {"values", values}};
+  if (const diagnosis::Found* f = found_for(run, a)) {
+    entry["heldout_gain"] = f->gain;
+    entry["gain_over_its_error"] = f->t;
+    entry["since_reference"] = f->since_reference;
+    entry["ambiguous_with"] = f->ambiguous_with;
+    if (!f->ambiguous_with.empty()) entry["separate_by"] = a.effect->separate_by;
+    entry["under_contact"] = a.effect->under_contact;
+  }
+  return entry;
+}
+
+json ranking_json(const std::vector<diagnosis::Ranked>& ranking) {
+  json list = json::array();
+  for (const diagnosis::Ranked& r : ranking) {
+    list.push_back({{"hypothesis", r.id}, {"heldout_gain", r.gain}, {"gain_over_its_error", r.t}});
+  }
+  return list;
+}
+
+json links_json(const DiagnosisRun& run, const Robot& robot) {
+  json links = json::array();
+  for (const int link : run.settings.shapes.free_links) {
+    const Eigen::Index at = Eigen::Index{10} * link;
+    const Link& given = robot.links[static_cast<std::size_t>(link)];
+    links.push_back({{"name", given.name},
+                     {"parameters", numbers(run.consistent.model.Phi.segment<10>(at))},
+                     {"given", numbers(given.inertia.values)},
+                     {"standard_error", numbers(run.consistent.Phi_error.segment<10>(at))}});
+  }
+  return links;
+}
+
+std::string values_text(const AppliedEffect& a, const Eigen::VectorXd& error) {
+  std::string text;
+  for (std::size_t p = 0; p < a.effect->parameters.size(); ++p) {
+    const auto at = static_cast<Eigen::Index>(p);
+    const diagnosis::Parameter& parameter = a.effect->parameters[p];
+    text += fmt::format("{}{} = {:.4g} +- {:.2g} {}", p == 0 ? "" : ", ", parameter.name,
+                        a.value[at], error[at], parameter.unit);
+  }
+  for (std::size_t s = 0; s < a.effect->shape.size(); ++s) {
+    text += fmt::format(", {} = {:.3g} {}", a.effect->shape[s].name,
+                        a.shape[static_cast<Eigen::Index>(s)], a.effect->shape[s].unit);
+  }
+  return text;
+}
+
+std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
+  const auto& effects = run.consistent.model.effects;
+  if (effects.empty())
+    return "\nno effect lowers the error on held-out blocks by more than chance\n";
+  std::string text =
+      "\nfound (gain: share of the held-out squared error that would come back "
+      "without it, and over its standard error)\n";
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    text += fmt::format("  {:<38}{}\n", hypothesis_id(robot, effects[k]),
+                        values_text(effects[k], run.consistent.effect_error[k]));
+    const diagnosis::Found* f = found_for(run, effects[k]);
+    if (f == nullptr) continue;
+    text += fmt::format("  {:<38}gain {:.1f} %, {:.1f} standard errors{}\n", "", 100.0 * f->gain,
+                        f->t, f->since_reference ? "; came since the reference log" : "");
+    if (f->ambiguous_with.empty()) continue;
+    std::string others;
+    for (const std::string& id : f->ambiguous_with) others += (others.empty() ? "" : ", ") + id;
+    text += fmt::format("  {:<38}cannot be told from: {}\n  {:<38}to separate: {}\n", "", others,
+                        "", effects[k].effect->separate_by);
+  }
+  return text;
+}
+
+std::string errors_text(const DiagnosisRun& run, const Robot& robot) {
+  const TestErrors& e = run.errors;
+  std::string text = fmt::format(
+      "\nresidual on {} samples that were used for nothing else ({}), rms\n  {:<20}{:>10}{:>10}"
+      "{:>10}{:>14}{:>12}\n",
+      e.samples, e.where, "", "zero", "given", "found", "noise floor", "unfiltered");
+  const auto names = row_names(robot);
+  const int base = robot.base_dof();
+  for (Eigen::Index row = 0; row < e.zero.size(); ++row) {
+    text += fmt::format("  {:<20}{:>10.4g}{:>10.4g}{:>10.4g}", names[static_cast<std::size_t>(row)],
+                        e.zero[row], e.given[row], e.found[row]);
+    if (row >= base) {
+      text += fmt::format("{:>14.3g}{:>12.4g}", e.noise_floor[row - base],
+                          e.unfiltered_found[row - base]);
+    }
+    text += "\n";
+  }
+  return text + fmt::format("  {:<20}{:>10.4g}{:>10.4g}{:>10.4g}{:>14.3g}{:>12.4g}  N m\n",
+                            "all joints", overall(e.zero, robot), overall(e.given, robot),
+                            overall(e.found, robot), e.noise_floor.norm(),
+                            e.unfiltered_found.norm());
+}
+
+std::string structures_text(const DiagnosisRun& run) {
+  if (run.structures.empty()) return "\nthe residual follows no signal that was tested\n";
+  std::string text =
+      "\nunexplained: the residual still follows (share of its variance on blocks left out)\n";
+  constexpr std::size_t shown = 12;
+  for (std::size_t i = 0; i < std::min(shown, run.structures.size()); ++i) {
+    const diagnosis::Structure& s = run.structures[i];
+    text += fmt::format("  {:<24}over {:<28}{:>5.1f} %  ({:.1f} standard errors)\n", s.joint,
+                        s.variable, 100.0 * s.share, s.t);
+  }
+  return text;
+}
+
+/// Friction of a joint for <dynamics>: b and c of what was found.
+std::map<std::string, std::pair<double, double>> joint_friction(const DiagnosisRun& run,
+                                                                const Robot& robot) {
+  std::map<std::string, std::pair<double, double>> friction;
+  for (const AppliedEffect& a : run.consistent.model.effects) {
+    if (a.effect->id == "viscous_friction") friction[robot.joint(a.site).name].first = a.value[0];
+    if (a.effect->id == "coulomb_friction") friction[robot.joint(a.site).name].second = a.value[0];
+  }
+  return friction;
+}
+
+/// `text` with the <dynamics> of one joint replaced or added; all else as it was.
+std::string with_dynamics(const std::string& text, const std::string& joint, double damping,
+                          double friction) {
+  std::string name;
+  for (const char c : joint)
+    name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? std::string(1, c)
+                                                             : std::string("\\") + c;
+  const std::regex opening("<joint[^>]*name\\s*=\\s*[\"']" + name + "[\"'][^>]*>");
+  std::smatch match;
+  if (!std::regex_search(text, match, opening)) return text;
+  const auto from = static_cast<std::size_t>(match.position() + match.length());
+  const std::size_t end = text.find("</joint>", from);
+  if (end == std::string::npos) return text;
+  std::string body =
+      std::regex_replace(text.substr(from, end - from), std::regex("\\s*<dynamics[^>]*/>"), "");
+  body += fmt::format("<dynamics damping=\"{}\" friction=\"{}\"/>", damping, friction);
+  return text.substr(0, from) + body + text.substr(end);
+}
+
+}  // namespace
+
+json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseOptions& options) {
+  json findings = json::array();
+  for (std::size_t k = 0; k < run.consistent.model.effects.size(); ++k) {
+    findings.push_back(finding(run, robot, k));
+  }
+  json structures = json::array();
+  for (const diagnosis::Structure& s : run.structures) {
+    structures.push_back({{"joint", s.joint},
+                          {"variable", s.variable},
+                          {"share", s.share},
+                          {"share_over_its_error", s.t},
+                          {"curve", {{"at", s.at}, {"value", s.value}}}});
+  }
+  json wrong_signs = json::array();
+  for (const auto& [id, z] : run.loop.wrong_signs) {
+    wrong_signs.push_back({{"hypothesis", id}, {"value_over_its_error", z}});
+  }
+  const TestErrors& e = run.errors;
+  return {{"format", "shapeid-diagnosis-1"},
+          {"software", fmt::format("shapeid {}", version)},
+          {"robot", options.inputs.robot},
+          {"log", options.inputs.log},
+          {"test", e.where},
+          {"reference", options.reference},
+          {"cutoff", options.inputs.cutoff},
+          {"samples", run.loop.samples},
+          {"blocks", run.loop.blocks},
+          {"hypotheses", run.loop.hypotheses},
+          {"screening_seconds", run.loop.screening_seconds},
+          {"refit_seconds", run.loop.refit_seconds},
+          {"findings", findings},
+          {"unexplained", structures},
+          {"hidden", run.loop.hidden},
+          {"wrong_signs", wrong_signs},
+          {"first_ranking", ranking_json(run.loop.first_ranking)},
+          {"last_ranking", ranking_json(run.loop.last_ranking)},
+          {"links", links_json(run, robot)},
+          {"heldout",
+           {{"samples", e.samples},
+            {"where", e.where},
+            {"rows", row_names(robot)},
+            {"rms_zero", numbers(e.zero)},
+            {"rms_before", numbers(e.given)},
+            {"rms_after", numbers(e.found)},
+            {"noise_floor", numbers(e.noise_floor)},
+            {"unfiltered_zero", numbers(e.unfiltered_zero)},
+            {"unfiltered_before", numbers(e.unfiltered_given)},
+            {"unfiltered_after", numbers(e.unfiltered_found)}}},
+          {"heldout_rms_before", numbers(e.given.tail(robot.joint_count()))},
+          {"heldout_rms_after", numbers(e.found.tail(robot.joint_count()))},
+          {"notes", run.notes}};
+}
+
+std::string diagnosis_text(const DiagnosisRun& run, const Robot& robot) {
+  std::string text = fmt::format(
+      "robot {}: {} links, {} joints, {} base, {} of unknown inertia\n"
+      "{} samples in {} blocks, {} hypotheses; screening {:.1f} s, refits {:.1f} s\n"
+      "weighted held-out error a row: given {:.4g}, rigid links refitted {:.4g}, with effects "
+      "{:.4g}\n",
+      robot.name, robot.link_count(), robot.joint_count(),
+      robot.root == Root::floating ? "floating" : "fixed", run.settings.shapes.free_links.size(),
+      run.loop.samples, run.loop.blocks, run.loop.hypotheses, run.loop.screening_seconds,
+      run.loop.refit_seconds, run.loop.error_given, run.loop.error_rigid, run.loop.error_end);
+  text += findings_text(run, robot);
+  for (const AppliedEffect& a : run.consistent.dropped) {
+    text += fmt::format("  {:<38}left out: its sign is impossible once the links are bodies\n",
+                        hypothesis_id(robot, a));
+  }
+  for (const auto& [id, z] : run.loop.wrong_signs) {
+    text += fmt::format(
+        "  {:<38}would be negative by {:.0f} standard errors: evidence of something "
+        "else\n",
+        id, -z);
+  }
+  text += errors_text(run, robot) + structures_text(run);
+  if (!run.loop.hidden.empty()) {
+    text += "\nnot to be told from inertias and what was found, in this data:\n ";
+    for (const std::string& id : run.loop.hidden) text += " " + id;
+    text += "\n";
+  }
+  for (const std::string& note : run.notes) text += fmt::format("note: {}\n", note);
+  return text;
+}
+
+std::string diagnosed_urdf(DiagnosisRun& run, const Robot& robot, const std::string& original) {
+  std::vector<IdentifiedLink> written;
+  for (const int link : run.settings.shapes.free_links) {
+    const InertialParameters inertia{run.consistent.model.Phi.segment<10>(Eigen::Index{10} * link)};
+    const std::string& name = robot.links[static_cast<std::size_t>(link)].name;
+    if (!(inertia.mass() > 0.0)) {
+      run.notes.push_back(
+          fmt::format("link {} is undetermined: it was left without mass and keeps "
+                      "the given inertia in identified.urdf",
+                      name));
+    } else if (const Violation why = why_impossible(inertia)) {
+      run.notes.push_back(fmt::format("link {} keeps the given inertia: {}", name, *why));
+    } else {
+      written.push_back({link, inertia});
+    }
+  }
+  std::string text = write_urdf(original, robot, written);
+  for (const auto& [joint, friction] : joint_friction(run, robot)) {
+    text = with_dynamics(text, joint, friction.first, friction.second);
+  }
+  return text;
+}
+
+}  // namespace shapeid::app

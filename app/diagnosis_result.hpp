@@ -1,0 +1,20 @@
+// What `diagnose` found, as JSON (docs/formats/diagnosis.md), as text, and as a URDF.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "shapeid/app/diagnosis_run.hpp"
+
+namespace shapeid::app {
+
+[[nodiscard]] nlohmann::json diagnosis_json(const DiagnosisRun& run, const Robot& robot,
+                                            const DiagnoseOptions& options);
+[[nodiscard]] std::string diagnosis_text(const DiagnosisRun& run, const Robot& robot);
+
+/// The URDF with identified inertias, and <dynamics> of the joints whose friction was found. Adds a
+/// note to the run for each link that keeps what was given.
+[[nodiscard]] std::string diagnosed_urdf(DiagnosisRun& run, const Robot& robot,
+                                         const std::string& original);
+
+}  // namespace shapeid::app

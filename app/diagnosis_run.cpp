@@ -1,0 +1,206 @@
+#include "shapeid/app/diagnosis_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "shapeid/app/recordings.hpp"
+#include "shapeid/diagnosis/checks.hpp"
+#include "shapeid/diagnosis/regions.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/shapes_yaml.hpp"
+
+namespace shapeid::app {
+namespace {
+
+using diagnosis::Recording;
+
+std::vector<int> free_links(const DiagnoseOptions& options, const Robot& robot) {
+  if (options.trust) return {};
+  std::vector<int> links;
+  for (const std::string& name : options.free_links) {
+    const auto link = robot.find_link(name);
+    if (!link) throw InputError("--free " + name + ": no such link", "a link of the URDF");
+    links.push_back(*link);
+  }
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  if (!links.empty()) return links;
+  if (robot.root == Root::floating && !options.whole_body) return {0};
+  links.resize(robot.links.size());
+  std::iota(links.begin(), links.end(), 0);
+  if (robot.root == Root::fixed) links.erase(links.begin());  // a fixed root never moves
+  return links;
+}
+
+BodyModel body_model(const DiagnoseOptions& options, const Robot& robot) {
+  if (!options.shapes.empty()) return read_shapes_yaml(options.shapes, robot);
+  const std::vector<int> links = free_links(options, robot);
+  if (!links.empty()) return diagnosis::generous_regions(robot, links);
+  BodyModel known;
+  known.known = stacked_parameters(robot);
+  return known;
+}
+
+double expected_mass(const DiagnoseOptions& options, const Robot& robot, const BodyModel& model) {
+  if (options.expected_mass > 0.0) return options.expected_mass;
+  double mass = 0.0;
+  for (const int link : model.free_links) {
+    mass += robot.links[static_cast<std::size_t>(link)].inertia.mass();
+  }
+  if (!(mass > 0.0) && !model.free_links.empty()) {
+    throw InputError("the free links have no mass in the URDF", "give --expected-mass");
+  }
+  return mass;
+}
+
+diagnosis::LoopSettings settings_for(const RobotInputs& inputs, const DiagnoseOptions& options,
+                                     const RecordedLog& log) {
+  const Robot& robot = inputs.robot;
+  diagnosis::LoopSettings settings;
+  settings.contacts = log.contacts;
+  settings.shapes = body_model(options, robot);
+  settings.expected_mass = expected_mass(options, robot, settings.shapes);
+  settings.weight = weight(inputs);
+  settings.rule = options.rule;
+  settings.size = Eigen::VectorXd::Ones(Eigen::Index{10} * robot.link_count());
+  const auto& links = settings.shapes.free_links;
+  if (!links.empty()) {
+    const double share = settings.expected_mass / static_cast<double>(links.size());
+    const Eigen::VectorXd sizes = reference::natural_sizes(settings.shapes, share);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      settings.size.segment<10>(Eigen::Index{10} * links[i]) =
+          sizes.segment<10>(10 * static_cast<Eigen::Index>(i));
+    }
+  }
+  // Five samples a period of the filter's cutoff say all that is left in the signals.
+  constexpr double samples_a_period = 5.0;
+  const double cutoff = options.inputs.cutoff > 0.0 ? options.inputs.cutoff : log.motion.rate;
+  settings.stride =
+      static_cast<std::size_t>(std::max(1.0, log.motion.rate / (samples_a_period * cutoff)));
+  constexpr double longest_margin = 0.1;  // s
+  settings.margin = std::min(0.5 / cutoff, longest_margin);
+  return settings;
+}
+
+/// Logged torque without any filter at the samples of the series; joints x samples. NaN where the
+/// unfiltered log has no sample at that time.
+Eigen::MatrixXd unfiltered_torque(const Recording& smooth, const diagnosis::Series& series,
+                                  const Recording& raw) {
+  Eigen::MatrixXd tau = Eigen::MatrixXd::Constant(smooth[0].tau.size(), std::ssize(series.index),
+                                                  std::numeric_limits<double>::quiet_NaN());
+  const auto& samples = raw.samples();
+  for (Eigen::Index i = 0; i < tau.cols(); ++i) {
+    const double time = smooth[series.index[static_cast<std::size_t>(i)]].time;
+    const auto at = std::lower_bound(samples.begin(), samples.end(), time - 0.25 / raw.rate(),
+                                     [](const Sample& s, double t) { return s.time < t; });
+    if (at != samples.end() && std::abs(at->time - time) < 0.25 / raw.rate()) {
+      tau.col(i) = at->tau;
+    }
+  }
+  return tau;
+}
+
+Eigen::VectorXd rms_of(const Eigen::MatrixXd& rows) {
+  Eigen::VectorXd rms(rows.rows());
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    double sum = 0.0, count = 0.0;
+    for (const double x : rows.row(r)) {
+      if (std::isnan(x)) continue;
+      sum += x * x;
+      count += 1.0;
+    }
+    rms[r] = std::sqrt(sum / std::max(count, 1.0));
+  }
+  return rms;
+}
+
+TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
+                       const DiagnosisRun& run, const Recording& raw) {
+  const auto& settings = run.settings;
+  const Robot& r = robot.robot;
+  const Eigen::Index n = r.joint_count();
+  diagnosis::RichModel nothing{Eigen::VectorXd::Zero(Eigen::Index{10} * r.link_count()), {}};
+  const diagnosis::Series zero =
+      diagnosis::series(r, settings.contacts, nothing, run.test, settings.stride);
+  TestErrors errors;
+  errors.where = options.test.empty() ? "every fifth two seconds of the log" : options.test;
+  errors.samples = run.after.index.size();
+  errors.zero = zero.rms();
+  errors.given = run.before.rms();
+  errors.found = run.after.rms();
+  const Eigen::MatrixXd tau = unfiltered_torque(run.test, zero, raw);
+  Eigen::MatrixXd smooth(n, tau.cols());
+  for (Eigen::Index i = 0; i < tau.cols(); ++i) {
+    smooth.col(i) = run.test[zero.index[static_cast<std::size_t>(i)]].tau;
+  }
+  // The part that contact forces explain is the smooth signals' own: only the torque is exchanged.
+  const Eigen::MatrixXd rough = tau - smooth;
+  errors.unfiltered_zero = rms_of(zero.residual.bottomRows(n) - rough);
+  errors.unfiltered_given = rms_of(run.before.residual.bottomRows(n) - rough);
+  errors.unfiltered_found = rms_of(run.after.residual.bottomRows(n) - rough);
+  // Two passes of second order let through 0.87 of the cutoff's band.
+  const double band = 0.87 * options.inputs.cutoff / (0.5 * run.motion.rate);
+  errors.noise_floor =
+      rms_of(rough) * (band > 0.0 && band < 1.0 ? std::sqrt(band / (1.0 - band)) : 1.0);
+  return errors;
+}
+
+void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
+  const int base = robot.base_dof();
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    const double given = run.errors.given[base + j], found = run.errors.found[base + j];
+    if (found > given) {
+      run.notes.push_back(
+          fmt::format("{} is predicted worse than by the given model: {:.3g} "
+                      "instead of {:.3g} N m",
+                      robot.joint(j).name, found, given));
+    }
+  }
+}
+
+}  // namespace
+
+DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& options) {
+  const bool split = options.test.empty();
+  const RecordedLog log = read_recording(options.inputs.log, robot, options.inputs,
+                                         split ? std::optional(Part::fitted) : std::nullopt);
+  diagnosis::check_recording(robot.robot, log.recording, log.contacts);
+  const std::string& test_path = split ? options.inputs.log : options.test;
+  const std::optional<Part> test_part = split ? std::optional(Part::held_out) : std::nullopt;
+  RecordedLog test = read_recording(test_path, robot, options.inputs, test_part);
+  MotionInputs unsmoothed = options.inputs;
+  unsmoothed.cutoff = 0.0;
+  const RecordedLog raw = read_recording(test_path, robot, unsmoothed, test_part);
+  std::optional<RecordedLog> earlier;
+  if (!options.reference.empty()) {
+    earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);
+  }
+
+  DiagnosisRun run{settings_for(robot, options, log), {}, {}, {},         {},
+                   std::move(test.recording),         {}, {}, log.motion, robot.robot.notes};
+  diagnosis::check_clocks(robot.robot, log.recording, run.settings);
+  const Recording* reference = earlier ? &earlier->recording : nullptr;
+  run.loop = diagnosis::close_loop(robot.robot, log.recording, reference, run.settings);
+  run.consistent =
+      diagnosis::make_consistent(robot.robot, log.recording, reference, run.settings, run.loop);
+  run.notes.insert(run.notes.end(), robot.warnings.begin(), robot.warnings.end());
+  run.notes.insert(run.notes.end(), log.motion.notes.begin(), log.motion.notes.end());
+  if (run.test.samples().empty()) {
+    throw Refusal("no-data", "nothing is left to test on; give --test, or a longer log");
+  }
+  const diagnosis::RichModel given{stacked_parameters(robot.robot), {}};
+  run.before =
+      diagnosis::series(robot.robot, run.settings.contacts, given, run.test, run.settings.stride);
+  run.after = diagnosis::series(robot.robot, run.settings.contacts, run.consistent.model, run.test,
+                                run.settings.stride);
+  run.errors = test_errors(robot, options, run, raw.recording);
+  run.structures = diagnosis::unexplained(robot.robot, run.test, run.after);
+  note_worse_joints(robot.robot, run);
+  return run;
+}
+
+}  // namespace shapeid::app

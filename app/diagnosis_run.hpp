@@ -1,0 +1,51 @@
+// The run behind `shapeid diagnose`: logs in, a richer model and what it is worth out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shapeid/app/inputs.hpp"
+#include "shapeid/diagnosis/consistent.hpp"
+#include "shapeid/diagnosis/unexplained.hpp"
+
+namespace shapeid::app {
+
+struct DiagnoseOptions {
+  MotionInputs inputs;
+  std::string test;       ///< log for the final comparison; empty: every fifth two seconds
+  std::string reference;  ///< earlier log of the same robot; may be empty
+  std::string shapes;     ///< shapes.yaml; empty: generous boxes
+  std::vector<std::string> free_links;
+  bool whole_body = false;
+  bool trust = false;          ///< the given inertias are right: no link is sought
+  double expected_mass = 0.0;  ///< kg; 0: as given
+  diagnosis::SelectionRule rule;
+};
+
+/// Residuals on motion that was used for nothing else, per generalised row, rms.
+struct TestErrors {
+  std::string where;
+  std::size_t samples = 0;
+  Eigen::VectorXd zero, given, found;
+  /// The same against the torque as logged, without any filter, joints only.
+  Eigen::VectorXd unfiltered_zero, unfiltered_given, unfiltered_found;
+  /// What noise of the logged torque leaves after the filter, joints only, N m: from what the
+  /// filter takes away, as though it were white.
+  Eigen::VectorXd noise_floor;
+};
+
+struct DiagnosisRun {
+  diagnosis::LoopSettings settings;
+  diagnosis::LoopResult loop;
+  diagnosis::Consistent consistent;
+  TestErrors errors;
+  std::vector<diagnosis::Structure> structures;
+  diagnosis::Recording test;
+  diagnosis::Series before, after;  ///< on the test motion
+  MotionReport motion;
+  std::vector<std::string> notes;
+};
+
+[[nodiscard]] DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& options);
+
+}  // namespace shapeid::app

@@ -1,0 +1,149 @@
+#include "shapeid/diagnosis/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/reference/contact.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+constexpr std::size_t seen_samples = 2000;  // of a log, evenly: enough for these coarse questions
+
+std::size_t stride_for(const Recording& recording) {
+  return std::max<std::size_t>(1, recording.samples().size() / seen_samples);
+}
+
+void check_excitation(const Robot& robot, const Recording& recording) {
+  // Less than a degree, or a millimetre: encoder noise and elasticity move that much.
+  constexpr double least_angle = 0.02, least_length = 1e-3;
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    double lower = recording[0].q[j], upper = lower;
+    for (const Sample& s : recording.samples()) {
+      lower = std::min(lower, s.q[j]);
+      upper = std::max(upper, s.q[j]);
+    }
+    const bool slides = robot.joint(j).kind == JointKind::prismatic;
+    if (upper - lower > (slides ? least_length : least_angle)) return;
+  }
+  throw Refusal("not-excited", "no joint moves; log a motion that moves and loads every joint");
+}
+
+void check_torque_scale(const Robot& robot, const Recording& recording,
+                        reference::ContactTreatment contacts) {
+  const RichModel given{stacked_parameters(robot), {}};
+  const Viewer viewer(robot, contacts, {});
+  const Eigen::Index n = robot.joint_count();
+  Eigen::VectorXd pp = Eigen::VectorXd::Zero(n), pt = pp, tt = pp;
+  for (const std::size_t i : recording.usable(stride_for(recording))) {
+    const View view = viewer.view(recording, i);
+    const Eigen::VectorXd load = predict(viewer, view, given).load.joint;
+    pp += load.cwiseAbs2();
+    pt += load.cwiseProduct(view.sample.tau);
+    tt += view.sample.tau.cwiseAbs2();
+  }
+  // Joints whose torque the given model follows closely tell the scale; friction and errors of
+  // inertia do not make a factor of four at all of them.
+  constexpr double close = 0.8, far = 4.0;
+  int telling = 0, wrong = 0;
+  double typical = 0.0;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double correlation = pt[j] / std::sqrt(std::max(pp[j] * tt[j], 1e-300));
+    if (!(std::abs(correlation) > close)) continue;
+    const double scale = pt[j] / pp[j];
+    ++telling;
+    if (scale > far || scale < 1.0 / far) ++wrong;
+    typical += std::log(std::max(std::abs(scale), 1e-9));
+  }
+  if (telling > 0 && wrong == telling) {
+    throw Refusal(
+        "torque-scale",
+        fmt::format("the logged torque follows the given model at {} joints, but is {:.2g} "
+                    "times as large: a current or the motor's torque; declare it in the "
+                    "mapping (torque: kind, factor)",
+                    telling, std::exp(typical / telling)));
+  }
+}
+
+void check_contact_labels(const Robot& robot, const Recording& recording) {
+  // Speed of declared stance feet against their mean, and of the feet in the air against the same.
+  double stance = 0.0, swing = 0.0;
+  std::size_t stance_count = 0, swing_count = 0;
+  for (const std::size_t i : recording.usable(stride_for(recording))) {
+    const Sample& s = recording[i];
+    const Eigen::Matrix3Xd v = reference::contact_velocities(robot, s);
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    int standing = 0;
+    for (std::size_t c = 0; c < s.in_contact.size(); ++c) {
+      if (!s.in_contact[c]) continue;
+      mean += v.col(static_cast<Eigen::Index>(c));
+      ++standing;
+    }
+    if (standing < 2) continue;
+    mean /= standing;
+    for (std::size_t c = 0; c < s.in_contact.size(); ++c) {
+      const double speed = (v.col(static_cast<Eigen::Index>(c)) - mean).squaredNorm();
+      (s.in_contact[c] ? stance : swing) += speed;
+      ++(s.in_contact[c] ? stance_count : swing_count);
+    }
+  }
+  constexpr std::size_t enough = 50;
+  if (stance_count < enough || swing_count < enough) return;
+  const double standing = std::sqrt(stance / static_cast<double>(stance_count));
+  const double flying = std::sqrt(swing / static_cast<double>(swing_count));
+  constexpr double alike = 0.7;  // standing feet of a trot move at a fifth of those in the air
+  if (standing > alike * flying) {
+    throw Refusal("contact-labels",
+                  fmt::format("feet declared to stand move against each other at {:.2g} m/s, feet "
+                              "declared in the air at {:.2g} m/s: the labels do not fit the motion",
+                              standing, flying));
+  }
+}
+
+}  // namespace
+
+void check_recording(const Robot& robot, const Recording& recording,
+                     reference::ContactTreatment contacts) {
+  if (recording.samples().empty()) throw Refusal("no-data", "the log has no usable sample");
+  check_excitation(robot, recording);
+  check_torque_scale(robot, recording, contacts);
+  if (contacts == reference::ContactTreatment::project) check_contact_labels(robot, recording);
+}
+
+void check_clocks(const Robot& robot, const Recording& recording, const LoopSettings& settings) {
+  const std::vector<AppliedEffect> delay = {at_start(*find_effect("torque_delay"), 0)};
+  Tally tally = empty_tally(robot, delay);
+  TallyOptions options;
+  options.stride = settings.stride;
+  options.weight = Eigen::VectorXd::Ones(robot.dof());
+  constexpr double blocks = 40.0;
+  options.block_seconds = recording.duration() / blocks;
+  const RichModel given{stacked_parameters(robot), {}};
+  add_to_tally(tally, robot, settings.contacts, given, recording, options, false);
+  const Eigen::Index column = tally.inertial;
+  const std::size_t half = tally.blocks.size() / 2;
+  if (half < 4) return;
+  const BlockFits fits(std::move(tally), given.Phi, settings.size, 4);
+  Term masses{"masses", {}, {}, 0};
+  for (const int link : settings.shapes.free_links) {
+    for (Eigen::Index p = 0; p < 10; ++p) masses.columns.push_back(Eigen::Index{10} * link + p);
+  }
+  const Term whole{"delay", {column}, {false}, 0};
+  const Term later{"drift", {column}, {false}, half};
+  const Fit fit = fits.fit({masses, whole, later});
+  const Eigen::Index last = fit.value.size() - 1;
+  constexpr double least_drift = 5e-3;  // s; less is a delay that depends on the motion
+  constexpr double least_z = 6.0;
+  const double drift = fit.value[last];
+  if (std::abs(drift) > least_drift && std::abs(drift) > least_z * fit.standard_error[last]) {
+    throw Refusal("clock-skew",
+                  fmt::format("torque is {:.1f} ms late in the log's first half and {:.1f} ms in "
+                              "its second: the clocks of torque and joints drift apart",
+                              1e3 * fit.value[last - 1], 1e3 * (fit.value[last - 1] + drift)));
+  }
+}
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,23 @@
+// Logs that no diagnosis should be made from.
+#pragma once
+
+#include "shapeid/diagnosis/loop.hpp"
+
+namespace shapeid::diagnosis {
+
+/// Throws Refusal:
+///  * "not-excited": no joint moves;
+///  * "torque-scale": the torque that the given model predicts, and that the logged one follows,
+///    differs from it by the same large factor at every joint: a current, or the motor's side;
+///  * "contact-labels": feet that are declared to stand move against each other as fast as feet in
+///    the air.
+/// Units, signs, frozen channels and clocks that cannot be are refused when the log is read
+/// (models/plausibility.hpp), a torque column that is a current by its name as well.
+void check_recording(const Robot& robot, const Recording& recording,
+                     reference::ContactTreatment contacts);
+
+/// Throws Refusal "clock-skew" if torque and joints drift apart in time: the delay that explains
+/// the first half of the log best differs from that of the second half.
+void check_clocks(const Robot& robot, const Recording& recording, const LoopSettings& settings);
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,192 @@
+#include "shapeid/diagnosis/torque_header.hpp"
+
+#include <fmt/format.h>
+
+#include "shapeid/diagnosis/hypotheses.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+constexpr const char* algebra = R"(
+struct Vector {
+  double x = 0, y = 0, z = 0;
+};
+inline Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Vector operator*(Vector a, double s) { return s * a; }
+inline Vector& operator+=(Vector& a, Vector b) { return a = a + b; }
+inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vector cross(Vector a, Vector b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+struct Matrix {  // rows
+  Vector a, b, c;
+};
+inline Vector operator*(const Matrix& m, Vector v) { return {dot(m.a, v), dot(m.b, v), dot(m.c, v)}; }
+inline Matrix transposed(const Matrix& m) {
+  return {{m.a.x, m.b.x, m.c.x}, {m.a.y, m.b.y, m.c.y}, {m.a.z, m.b.z, m.c.z}};
+}
+inline Matrix operator*(const Matrix& m, const Matrix& n) {
+  const Matrix t = transposed(n);
+  return transposed({m * t.a, m * t.b, m * t.c});
+}
+/// By the angle (rad) about a unit vector.
+inline Matrix turned(Vector u, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle), k = 1 - c;
+  return {{c + k * u.x * u.x, k * u.x * u.y - s * u.z, k * u.x * u.z + s * u.y},
+          {k * u.y * u.x + s * u.z, c + k * u.y * u.y, k * u.y * u.z - s * u.x},
+          {k * u.z * u.x - s * u.y, k * u.z * u.y + s * u.x, c + k * u.z * u.z}};
+}
+
+struct Link {
+  int parent;
+  bool slides;
+  Vector axis, place;
+  Matrix turn;
+  double mass;
+  Vector first_moment;
+  Matrix tensor;  // about the link's origin
+};
+)";
+
+constexpr const char* dynamics = R"(
+/// Motion of every link and the wrench it takes, in base axes.
+struct Links {
+  Matrix R[link_count];
+  Vector p[link_count], w[link_count], alpha[link_count], a[link_count];  // origin, motion
+  Vector f[link_count], n[link_count];  // force; moment about the link's origin
+  Vector z[link_count];                 // z[j]: axis of joint j
+  static int parent(int j) { return links[j + 1].parent; }
+
+  void move(const double* q, const double* dq, const double* ddq, const double* base) {
+    R[0] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    a[0] = {0, 0, 9.81};
+    if (base != nullptr) {
+      w[0] = {base[0], base[1], base[2]};
+      alpha[0] = {base[3], base[4], base[5]};
+      a[0] = {base[6], base[7], base[8]};
+    }
+    for (int i = 1; i < link_count; ++i) {
+      const Link& link = links[i];
+      const int k = link.parent, j = i - 1;
+      const Matrix frame = R[k] * link.turn;
+      z[j] = frame * link.axis;
+      R[i] = link.slides ? frame : frame * turned(link.axis, q[j]);
+      Vector r = R[k] * link.place;
+      if (link.slides) r += z[j] * q[j];
+      p[i] = p[k] + r;
+      w[i] = w[k];
+      alpha[i] = alpha[k];
+      a[i] = a[k] + cross(alpha[k], r) + cross(w[k], cross(w[k], r));
+      if (link.slides) {
+        a[i] += z[j] * ddq[j] + 2.0 * cross(w[k], z[j] * dq[j]);
+      } else {
+        w[i] += z[j] * dq[j];
+        alpha[i] += z[j] * ddq[j] + cross(w[k], z[j] * dq[j]);
+      }
+    }
+    for (int i = 0; i < link_count; ++i) {
+      const Vector h = R[i] * links[i].first_moment;
+      const Matrix tensor = R[i] * links[i].tensor * transposed(R[i]);
+      f[i] = links[i].mass * a[i] + cross(alpha[i], h) + cross(w[i], cross(w[i], h));
+      n[i] = cross(h, a[i]) + tensor * alpha[i] + cross(w[i], tensor * w[i]);
+    }
+  }
+
+  void torques(double* tau) {
+    for (int i = link_count - 1; i > 0; --i) {
+      const int k = links[i].parent;
+      tau[i - 1] += links[i].slides ? dot(z[i - 1], f[i]) : dot(z[i - 1], n[i]);
+      const Vector r = p[i] + -1.0 * p[k];
+      f[k] += f[i];
+      n[k] += n[i] + cross(r, f[i]);
+    }
+  }
+};
+)";
+
+std::string vector_text(const Eigen::Vector3d& v) {
+  return fmt::format("{{{}, {}, {}}}", v.x(), v.y(), v.z());
+}
+
+std::string matrix_text(const Eigen::Matrix3d& m) {
+  return fmt::format("{{{}, {}, {}}}", vector_text(m.row(0).transpose()),
+                     vector_text(m.row(1).transpose()), vector_text(m.row(2).transpose()));
+}
+
+std::string link_text(const Link& link, const InertialParameters& inertia) {
+  return fmt::format("    {{{}, {}, {}, {}, {}, {}, {}, {}}},  // {}\n", link.parent,
+                     link.joint.kind == JointKind::prismatic, vector_text(link.joint.axis),
+                     vector_text(link.joint.placement.translation()),
+                     matrix_text(link.joint.placement.linear()), inertia.mass(),
+                     vector_text(inertia.first_moment()), matrix_text(inertia.tensor()), link.name);
+}
+
+/// One effect's statements with its numbers in scope.
+std::string scoped(const AppliedEffect& a, const std::string& statements) {
+  std::string numbers = fmt::format("const int j = {};", a.site);
+  const auto declare = [&](const std::string& name, double value) {
+    numbers += fmt::format(" const double {} = {};", name, value);
+  };
+  for (std::size_t i = 0; i < a.effect->shape.size(); ++i) {
+    declare(a.effect->shape[i].name, a.shape[static_cast<Eigen::Index>(i)]);
+  }
+  for (std::size_t i = 0; i < a.effect->parameters.size(); ++i) {
+    declare(a.effect->parameters[i].name, a.value[static_cast<Eigen::Index>(i)]);
+  }
+  return fmt::format("  {{  // {}\n    {}\n    {}\n  }}\n", a.effect->id, numbers, statements);
+}
+
+}  // namespace
+
+std::string torque_header(const Robot& robot, const RichModel& model) {
+  const Viewer viewer(robot, reference::ContactTreatment::ignore, model.effects);
+  std::string inertias, motion, between, torque, left_out;
+  Eigen::VectorXd Phi = model.Phi;
+  for (const AppliedEffect& a : model.effects) {
+    const TorqueCode& code = a.effect->code;
+    if (!code.motion.empty()) motion += scoped(a, code.motion);
+    if (!code.link.empty()) between += scoped(a, code.link);
+    if (!code.torque.empty()) torque += scoped(a, code.torque);
+    const bool in_robot = a.effect->transform.robot != nullptr;
+    const bool in_inertia = a.effect->id == "payload";
+    if (in_inertia) Phi.segment<10>(Eigen::Index{10} * a.site) += a.value;
+    if (code.motion.empty() && code.link.empty() && code.torque.empty() && !in_robot &&
+        !in_inertia) {
+      left_out += fmt::format("//   {}\n", hypothesis_id(robot, a));
+    }
+  }
+  for (int i = 0; i < robot.link_count(); ++i) {
+    inertias += link_text(viewer.robot().links[static_cast<std::size_t>(i)],
+                          {Phi.segment<10>(Eigen::Index{10} * i)});
+  }
+  std::string names;
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    names += fmt::format("//   {} {}\n", j, robot.joint(j).name);
+  }
+  std::string text =
+      "// Joint torques of " + robot.name +
+      ", as shapeid identified it. Without contact forces: add J^T f.\n// Joints:\n" + names;
+  if (!left_out.empty()) text += "// Found, and not part of this prediction:\n" + left_out;
+  text += "#pragma once\n\n#include <cmath>\n\nnamespace shapeid_model {\n";
+  text += algebra;
+  text += fmt::format("\nconstexpr int joint_count = {}, link_count = {};\n", robot.joint_count(),
+                      robot.link_count());
+  text += "const Link links[link_count] = {\n" + inertias + "};\n";
+  text += dynamics;
+  text +=
+      "\n/// q, dq, ddq, tau: joint_count numbers each (rad, N m). base: gyro, its derivative, "
+      "specific\n/// force, in base axes; null: fixed and upright.\n"
+      "inline void predict(const double* q_logged, const double* dq, const double* ddq,\n"
+      "                    const double* base, double* tau) {\n"
+      "  double q[joint_count + 1] = {}, load[joint_count + 1] = {};\n"
+      "  for (int i = 0; i < joint_count; ++i) q[i] = q_logged[i];\n" +
+      motion +
+      "  Links at;\n  at.move(q, dq, ddq, base);\n"
+      "  for (int i = 0; i < joint_count; ++i) tau[i] = 0.0;\n"
+      "  Links rigid = at;\n  rigid.torques(load);\n" +
+      between + "  at.torques(tau);\n" + torque + "}\n\n}  // namespace shapeid_model\n";
+  return text;
+}
+
+}  // namespace shapeid::diagnosis

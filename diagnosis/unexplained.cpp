@@ -1,0 +1,154 @@
+#include "shapeid/diagnosis/unexplained.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "shapeid/diagnosis/fits.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+constexpr std::size_t bins = 10;
+constexpr std::size_t blocks = 30, folds = 6;
+// As for effects; a few hundred curves are tried.
+constexpr double least_t = 3.0;
+constexpr double least_share = 0.02;
+
+/// Edges so that every bin holds as many samples.
+std::vector<double> quantiles(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  std::vector<double> edges;
+  for (std::size_t i = 1; i < bins; ++i) edges.push_back(x[i * x.size() / bins]);
+  return edges;
+}
+
+std::size_t bin_of(double x, const std::vector<double>& edges) {
+  return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), x) - edges.begin());
+}
+
+struct Binned {
+  std::vector<double> sum = std::vector<double>(bins, 0.0), count = sum;
+  void add(std::size_t bin, double y) {
+    sum[bin] += y;
+    count[bin] += 1.0;
+  }
+  [[nodiscard]] double mean() const {
+    return std::accumulate(sum.begin(), sum.end(), 0.0) /
+           std::max(1.0, std::accumulate(count.begin(), count.end(), 0.0));
+  }
+  [[nodiscard]] double mean(std::size_t bin) const {
+    return count[bin] > 0.0 ? sum[bin] / count[bin] : mean();
+  }
+};
+
+/// The curve of y over x; empty if it does not hold on other blocks.
+std::optional<Structure> curve(const std::vector<double>& x, const std::vector<double>& y) {
+  const std::vector<double> edges = quantiles(x);
+  if (!(edges.back() > edges.front())) return std::nullopt;  // a constant
+  const auto block_of = [&](std::size_t i) { return i * blocks / x.size(); };
+  std::vector<Binned> outside(folds);
+  Binned all, places;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const std::size_t bin = bin_of(x[i], edges), fold = block_of(i) * folds / blocks;
+    for (std::size_t f = 0; f < folds; ++f) {
+      if (f != fold) outside[f].add(bin, y[i]);
+    }
+    all.add(bin, y[i]);
+    places.add(bin, x[i]);
+  }
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(blocks), after = before;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Binned& train = outside[block_of(i) * folds / blocks];
+    const auto b = static_cast<Eigen::Index>(block_of(i));
+    before[b] += std::pow(y[i] - train.mean(), 2);
+    after[b] += std::pow(y[i] - train.mean(bin_of(x[i], edges)), 2);
+  }
+  const Gain gain = gain_of(before, after);
+  if (!(gain.t > least_t && gain.share > least_share)) return std::nullopt;
+  Structure found;
+  found.share = gain.share;
+  found.t = gain.t;
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    found.at.push_back(places.mean(bin));
+    found.value.push_back(all.mean(bin));
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<Structure> unexplained(const Robot& robot, const Recording& recording,
+                                   const Series& series) {
+  const std::size_t count = series.index.size();
+  std::vector<Structure> found;
+  if (count < 10 * bins) return found;
+  const auto signal = [&](const auto& of) {
+    std::vector<double> x;
+    for (std::size_t i = 0; i < count; ++i) x.push_back(of(recording[series.index[i]], i));
+    return x;
+  };
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    const Eigen::Index row = robot.base_dof() + j;
+    std::vector<double> y;
+    for (Eigen::Index i = 0; i < series.residual.cols(); ++i) y.push_back(series.residual(row, i));
+    const auto best_of = [&](auto&& candidates) {
+      std::optional<Structure> best;
+      for (const auto& [name, x] : candidates) {
+        if (std::any_of(x.begin(), x.end(), [](double v) { return std::isnan(v); })) continue;
+        std::optional<Structure> c = curve(x, y);
+        if (!c || (best && best->share >= c->share)) continue;
+        best = c;
+        best->joint = robot.joint(j).name;
+        best->variable = name;
+      }
+      if (best) found.push_back(*best);
+    };
+    using Named = std::vector<std::pair<std::string, std::vector<double>>>;
+    Named position, velocity, acceleration, torque, time, extra;
+    for (int k = 0; k < robot.joint_count(); ++k) {
+      const std::string& name = robot.joint(k).name;
+      position.emplace_back("q." + name, signal([k](const Sample& s, auto) { return s.q[k]; }));
+      velocity.emplace_back("dq." + name, signal([k](const Sample& s, auto) { return s.dq[k]; }));
+    }
+    const std::string& own = robot.joint(j).name;
+    acceleration.emplace_back("ddq." + own,
+                              signal([j](const Sample& s, auto) { return s.ddq[j]; }));
+    // The predicted torque: the logged one is part of the residual.
+    torque.emplace_back("tau." + own, signal([&](const Sample&, std::size_t i) {
+                          return series.predicted(row, static_cast<Eigen::Index>(i));
+                        }));
+    time.emplace_back("time", signal([](const Sample& s, auto) { return s.time; }));
+    for (std::size_t e = 0; e < recording.extra().size(); ++e) {
+      extra.emplace_back(recording.extra()[e],
+                         signal([e](const Sample& s, auto) { return s.extra[e]; }));
+    }
+    for (const Named& kind : {position, velocity, acceleration, torque, time, extra}) {
+      best_of(kind);
+    }
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Structure& a, const Structure& b) { return a.share > b.share; });
+  return found;
+}
+
+Autocorrelation autocorrelation(const Recording& recording, const Series& series, Eigen::Index row,
+                                int lags) {
+  Autocorrelation result;
+  const Eigen::VectorXd y = series.residual.row(row).transpose();
+  const Eigen::VectorXd d = y.array() - y.mean();
+  const Eigen::Index n = d.size();
+  const double variance = d.squaredNorm();
+  for (int lag = 0; lag <= lags && lag < n; ++lag) {
+    result.value.push_back(variance > 0.0 ? d.head(n - lag).dot(d.tail(n - lag)) / variance : 0.0);
+  }
+  constexpr double of_95_percent = 1.96;
+  result.band = of_95_percent / std::sqrt(static_cast<double>(std::max<Eigen::Index>(n, 1)));
+  if (series.index.size() > 1) {
+    result.step = static_cast<double>(series.index[1] - series.index[0]) / recording.rate();
+  }
+  return result;
+}
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,111 @@
+// Logs that are refused, each by its name.
+#include "shapeid/diagnosis/checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::arm;
+using test::arm_settings;
+using test::record;
+
+std::string refusal(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Refusal& r) {
+    return r.code();
+  }
+  return "accepted";
+}
+
+std::string check(const Recording& recording) {
+  return refusal([&] { check_recording(arm(), recording, reference::ContactTreatment::ignore); });
+}
+
+/// The recording with every sample changed.
+Recording changed(const Recording& recording, const std::function<void(Sample&)>& change) {
+  std::vector<Sample> samples = recording.samples();
+  for (Sample& s : samples) change(s);
+  return {samples, recording.rate()};
+}
+
+TEST(Checks, AcceptAGoodLog) {
+  const Recording log = record({});
+  EXPECT_EQ(check(log), "accepted");
+  EXPECT_EQ(refusal([&] { check_clocks(arm(), log, arm_settings()); }), "accepted");
+}
+
+TEST(Checks, RobotAtRest) {
+  const Sample still = record({})[0];
+  EXPECT_EQ(check(changed(record({}), [&](Sample& s) { s.q = still.q; })), "not-excited");
+}
+
+TEST(Checks, TorqueThatIsACurrent) {
+  EXPECT_EQ(check(changed(record({}), [](Sample& s) { s.tau *= 0.1; })), "torque-scale");
+  EXPECT_EQ(check(changed(record({}), [](Sample& s) { s.tau *= 1.3; })), "accepted");
+}
+
+TEST(Checks, NoSample) { EXPECT_EQ(check(Recording({}, 100.0)), "no-data"); }
+
+/// The clock of the torque runs a thousandth slow: 20 ms in 20 s.
+TEST(Checks, ClocksThatDriftApart) {
+  const Recording log = record({});
+  std::vector<Sample> samples;
+  for (const std::size_t i : log.usable(1)) {
+    Sample s = log[i];
+    s.tau = log.shifted(i, -1e-3 * (log.elapsed(i) - 10.0)).tau;
+    samples.push_back(s);
+  }
+  const Recording drifting(samples, log.rate());
+  EXPECT_EQ(refusal([&] { check_clocks(arm(), drifting, arm_settings()); }), "clock-skew");
+}
+
+/// Two feet on two legs; the labels say which stands.
+TEST(Checks, ContactLabelsAtOddsWithTheFeet) {
+  Robot robot;
+  robot.links.resize(3);
+  for (int leg = 1; leg < 3; ++leg) {
+    Link& link = robot.links[static_cast<std::size_t>(leg)];
+    link.name = "leg" + std::to_string(leg);
+    link.parent = 0;
+    link.joint.name = "hip" + std::to_string(leg);
+    link.joint.axis = Eigen::Vector3d::UnitY();
+    link.inertia = from_centre(1.0, {0.0, 0.0, -0.1}, 0.01 * Eigen::Matrix3d::Identity());
+  }
+  robot.links[0].inertia = from_centre(5.0, {0.0, 0.0, 0.0}, 0.1 * Eigen::Matrix3d::Identity());
+  for (int foot = 0; foot < 3; ++foot) {
+    Contact contact{"foot" + std::to_string(foot), foot, ContactKind::point,
+                    Eigen::Isometry3d::Identity()};
+    contact.frame.translation().z() = foot == 0 ? 0.0 : -0.3;
+    robot.contacts.push_back(contact);
+  }
+  const auto log = [&](bool right) {
+    std::vector<Sample> samples;
+    for (int k = 0; k < 2000; ++k) {
+      Sample s;
+      s.time = 0.01 * k;
+      s.q = Eigen::Vector2d(0.3 * std::sin(3.0 * s.time), 0.3 * std::cos(5.0 * s.time));
+      s.dq = Eigen::Vector2d(0.0, -1.5 * std::sin(5.0 * s.time));
+      s.ddq = s.tau = Eigen::Vector2d::Zero();
+      // The first leg does not move against the base, the second one does.
+      s.in_contact = {true, right, !right};
+      samples.push_back(s);
+    }
+    return Recording(samples, 100.0);
+  };
+  const auto check_log = [&](bool right) {
+    return refusal(
+        [&] { check_recording(robot, log(right), reference::ContactTreatment::project); });
+  };
+  EXPECT_EQ(check_log(true), "accepted");
+  EXPECT_EQ(check_log(false), "contact-labels");
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,114 @@
+// The loop as a whole, on computed logs: what is in them is found, where it is and how large, and
+// nothing else.
+#include "shapeid/diagnosis/loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "shapeid/diagnosis/consistent.hpp"
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::arm;
+using test::arm_settings;
+using test::ArmLog;
+using test::effect;
+using test::found_ids;
+using test::record;
+using Ids = std::vector<std::string>;
+
+LoopResult loop_of(const ArmLog& log) {
+  return close_loop(arm(), record(log), nullptr, arm_settings());
+}
+
+/// Within five of its standard errors, which is what the error is for; one in a million by chance.
+void expect_value(const Found& found, const std::vector<double>& truth) {
+  constexpr double errors = 5.0;
+  for (std::size_t p = 0; p < truth.size(); ++p) {
+    const auto at = static_cast<Eigen::Index>(p);
+    EXPECT_LT(std::abs(found.effect.value[at] - truth[p]), errors * found.standard_error[at])
+        << found.id << " " << found.effect.value[at] << " +- " << found.standard_error[at];
+  }
+}
+
+TEST(Loop, FindsNothingInCleanLogs) {
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    const LoopResult result = loop_of({{}, 20.0, 0.02, seed});
+    EXPECT_EQ(found_ids(result), Ids{}) << "seed " << seed;
+    EXPECT_NEAR(result.error_end, 1.0, 0.2) << "weights are one over the variance that is left";
+  }
+}
+
+struct Truth {
+  std::string id, place;
+  int site;
+  std::vector<double> value;
+};
+
+class OneEffect : public ::testing::TestWithParam<Truth> {};
+
+TEST_P(OneEffect, IsFoundWhereItIs) {
+  const Truth& truth = GetParam();
+  const LoopResult result = loop_of({{effect(truth.id, truth.site, truth.value)}});
+  const std::string wanted = truth.id + "@" + truth.place;
+  ASSERT_EQ(result.found.size(), 1U) << ::testing::PrintToString(found_ids(result));
+  EXPECT_EQ(result.found[0].id, wanted);
+  expect_value(result.found[0], truth.value);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, OneEffect,
+                         ::testing::Values(Truth{"viscous_friction", "joint2", 1, {0.3}},
+                                           Truth{"coulomb_friction", "joint3", 2, {0.4}},
+                                           Truth{"torque_offset", "joint1", 0, {0.3}},
+                                           Truth{"cogging", "joint1", 0, {0.3, 0.2}},
+                                           Truth{"torque_delay", "all", 0, {0.012}}),
+                         [](const auto& one) { return one.param.id; });
+
+TEST(Loop, LoadThatComesIsFoundOnItsLinkFromItsMoment) {
+  AppliedEffect load =
+      effect("payload_from", 3, {0.8, 0.02, 0.0, 0.2, 0.06, 0.0, -0.004, 0.06, 0.0, 0.002});
+  load.shape[0] = 9.0;
+  const LoopResult result = loop_of({{load}, 20.0});
+  ASSERT_EQ(found_ids(result), Ids{"payload_from@link3"});
+  const Found& found = result.found[0];
+  EXPECT_LT(std::abs(found.effect.shape[0] - 9.0), 0.5) << "a block";
+  EXPECT_LT(std::abs(found.effect.value[0] - 0.8), 0.1);
+}
+
+TEST(Loop, StaticLoadIsFoundAgainstAReferenceLogAndNotWithout) {
+  const AppliedEffect load =
+      effect("payload", 3, {0.8, 0.02, 0.0, 0.2, 0.06, 0.0, -0.004, 0.06, 0.0, 0.002});
+  const Recording with = record({{load}, 20.0, 0.02, 2});
+  const Recording without = record({{}, 20.0, 0.02, 1});
+  EXPECT_EQ(found_ids(close_loop(arm(), with, nullptr, arm_settings())), Ids{});
+  const LoopResult result = close_loop(arm(), with, &without, arm_settings());
+  ASSERT_EQ(found_ids(result), Ids{"payload@link3"});
+  EXPECT_TRUE(result.found[0].since_reference);
+  EXPECT_LT(std::abs(result.found[0].effect.value[0] - 0.8), 0.1);
+}
+
+TEST(Loop, FrictionThatIsNegativeIsNotBelieved) {
+  const LoopResult result = loop_of({{effect("viscous_friction", 1, {-0.3})}});
+  for (const Found& f : result.found) EXPECT_NE(f.id, "viscous_friction@joint2");
+}
+
+TEST(Consistent, LinksAreBodiesAndTheEffectIsStillThere) {
+  const Recording log = record({{effect("viscous_friction", 1, {0.3})}});
+  const LoopSettings settings = arm_settings();
+  const LoopResult loop = close_loop(arm(), log, nullptr, settings);
+  const Consistent result = make_consistent(arm(), log, nullptr, settings, loop);
+  ASSERT_EQ(result.model.effects.size(), 1U);
+  constexpr double errors = 5.0;
+  EXPECT_LT(std::abs(result.model.effects[0].value[0] - 0.3), errors * result.effect_error[0][0]);
+  for (int link = 1; link < 4; ++link) {
+    const InertialParameters body{result.model.Phi.segment<10>(10 * link)};
+    EXPECT_FALSE(why_impossible(body)) << link;
+  }
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
