@@ -18,12 +18,14 @@ constexpr double regularity = 1e-10;
 class Sums {
  public:
   Sums(const BodyModel& shapes, Tally tally, const std::vector<bool>& since)
-      : tally_(std::move(tally)), effects_(tally_.columns() - tally_.inertial) {
+      : tally_(std::move(tally)),
+        target_(tally_.columns()),
+        effects_(tally_.columns() - tally_.inertial) {
     for (const int link : shapes.free_links) {
       for (Eigen::Index p = 0; p < 10; ++p) kept_.push_back(Eigen::Index{10} * link + p);
     }
     for (Eigen::Index e = 0; e <= effects_; ++e) kept_.push_back(tally_.inertial + e);
-    known_ = Eigen::VectorXd::Zero(tally_.columns() + 1);
+    known_ = Eigen::VectorXd::Zero(target_ + 1);
     known_.head(tally_.inertial) = shapes.known;
     for (Block& block : tally_.blocks) reduce(block, since);
   }
@@ -44,7 +46,7 @@ class Sums {
  private:
   void reduce(Block& block, const std::vector<bool>& since) const {
     Eigen::MatrixXd G = block.sums;
-    const Eigen::Index F = tally_.columns();
+    const Eigen::Index F = target_;
     const Eigen::VectorXd Gx = G * known_;
     G(F, F) += known_.dot(Gx) - 2.0 * Gx[F];
     G.col(F).head(F) -= Gx.head(F);
@@ -61,6 +63,7 @@ class Sums {
   }
 
   Tally tally_;
+  Eigen::Index target_;  ///< column of F before anything is left out
   Eigen::Index effects_;
   std::vector<Eigen::Index> kept_;
   Eigen::VectorXd known_;
@@ -137,7 +140,7 @@ class Solver {
     problem.V = shape_volumes(shapes);
     problem.lambda = default_lambda(problem, settings_.expected_mass);
     problem.mass_bound = 10.0 * settings_.expected_mass;
-    reference::DivisionOptions division;
+    DivisionOptions division;
     division.most_divisions = settings_.divisions;
     division.expected_mass = settings_.expected_mass;
     return reference::divide_and_solve(shapes, problem, division);

@@ -99,6 +99,15 @@ class Search {
     return false;
   }
 
+  [[nodiscard]] bool large(std::size_t k, const Fit& fit) const {
+    const Effect& effect = *candidates_[k].effect.effect;
+    for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+      const double least = rule_.least_size * effect.parameters[p].size;
+      if (std::abs(fit.value[static_cast<Eigen::Index>(p)]) > least) return true;
+    }
+    return false;
+  }
+
   /// Some parameter differs from zero, and none leaves the range in which it is believed.
   [[nodiscard]] bool credible(std::size_t k, const Fit& fit) const {
     const Effect& effect = *candidates_[k].effect.effect;
@@ -106,6 +115,7 @@ class Search {
     const Eigen::ArrayXd each = fit.value.array() / fit.standard_error.array();
     const double z = effect.is_payload ? each[0] : each.abs().maxCoeff();  // a load has mass
     if (!(z > rule_.least_z)) return false;
+    if (!large(k, fit)) return false;
     for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
       const auto at = static_cast<Eigen::Index>(p);
       // The column of a transformation is that of a change.
@@ -213,7 +223,9 @@ class Search {
         std::vector<std::size_t> without = accepted_;
         without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
         const Gain gain = gain_of(fits_.held_out(terms(without)), with_all);
-        const double t = wrong_sign(accepted_[i], own, 0.0) || gain.share < 0.0 ? -1.0 : gain.t;
+        const bool not_believed =
+            wrong_sign(accepted_[i], own, 0.0) || !large(accepted_[i], own) || gain.share < 0.0;
+        const double t = not_believed ? -1.0 : gain.t;
         if (t < least) {
           least = t;
           worst = i;

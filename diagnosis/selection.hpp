@@ -26,7 +26,10 @@ struct Candidate {
 /// passes wrongly is structure that no hypothesis describes.
 struct SelectionRule {
   double least_t = 2.5;
-  double least_gain = 0.002;
+  double least_gain = 0.005;
+  /// Of its usual size that some parameter must have: products of filtered signals are not filtered
+  /// products, which looks like small delays, biases and inertias in logs without any.
+  double least_size = 0.2;
   double least_z = 4.0;  ///< standard errors by which some parameter must differ from zero
   int most_terms = 60;
   int shortlist = 24;  ///< of the candidates, by promise, whose held-out error is computed

@@ -141,15 +141,17 @@ std::string scoped(const AppliedEffect& a, const std::string& statements) {
 
 std::string torque_header(const Robot& robot, const RichModel& model) {
   const Viewer viewer(robot, reference::ContactTreatment::ignore, model.effects);
-  std::string inertias, motion, between, torque, left_out;
+  std::string inertias, motion, between, torque, scaling, left_out;
   Eigen::VectorXd Phi = model.Phi;
   for (const AppliedEffect& a : model.effects) {
     const TorqueCode& code = a.effect->code;
     if (!code.motion.empty()) motion += scoped(a, code.motion);
     if (!code.link.empty()) between += scoped(a, code.link);
-    if (!code.torque.empty()) torque += scoped(a, code.torque);
+    // What scales the prediction scales all of it, wherever it stands in the list.
+    const bool scales = a.effect->transform.rows != nullptr;
+    if (!code.torque.empty()) (scales ? scaling : torque) += scoped(a, code.torque);
     const bool in_robot = a.effect->transform.robot != nullptr;
-    const bool in_inertia = a.effect->id == "payload";
+    const bool in_inertia = a.effect->is_payload && a.effect->shape.empty();
     if (in_inertia) Phi.segment<10>(Eigen::Index{10} * a.site) += a.value;
     if (code.motion.empty() && code.link.empty() && code.torque.empty() && !in_robot &&
         !in_inertia) {
@@ -185,7 +187,7 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
       "  Links at;\n  at.move(q, dq, ddq, base);\n"
       "  for (int i = 0; i < joint_count; ++i) tau[i] = 0.0;\n"
       "  Links rigid = at;\n  rigid.torques(load);\n" +
-      between + "  at.torques(tau);\n" + torque + "}\n\n}  // namespace shapeid_model\n";
+      between + "  at.torques(tau);\n" + torque + scaling + "}\n\n}  // namespace shapeid_model\n";
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "shapeid/diagnosis/consistent.hpp"
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
 namespace shapeid::diagnosis {
@@ -108,6 +109,21 @@ TEST(Consistent, LinksAreBodiesAndTheEffectIsStillThere) {
     const InertialParameters body{result.model.Phi.segment<10>(10 * link)};
     EXPECT_FALSE(why_impossible(body)) << link;
   }
+}
+
+/// With two links known the third comes back as it is (a wrong column of known forces once gave it
+/// the mass of all three).
+TEST(Consistent, KnownLinksAreMovedOver) {
+  const Recording log = record({});
+  LoopSettings settings = arm_settings();
+  settings.shapes = generous_regions(arm(), {3});
+  settings.expected_mass = 1.0;
+  settings.rounds = 1;
+  const LoopResult loop = close_loop(arm(), log, nullptr, settings);
+  const Consistent result = make_consistent(arm(), log, nullptr, settings, loop);
+  const Eigen::VectorXd given = stacked_parameters(arm());
+  EXPECT_EQ(result.model.Phi.head(30), given.head(30));
+  EXPECT_LT(std::abs(result.model.Phi[30] - given[30]), 0.1 * given[30]);
 }
 
 }  // namespace

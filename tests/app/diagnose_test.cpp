@@ -1,0 +1,101 @@
+// diagnose on a simulated trot whose knee has friction that the model lacks, and its files in use.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "shapeid/models/log.hpp"
+#include "shapeid/models/log_writer.hpp"
+#include "shapeid/tests/app/command.hpp"
+
+namespace shapeid::test {
+namespace {
+
+const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
+const std::string files =
+    fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
+
+/// The log with b dq of one joint added to its torque.
+void add_friction(const std::string& from, const std::string& to, const std::string& joint,
+                  double b) {
+  LogReader log(from);
+  LogWriter out(to, log.columns());
+  const auto column = [&](const std::string& name) {
+    const auto at = std::find(log.columns().begin(), log.columns().end(), name);
+    EXPECT_NE(at, log.columns().end()) << name;
+    return static_cast<std::size_t>(at - log.columns().begin());
+  };
+  const std::size_t tau = column("tau." + joint), dq = column("dq." + joint);
+  while (std::optional<LogRow> row = log.next()) {
+    row->values[tau] += b * row->values[dq];
+    out.write(row->values);
+  }
+  out.close();
+}
+
+TEST(Diagnose, FindsAKneesFrictionAndItsFilesAreOfUse) {
+  ASSERT_EQ(shapeid("simulate --seconds 10 --out clean.csv.gz").status, 0);
+  add_friction(scratch() + "/clean.csv.gz", scratch() + "/rough.csv.gz", "FR_knee", 0.4);
+  const CommandRun run =
+      shapeid(fmt::format("diagnose {} --log rough.csv.gz --json --out why", files));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto result = nlohmann::json::parse(run.out);
+  const auto& findings = result["findings"];
+  const auto knee = std::find_if(findings.begin(), findings.end(), [](const auto& f) {
+    return f["effect"] == "viscous_friction" && f["site"] == "FR_knee";
+  });
+  ASSERT_NE(knee, findings.end()) << findings.dump(2);
+  constexpr double errors = 5.0;
+  EXPECT_LT(std::abs((*knee)["value"].get<double>() - 0.4),
+            errors * (*knee)["standard_error"].get<double>());
+  const auto& rows = result["heldout"]["rows"];
+  const auto at =
+      static_cast<std::size_t>(std::find(rows.begin(), rows.end(), "FR_knee") - rows.begin());
+  EXPECT_LT(result["heldout"]["rms_after"][at].get<double>(),
+            0.5 * result["heldout"]["rms_before"][at].get<double>());
+
+  const std::string folder = scratch() + "/why/";
+  const std::string damping =
+      fmt::format("<dynamics damping=\"{}\" friction", (*knee)["value"].get<double>());
+  EXPECT_NE(read_file(folder + "identified.urdf").find(damping), std::string::npos);
+  const std::string page = read_file(folder + "report.html");
+  EXPECT_NE(page.find("viscous_friction@FR_knee"), std::string::npos);
+  EXPECT_EQ(page.find("http://localhost"), std::string::npos);
+  const CommandRun again = shapeid(fmt::format(
+      "identify {} --log rough.csv.gz --effects why/effects.yaml --divisions 2 --json", files));
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_LT(nlohmann::json::parse(again.out)["heldout"]["rms_after"][at].get<double>(),
+            0.5 * result["heldout"]["rms_before"][at].get<double>());
+}
+
+TEST(Diagnose, ListsTheCatalogue) {
+  const CommandRun run = shapeid("diagnose --list");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out, read_file(SHAPEID_SOURCE_DIR "/docs/effects.md"));
+}
+
+TEST(Diagnose, EffectsThatDoNotExistAreRefusedWithTheirLine) {
+  ASSERT_EQ(shapeid("simulate --seconds 2 --out short.csv.gz").status, 0);
+  const auto refused = [&](const std::string& yaml) {
+    scratch_file("effects.yaml", yaml);
+    const CommandRun run =
+        shapeid(fmt::format("identify {} --log short.csv.gz --effects effects.yaml", files));
+    EXPECT_EQ(run.status, 2);
+    return run.err;
+  };
+  EXPECT_NE(
+      refused("effects:\n  - {effect: magic, site: all, values: {}}\n").find("effects.yaml:2"),
+      std::string::npos);
+  EXPECT_NE(refused("effects:\n  - {effect: torque_offset, site: FR_nee, values: {o: 1}}\n")
+                .find("FR_nee"),
+            std::string::npos);
+  EXPECT_NE(refused("effects:\n  - {effect: torque_offset, site: FR_knee, values: {}}\n").find("o"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace shapeid::test
