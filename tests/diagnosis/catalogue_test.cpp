@@ -32,7 +32,8 @@ TEST(Catalogue, EveryFileIsRegisteredOnce) {
 TEST(Catalogue, PageIsTheCatalogue) {
   std::ifstream in(SHAPEID_SOURCE_DIR "/docs/effects.md", std::ios::binary);
   const std::string page{std::istreambuf_iterator<char>(in), {}};
-  EXPECT_TRUE(page == catalogue_page()) << "renew it: ./run shapeid diagnose --list > docs/effects.md";
+  EXPECT_TRUE(page == catalogue_page())
+      << "renew it: ./run shapeid diagnose --list > docs/effects.md";
 }
 
 TEST(Catalogue, EveryEffectSaysWhatItIs) {
