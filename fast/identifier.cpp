@@ -118,7 +118,7 @@ bool Identifier::solve(const Eigen::MatrixXd& R) noexcept {
   outcome_ = division_.start(R);
   if (outcome_ != Outcome::solved) return false;
   int iterations = division_.masses().iterations();
-  static_cast<void>(division_.run());
+  answer_.stopped_by = division_.run();
   for (const Division::Cut& cut : division_.history()) iterations += cut.iterations;
 
   const MassSolver& masses = division_.masses();

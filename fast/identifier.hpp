@@ -38,6 +38,7 @@ struct WindowAnswer {
   double gap = 0.0;    ///< f is at most this much above its minimum over the present shapes
   int iterations = 0;  ///< small systems, of all divisions together
   int divisions = 0;
+  Division::Stop stopped_by = Division::Stop::limit;  ///< what ended the divisions
   double seconds = 0.0;         ///< spent on the window: all its samples, solve and divisions
   double slowest_sample = 0.0;  ///< s, of the calls that only kept a sample
   double last_call = 0.0;       ///< s, of the call that gave this answer
