@@ -113,6 +113,7 @@ std::vector<Sample> trot(const Robot& robot, const Eigen::VectorXd& Phi, std::ui
     s.q.resize(robot.joint_count());
     s.dq.resize(robot.joint_count());
     s.ddq.resize(robot.joint_count());
+    s.tau.setZero(robot.joint_count());
     for (Eigen::Index j = 0; j < s.q.size(); ++j) {
       const Wave& wave = joints[static_cast<std::size_t>(j)];
       s.q[j] = crouch[j % 3] + wave.value(t);
