@@ -18,6 +18,7 @@ using shapeid::ContactTreatment;
 using shapeid::InputError;
 using shapeid::Robot;
 using shapeid::Sample;
+using shapeid::fast::Division;
 using shapeid::fast::Identifier;
 using shapeid::fast::IdentifierSettings;
 
@@ -111,6 +112,20 @@ std::unique_ptr<shapeid_identifier> create(const char* urdf, const char* robot_y
   const BodyModel model = model_of(shapes_yaml, robot);
   const double usual_mass = shapeid::expected_mass(robot, notes, model.free_links);
   return std::make_unique<shapeid_identifier>(robot, model, settings_of(given, usual_mass));
+}
+
+shapeid_stop stop_of(Division::Stop stop) noexcept {
+  switch (stop) {
+    case Division::Stop::limit:
+      return SHAPEID_STOP_LIMIT;
+    case Division::Stop::step:
+      return SHAPEID_STOP_STEP;
+    case Division::Stop::nothing_divisible:
+      return SHAPEID_STOP_NOTHING_DIVISIBLE;
+    case Division::Stop::declined:
+      break;
+  }
+  return SHAPEID_STOP_DECLINED;
 }
 
 void say(const char* message, char* error, size_t error_size) noexcept {
@@ -248,6 +263,7 @@ shapeid_status shapeid_get_answer(const shapeid_identifier* identifier, shapeid_
                            .gap = last.gap,
                            .iterations = last.iterations,
                            .divisions = last.divisions,
+                           .stopped_by = stop_of(last.stopped_by),
                            .window_seconds = last.seconds,
                            .slowest_sample_seconds = last.slowest_sample,
                            .last_call_seconds = last.last_call};

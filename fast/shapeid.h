@@ -115,14 +115,25 @@ typedef enum shapeid_status {
 /** Takes a sample; when a window is complete, solves. Bounded work. */
 shapeid_status shapeid_feed(shapeid_identifier* identifier, const shapeid_sample* sample);
 
+/** What ended the divisions of a window. */
+typedef enum shapeid_stop {
+  SHAPEID_STOP_LIMIT,             /**< most_divisions are done; so always if that is 0 */
+  SHAPEID_STOP_STEP,              /**< division_patience steps in a row were below division_step */
+  SHAPEID_STOP_NOTHING_DIVISIBLE, /**< no shape that can be divided carries mass */
+  /** The masses after one more division could not be solved to the accuracy promised: what is
+   * answered is that division at equal density, with parameters and objective as before it. */
+  SHAPEID_STOP_DECLINED
+} shapeid_stop;
+
 /** About the last window that was answered; zeros before the first. */
 typedef struct shapeid_answer {
-  double time;           /**< s, of the window's last sample */
-  double objective;      /**< f of (15) for the present shapes, before the filter */
-  double gap;            /**< f is at most this much above its minimum over the present shapes */
-  int iterations;        /**< small systems solved, of all divisions together */
-  int divisions;         /**< done in this window */
-  double window_seconds; /**< spent on the window: all its samples, solve and divisions */
+  double time;             /**< s, of the window's last sample */
+  double objective;        /**< f of (15) for the present shapes, before the filter */
+  double gap;              /**< f is at most this much above its minimum over the present shapes */
+  int iterations;          /**< small systems solved, of all divisions together */
+  int divisions;           /**< done in this window */
+  shapeid_stop stopped_by; /**< what ended them */
+  double window_seconds;   /**< spent on the window: all its samples, solve and divisions */
   double slowest_sample_seconds; /**< of the calls that only kept a sample */
   double last_call_seconds;      /**< of the call that gave this answer */
 } shapeid_answer;

@@ -1,6 +1,6 @@
 /* Samples in, parameters out: the fast identifier in C (C99).
  *
- *   identifier ROBOT.urdf ROBOT.yaml SHAPES.yaml < samples
+ *   identifier ROBOT.urdf ROBOT.yaml SHAPES.yaml [DIVISIONS] < samples
  *   identifier models/robots/quadruped.{urdf,robot.yaml,shapes.yaml} < samples
  *
  * A line of `samples` is one instant, numbers separated by blanks, SI units and radians, in the
@@ -12,10 +12,12 @@
  * with joints and contacts in the order of shapeid_joint_name() and shapeid_contact_name(). That is
  * 62 numbers for the bundled quadruped.
  *
- * Writes a line for every window of ten samples: time, objective, gap, then the ten parameters of
- * each link that is sought, after filter (17). Exit status: 0 done, 1 no window was answered, 2 bad
+ * Writes a line for every window of ten samples: time, objective, gap, divisions done (at most
+ * DIVISIONS, or none), what ended them, then the ten parameters of each link that is sought, after
+ * filter (17). Exit status: 0 done, 1 no window was answered, 2 bad
  * input. */
 #include <ctype.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -56,11 +58,26 @@ static size_t read_line(FILE* in, double* numbers, size_t count) {
   return read == count && !line_ends(in) ? count + 1 : read;
 }
 
+static const char* name_of(shapeid_stop stop) {
+  switch (stop) {
+    case SHAPEID_STOP_LIMIT:
+      return "limit";
+    case SHAPEID_STOP_STEP:
+      return "step";
+    case SHAPEID_STOP_NOTHING_DIVISIBLE:
+      return "nothing-divisible";
+    case SHAPEID_STOP_DECLINED:
+      break;
+  }
+  return "declined";
+}
+
 static void print_answer(const shapeid_identifier* identifier) {
   shapeid_answer answer;
   size_t link = 0, i = 0;
   shapeid_get_answer(identifier, &answer);
-  printf("%.17g %.17g %.17g", answer.time, answer.objective, answer.gap);
+  printf("%.17g %.17g %.17g %d %s", answer.time, answer.objective, answer.gap, answer.divisions,
+         name_of(answer.stopped_by));
   for (link = 0; link < shapeid_free_link_count(identifier); ++link) {
     const double* parameters = shapeid_filtered_parameters(identifier, link);
     for (i = 0; i < 10; ++i) printf(" %.17g", parameters[i]);
@@ -139,16 +156,26 @@ static int identify(shapeid_identifier* identifier, line* next) {
   return done;
 }
 
+/* Zero or more, and nothing behind the number; otherwise -1. */
+static int count_in(const char* text) {
+  char* end = NULL;
+  const long count = strtol(text, &end, 10);
+  return end != text && *end == '\0' && count >= 0 && count <= INT_MAX ? (int)count : -1;
+}
+
 int main(int argc, char** argv) {
   char error[512];
+  shapeid_settings settings;
   line next = {0};
   int status = bad_input;
   shapeid_identifier* identifier = NULL;
-  if (argc != 4) {
-    fprintf(stderr, "usage: %s ROBOT.urdf ROBOT.yaml SHAPES.yaml < samples\n", argv[0]);
+  shapeid_default_settings(&settings);
+  if (argc == 5) settings.most_divisions = count_in(argv[4]);
+  if (argc < 4 || argc > 5 || settings.most_divisions < 0) {
+    fprintf(stderr, "usage: %s ROBOT.urdf ROBOT.yaml SHAPES.yaml [DIVISIONS] < samples\n", argv[0]);
     return bad_input;
   }
-  identifier = shapeid_create(argv[1], argv[2], argv[3], NULL, error, sizeof error);
+  identifier = shapeid_create(argv[1], argv[2], argv[3], &settings, error, sizeof error);
   if (identifier == NULL) {
     fprintf(stderr, "%s\n", error);
     return bad_input;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shapeid/fast/identifier.hpp"
@@ -71,6 +72,20 @@ shapeid_status status_of(Identifier::Fed fed) {
   return SHAPEID_WRONG_ARGUMENT;
 }
 
+shapeid_stop stop_of(fast::Division::Stop stop) {
+  switch (stop) {
+    case fast::Division::Stop::limit:
+      return SHAPEID_STOP_LIMIT;
+    case fast::Division::Stop::step:
+      return SHAPEID_STOP_STEP;
+    case fast::Division::Stop::nothing_divisible:
+      return SHAPEID_STOP_NOTHING_DIVISIBLE;
+    case fast::Division::Stop::declined:
+      break;
+  }
+  return SHAPEID_STOP_DECLINED;
+}
+
 std::vector<double> ten(const double* numbers) { return {numbers, numbers + 10}; }
 
 /// The same code on the same numbers: equal to the bit.
@@ -82,6 +97,7 @@ void expect_same(const shapeid_identifier* c, const Identifier& identifier) {
   EXPECT_EQ(answer.gap, identifier.answer().gap);
   EXPECT_EQ(answer.iterations, identifier.answer().iterations);
   EXPECT_EQ(answer.divisions, identifier.answer().divisions);
+  EXPECT_EQ(answer.stopped_by, stop_of(identifier.answer().stopped_by));
   EXPECT_GE(answer.window_seconds, answer.last_call_seconds);
   EXPECT_GE(answer.window_seconds, answer.slowest_sample_seconds);
   EXPECT_EQ(ten(shapeid_parameters(c, 0)), ten(identifier.Phi().data()));
@@ -148,6 +164,32 @@ TEST(CInterface, PassesEverySetting) {
   same.division.step = 0.01;
   same.division.patience = 2;
   compare(settings, same, trot_of(200), 5);
+}
+
+TEST(CInterface, SaysWhatEndedTheDivisions) {
+  const auto ending = [](const shapeid_settings& settings, const std::vector<Sample>& samples) {
+    const Handle c = bundled(settings);
+    std::vector<unsigned char> flags;
+    for (const Sample& s : samples) {
+      const shapeid_sample sample = plain(s, flags);
+      shapeid_feed(c.get(), &sample);
+    }
+    shapeid_answer answer;
+    EXPECT_EQ(shapeid_get_answer(c.get(), &answer), SHAPEID_ANSWERED);
+    return std::pair(answer.stopped_by, answer.divisions);
+  };
+  shapeid_settings settings = defaults();
+  EXPECT_EQ(ending(settings, trot_of(10)), std::pair(SHAPEID_STOP_LIMIT, 0));
+  settings.most_divisions = 4;
+  settings.division_step = 0.0;  // no step is below it
+  EXPECT_EQ(ending(settings, trot_of(10)), std::pair(SHAPEID_STOP_LIMIT, 4));
+  settings.division_step = 1e9;  // every step is
+  settings.division_patience = 2;
+  EXPECT_EQ(ending(settings, trot_of(10)), std::pair(SHAPEID_STOP_STEP, 2));
+  // Nothing pulls, so no shape has mass.
+  const std::vector<Sample> still(10, test::nothing_moves(test::bundled_quadruped()));
+  settings.lambda = 1e-6;
+  EXPECT_EQ(ending(settings, still), std::pair(SHAPEID_STOP_NOTHING_DIVISIBLE, 0));
 }
 
 TEST(CInterface, PassesMeasuredForces) {
