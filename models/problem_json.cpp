@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdint>
-#include <nlohmann/json.hpp>
-#include <set>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/shape_json.hpp"
+#include "shapeid/models/strict_json.hpp"
 
 namespace shapeid {
 namespace {
@@ -16,106 +15,106 @@ using nlohmann::json;
 
 constexpr const char* problem_format = "shapeid-problem-1";
 constexpr const char* answer_format = "shapeid-answer-1";
+constexpr const char* manual = "docs/formats/problem.md";
 
-json vector_json(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
+/// No robot has more; a count beyond it is a slip.
+constexpr Eigen::Index most_links = 10000;
 
-/// Row by row, as a reader of the file would write the matrix down.
-json matrix_json(const Eigen::MatrixXd& M) {
-  json rows = json::array();
-  for (Eigen::Index i = 0; i < M.rows(); ++i) rows.push_back(vector_json(M.row(i).transpose()));
-  return rows;
+json bounds_json(const Eigen::VectorXd& bounds) {
+  json list = json::array();
+  for (const double b : bounds) list.push_back(std::isfinite(b) ? json(b) : json());
+  return list;
 }
 
-json parse(const std::string& text, const std::string& name, const char* format,
-           const std::set<std::string>& keys) {
-  json document;
-  try {
-    document = json::parse(text);
-  } catch (const json::parse_error& e) {
-    throw InputError({name}, fmt::format("is not JSON (at byte {})", e.byte),
-                     "see docs/formats/problem.md");
-  } catch (const json::out_of_range&) {
-    throw InputError({name}, "a number is larger than any double", "write finite decimals");
+Eigen::VectorXd bounds_from(const json& value, double none, const std::string& key,
+                            const JsonSource& source) {
+  if (!value.is_array()) {
+    throw InputError({source.name, 0, key}, "not a list", "numbers, null where there is no bound");
   }
-  if (!document.is_object() || !document.contains("format") || document["format"] != format) {
-    throw InputError({name}, "has no or another format",
-                     fmt::format("\"format\" must be \"{}\"", format));
+  Eigen::VectorXd bounds(static_cast<Eigen::Index>(value.size()));
+  for (Eigen::Index k = 0; k < bounds.size(); ++k) {
+    const json& b = value[static_cast<std::size_t>(k)];
+    bounds[k] = b.is_null() ? none : number(b, key, source);
   }
-  for (const auto& item : document.items()) {
-    if (item.key() != "format" && !keys.contains(item.key())) {
-      throw InputError({name, 0, item.key()}, "unknown key", "see docs/formats/problem.md");
-    }
-  }
-  return document;
+  return bounds;
 }
 
-const json& member(const json& document, const std::string& key, const std::string& name) {
-  if (!document.contains(key)) throw InputError({name, 0, key}, "missing key", "it is required");
-  return document[key];
+OtherColumns others_from(const json& object, const JsonSource& source) {
+  check_keys(object, "columns", source, {"values", "lower", "upper"});
+  OtherColumns C;
+  C.lower = bounds_from(member(object, "lower", source), -HUGE_VAL, "lower", source);
+  C.upper = bounds_from(member(object, "upper", source), HUGE_VAL, "upper", source);
+  C.values = matrix(member(object, "values", source), C.lower.size(), "values", source);
+  return C;
 }
 
-double number(const json& value, const std::string& key, const std::string& name) {
-  if (!value.is_number() || !std::isfinite(value.get<double>())) {
-    throw InputError({name, 0, key}, "not a finite number", "write finite decimals");
+std::vector<Region> regions_from(const json& list, const JsonSource& source) {
+  if (!list.is_array()) throw InputError({source.name, 0, "regions"}, "not a list", "of shapes");
+  std::vector<Region> regions;
+  for (const json& item : list) {
+    Shape shape = shape_from_json(item, "regions", source);
+    regions.push_back(
+        {count(member(item, "link", source), most_links, "link", source), std::move(shape)});
   }
-  return value.get<double>();
-}
-
-Eigen::VectorXd numbers(const json& value, const std::string& key, const std::string& name) {
-  if (!value.is_array()) throw InputError({name, 0, key}, "not a list", "a list of numbers");
-  Eigen::VectorXd v(static_cast<Eigen::Index>(value.size()));
-  for (Eigen::Index i = 0; i < v.size(); ++i) {
-    v[i] = number(value[static_cast<std::size_t>(i)], key, name);
-  }
-  return v;
-}
-
-Eigen::MatrixXd matrix(const json& value, Eigen::Index columns, const std::string& key,
-                       const std::string& name) {
-  if (!value.is_array()) throw InputError({name, 0, key}, "not a list", "a list of rows");
-  Eigen::MatrixXd M(static_cast<Eigen::Index>(value.size()), columns);
-  for (Eigen::Index i = 0; i < M.rows(); ++i) {
-    const Eigen::VectorXd row = numbers(value[static_cast<std::size_t>(i)], key, name);
-    if (row.size() != columns) {
-      throw InputError({name, 0, key}, fmt::format("row {} has {} numbers", i, row.size()),
-                       fmt::format("every row has {}", columns));
-    }
-    M.row(i) = row.transpose();
-  }
-  return M;
+  return regions;
 }
 
 }  // namespace
 
-std::string problem_to_json(const MassProblem& p) {
-  const json document = {{"format", problem_format},  {"free_links", p.U.rows() / 10},
-                         {"Y", matrix_json(p.Y)},     {"F", vector_json(p.F)},
-                         {"W", vector_json(p.W)},     {"U", matrix_json(p.U)},
-                         {"V", vector_json(p.V)},     {"lambda", p.lambda},
-                         {"mass_bound", p.mass_bound}};
+std::string problem_to_json(const StatedProblem& stated) {
+  const MassProblem& p = stated.masses;
+  json document = {{"format", problem_format},  {"free_links", p.U.rows() / 10},
+                   {"Y", matrix_json(p.Y)},     {"F", vector_json(p.F)},
+                   {"W", vector_json(p.W)},     {"U", matrix_json(p.U)},
+                   {"V", vector_json(p.V)},     {"lambda", p.lambda},
+                   {"mass_bound", p.mass_bound}};
+  if (stated.others.values.cols() > 0) {
+    document["columns"] = {{"values", matrix_json(stated.others.values)},
+                           {"lower", bounds_json(stated.others.lower)},
+                           {"upper", bounds_json(stated.others.upper)}};
+  }
+  for (const Region& region : stated.regions) {
+    json shape = shape_json(region.shape);
+    shape["link"] = region.link;
+    document["regions"].push_back(shape);
+  }
   return document.dump() + "\n";
 }
 
+std::string problem_to_json(const MassProblem& problem) {
+  return problem_to_json(StatedProblem{problem, {}, {}});
+}
+
+StatedProblem stated_problem_from_json(const std::string& text, const std::string& name) {
+  const JsonSource source{name, manual};
+  const json document = parse_document(
+      text, source, problem_format,
+      {"free_links", "Y", "F", "W", "U", "V", "lambda", "mass_bound", "columns", "regions"});
+  StatedProblem stated;
+  MassProblem& p = stated.masses;
+  p.F = numbers(member(document, "F", source), "F", source);
+  p.W = numbers(member(document, "W", source), "W", source);
+  p.V = numbers(member(document, "V", source), "V", source);
+  const Eigen::Index links =
+      count(member(document, "free_links", source), most_links, "free_links", source);
+  p.Y = matrix(member(document, "Y", source), 10 * links, "Y", source);
+  p.U = matrix(member(document, "U", source), p.V.size(), "U", source);
+  p.lambda = number(member(document, "lambda", source), "lambda", source);
+  p.mass_bound = number(member(document, "mass_bound", source), "mass_bound", source);
+  if (document.contains("columns")) stated.others = others_from(document["columns"], source);
+  if (document.contains("regions")) stated.regions = regions_from(document["regions"], source);
+  if (const Violation why = why_malformed(stated)) {
+    throw InputError({name}, *why, fmt::format("see {}", manual));
+  }
+  return stated;
+}
+
 MassProblem problem_from_json(const std::string& text, const std::string& name) {
-  const json document = parse(text, name, problem_format,
-                              {"free_links", "Y", "F", "W", "U", "V", "lambda", "mass_bound"});
-  MassProblem p;
-  p.F = numbers(member(document, "F", name), "F", name);
-  p.W = numbers(member(document, "W", name), "W", name);
-  p.V = numbers(member(document, "V", name), "V", name);
-  const double links = number(member(document, "free_links", name), "free_links", name);
-  if (!(links >= 0.0 && links <= 1e4 && links == std::floor(links))) {
-    throw InputError({name, 0, "free_links"}, "not a count of links", "0, 1, 2, ...");
+  StatedProblem stated = stated_problem_from_json(text, name);
+  if (stated.others.values.cols() > 0) {
+    throw InputError({name, 0, "columns"}, "has columns besides masses", "a problem of masses");
   }
-  const auto parameters = 10 * static_cast<Eigen::Index>(links);
-  p.Y = matrix(member(document, "Y", name), parameters, "Y", name);
-  p.U = matrix(member(document, "U", name), p.V.size(), "U", name);
-  p.lambda = number(member(document, "lambda", name), "lambda", name);
-  p.mass_bound = number(member(document, "mass_bound", name), "mass_bound", name);
-  if (const Violation why = why_malformed(p)) {
-    throw InputError({name}, *why, "see docs/formats/problem.md");
-  }
-  return p;
+  return std::move(stated.masses);
 }
 
 std::string answer_to_json(const Answer& answer) {
@@ -124,28 +123,29 @@ std::string answer_to_json(const Answer& answer) {
                    {"parameters", vector_json(answer.parameters)},
                    {"objective", answer.objective}};
   if (answer.masses.size() > 0) document["masses"] = vector_json(answer.masses);
+  if (answer.others.size() > 0) document["columns"] = vector_json(answer.others);
   return document.dump() + "\n";
 }
 
 Answer answer_from_json(const std::string& text, const std::string& name) {
+  const JsonSource source{name, manual};
   const json document =
-      parse(text, name, answer_format, {"problem_digest", "masses", "parameters", "objective"});
+      parse_document(text, source, answer_format,
+                     {"problem_digest", "masses", "parameters", "objective", "columns"});
   Answer answer;
-  const json& digest = member(document, "problem_digest", name);
-  if (!digest.is_string()) throw InputError({name, 0, "problem_digest"}, "not a text", "a text");
-  answer.problem_digest = digest.get<std::string>();
-  answer.parameters = numbers(member(document, "parameters", name), "parameters", name);
-  answer.objective = number(member(document, "objective", name), "objective", name);
-  if (document.contains("masses")) answer.masses = numbers(document["masses"], "masses", name);
+  answer.problem_digest =
+      shapeid::text(member(document, "problem_digest", source), "problem_digest", source);
+  answer.parameters = numbers(member(document, "parameters", source), "parameters", source);
+  answer.objective = number(member(document, "objective", source), "objective", source);
+  if (document.contains("masses")) answer.masses = numbers(document["masses"], "masses", source);
+  if (document.contains("columns")) answer.others = numbers(document["columns"], "columns", source);
   return answer;
 }
 
-std::string problem_digest(const MassProblem& problem) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : problem_to_json(problem)) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  }
-  return fmt::format("{:016x}", hash);
+std::string problem_digest(const StatedProblem& problem) {
+  return digest(problem_to_json(problem));
 }
+
+std::string problem_digest(const MassProblem& problem) { return digest(problem_to_json(problem)); }
 
 }  // namespace shapeid

@@ -57,6 +57,41 @@ TEST(AnswerJson, MassesMayBeLeftOut) {
   EXPECT_EQ(answer_from_json(answer_to_json(a), "a.json").masses.size(), 0);
 }
 
+TEST(ProblemJson, HexadecimalNumbersAreExact) {
+  const std::string text =
+      R"({"format":"shapeid-problem-1","free_links":0,"Y":[[],[]],"F":["-0x1.8p-3","0x1p4"],)"
+      R"("W":[1.0,2.0],"U":[],"V":[],"lambda":0.25,"mass_bound":3.0})";
+  const MassProblem p = problem_from_json(text, "p.json");
+  EXPECT_EQ(p.F[0], -0.1875);
+  EXPECT_EQ(p.F[1], 16.0);
+}
+
+TEST(ProblemJson, ColumnsAndRegionsReadBack) {
+  StatedProblem p{some_problem(), {}, {}};
+  const Eigen::Index rows = p.masses.F.size();
+  p.others = {Eigen::MatrixXd::Random(rows, 2), Eigen::Vector2d(0.0, -HUGE_VAL),
+              Eigen::Vector2d(HUGE_VAL, 1.0 / 3.0)};
+  const Eigen::Isometry3d pose(Eigen::Translation3d(0.1, -0.2, 0.3) *
+                               Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+  p.regions = {{0, make_cuboid({0.1, 0.2, 0.3}, pose)},
+               {0, divide(make_cylinder(0.1, 0.2, pose)).second},
+               {0, make_ellipsoid({0.1, 0.2, 0.3}, pose)},
+               {0, make_convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, pose)},
+               {0, make_point({1, 2, 3}, 1e-6)}};
+  const std::string text = problem_to_json(p);
+  const StatedProblem q = stated_problem_from_json(text, "p.json");
+  EXPECT_EQ(text, problem_to_json(q));
+  EXPECT_EQ(p.others.values, q.others.values);
+  EXPECT_EQ(p.others.lower, q.others.lower);
+  EXPECT_EQ(p.others.upper, q.others.upper);
+  ASSERT_EQ(q.regions.size(), 5U);
+  for (std::size_t i = 0; i < q.regions.size(); ++i) {
+    EXPECT_EQ(unit_parameters(p.regions[i].shape).values,
+              unit_parameters(q.regions[i].shape).values);
+  }
+  EXPECT_THROW((void)problem_from_json(text, "p.json"), InputError);
+}
+
 struct Broken {
   std::string find, replace, says;
 };
@@ -82,9 +117,13 @@ TEST(ProblemJson, SaysWhatIsWrongWithBrokenFiles) {
       {"[[],[]]", "[[],[1]]", "p.json, column Y: row 1 has 1 numbers; every row has 0"},
       {"[[],[]]", "3", "p.json, column Y: not a list; a list of rows"},
       {"\"free_links\":0", "\"free_links\":-1",
-       "p.json, column free_links: not a count of links; 0, 1, 2, ..."},
+       "p.json, column free_links: not a count; a whole number from 0 to 10000"},
       {"\"free_links\":0", "\"free_links\":1e300",
-       "p.json, column free_links: not a count of links; 0, 1, 2, ..."},
+       "p.json, column free_links: not a count; a whole number from 0 to 10000"},
+      {"\"lambda\":0.25,", "\"lambda\":0.25,\"lambda\":0.25,",
+       "p.json, column lambda: the key is there twice; once"},
+      {"0.25", "\"0x1p\"", "p.json, column lambda: not a finite number; write finite decimals"},
+      {"3.0", "-3.0", "p.json: the mass bound is negative; see docs/formats/problem.md"},
   };
   for (const Broken& b : table) {
     std::string text = good;

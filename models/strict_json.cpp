@@ -1,0 +1,156 @@
+#include "shapeid/models/strict_json.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "shapeid/models/error.hpp"
+
+namespace shapeid {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const JsonSource& source, const std::string& key, const std::string& wrong,
+                         const std::string& right) {
+  throw InputError({source.name, 0, key}, wrong, right);
+}
+
+/// The parser keeps the last of two equal keys; here both are refused.
+class DuplicateKeys {
+ public:
+  explicit DuplicateKeys(const JsonSource& source) : source_(&source) {}
+
+  bool operator()(int /*depth*/, json::parse_event_t event, const json& parsed) {
+    if (event == json::parse_event_t::object_start) open_.emplace_back();
+    if (event == json::parse_event_t::object_end) open_.pop_back();
+    if (event == json::parse_event_t::key && !open_.back().insert(parsed).second) {
+      refuse(*source_, parsed.get<std::string>(), "the key is there twice", "once");
+    }
+    return true;
+  }
+
+ private:
+  const JsonSource* source_;
+  std::vector<std::set<std::string>> open_;
+};
+
+std::optional<double> hexadecimal(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  if (negative) text.remove_prefix(1);
+  if (!text.starts_with("0x")) return std::nullopt;
+  text.remove_prefix(2);
+  double value = 0.0;
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::hex);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return negative ? -value : value;
+}
+
+}  // namespace
+
+json parse_document(const std::string& text, const JsonSource& source, const std::string& format,
+                    const std::set<std::string>& keys) {
+  json document;
+  try {
+    document = json::parse(text, DuplicateKeys(source));
+  } catch (const json::parse_error& e) {
+    throw InputError({source.name}, fmt::format("is not JSON (at byte {})", e.byte),
+                     "see " + source.manual);
+  } catch (const json::out_of_range&) {
+    throw InputError({source.name}, "a number is larger than any double", "write finite decimals");
+  }
+  if (!document.is_object() || !document.contains("format") || document["format"] != format) {
+    throw InputError({source.name}, "has no or another format",
+                     fmt::format("\"format\" must be \"{}\"", format));
+  }
+  std::set<std::string> all = keys;
+  all.insert("format");
+  check_keys(document, "", source, all);
+  return document;
+}
+
+void check_keys(const json& object, const std::string& key, const JsonSource& source,
+                const std::set<std::string>& keys) {
+  if (!object.is_object()) refuse(source, key, "not an object", "see " + source.manual);
+  for (const auto& item : object.items()) {
+    if (!keys.contains(item.key())) {
+      refuse(source, item.key(), "unknown key", "see " + source.manual);
+    }
+  }
+}
+
+const json& member(const json& object, const std::string& key, const JsonSource& source) {
+  if (!object.contains(key)) refuse(source, key, "missing key", "it is required");
+  return object[key];
+}
+
+double number(const json& value, const std::string& key, const JsonSource& source) {
+  if (value.is_string()) {
+    const auto read = hexadecimal(value.get<std::string>());
+    if (read && std::isfinite(*read)) return *read;
+  }
+  if (!value.is_number() || !std::isfinite(value.get<double>())) {
+    refuse(source, key, "not a finite number", "write finite decimals");
+  }
+  return value.get<double>();
+}
+
+Eigen::Index count(const json& value, Eigen::Index most, const std::string& key,
+                   const JsonSource& source) {
+  const double read = number(value, key, source);
+  if (!(read >= 0.0 && read <= static_cast<double>(most) && read == std::floor(read))) {
+    refuse(source, key, "not a count", fmt::format("a whole number from 0 to {}", most));
+  }
+  return static_cast<Eigen::Index>(read);
+}
+
+std::string text(const json& value, const std::string& key, const JsonSource& source) {
+  if (!value.is_string()) refuse(source, key, "not a text", "a text");
+  return value.get<std::string>();
+}
+
+Eigen::VectorXd numbers(const json& value, const std::string& key, const JsonSource& source) {
+  if (!value.is_array()) refuse(source, key, "not a list", "a list of numbers");
+  Eigen::VectorXd v(static_cast<Eigen::Index>(value.size()));
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    v[i] = number(value[static_cast<std::size_t>(i)], key, source);
+  }
+  return v;
+}
+
+Eigen::MatrixXd matrix(const json& value, Eigen::Index columns, const std::string& key,
+                       const JsonSource& source) {
+  if (!value.is_array()) refuse(source, key, "not a list", "a list of rows");
+  Eigen::MatrixXd M(static_cast<Eigen::Index>(value.size()), columns);
+  for (Eigen::Index i = 0; i < M.rows(); ++i) {
+    const Eigen::VectorXd row = numbers(value[static_cast<std::size_t>(i)], key, source);
+    if (row.size() != columns) {
+      refuse(source, key, fmt::format("row {} has {} numbers", i, row.size()),
+             fmt::format("every row has {}", columns));
+    }
+    M.row(i) = row.transpose();
+  }
+  return M;
+}
+
+json vector_json(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
+
+json matrix_json(const Eigen::MatrixXd& M) {
+  json rows = json::array();
+  for (Eigen::Index i = 0; i < M.rows(); ++i) rows.push_back(vector_json(M.row(i).transpose()));
+  return rows;
+}
+
+std::string digest(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return fmt::format("{:016x}", hash);
+}
+
+}  // namespace shapeid
