@@ -95,4 +95,35 @@ double DriveForce::power(const SimTK::State& state) const {
   return sum;
 }
 
+void DisturbingForce::calcForce(const SimTK::State& state,
+                                SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                                SimTK::Vector_<SimTK::Vec3>&,
+                                SimTK::Vector& mobility_forces) const {
+  if (!disturbance_) return;
+  const int n = multibody_.joint_count();
+  DisturbedState now;
+  now.time = state.getTime();
+  now.q.resize(n);
+  now.dq.resize(n);
+  now.drive = drives_.torque(now.time);
+  for (int j = 0; j < n; ++j) {
+    now.q[j] = multibody_.body(j + 1).getOneQ(state, 0);
+    now.dq[j] = multibody_.body(j + 1).getOneU(state, 0);
+  }
+  for (int link = 0; link <= n; ++link) {
+    now.attitude.push_back(to_eigen(multibody_.body(link).getBodyRotation(state)));
+    now.velocity.push_back(to_eigen(multibody_.body(link).getBodyOriginVelocity(state)));
+  }
+  DisturbingForces forces{Eigen::VectorXd::Zero(n),
+                          std::vector<Eigen::Vector3d>(now.velocity.size(), {0.0, 0.0, 0.0})};
+  disturbance_(now, forces);
+  for (int j = 0; j < n; ++j) {
+    multibody_.body(j + 1).applyOneMobilityForce(state, 0, forces.joint[j], mobility_forces);
+  }
+  for (int link = 0; link <= n; ++link) {
+    const SimTK::Vec3 force = to_vec3(forces.link[static_cast<std::size_t>(link)]);
+    multibody_.body(link).applyForceToBodyPoint(state, SimTK::Vec3(0.0), force, body_forces);
+  }
+}
+
 }  // namespace shapeid

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shapeid/models/robot.hpp"
+#include "shapeid/models/simbody/disturbance.hpp"
 #include "shapeid/models/simbody/ground.hpp"
 #include "shapeid/models/simbody/multibody.hpp"
 
@@ -77,6 +78,24 @@ class DriveForce : public WorkingForce {
  private:
   double from_ = 0.0, to_ = 1.0;
   Eigen::VectorXd start_, end_;
+};
+
+/// What disturbs the robot beyond its model.
+class DisturbingForce : public SimTK::Force::Custom::Implementation {
+ public:
+  DisturbingForce(const Multibody& multibody, const DriveForce& drives,
+                  const Disturbance& disturbance)
+      : multibody_(multibody), drives_(drives), disturbance_(disturbance) {}
+
+  void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                 SimTK::Vector_<SimTK::Vec3>& particle_forces,
+                 SimTK::Vector& mobility_forces) const override;
+  SimTK::Real calcPotentialEnergy(const SimTK::State&) const override { return 0.0; }
+
+ private:
+  const Multibody& multibody_;
+  const DriveForce& drives_;
+  Disturbance disturbance_;
 };
 
 }  // namespace shapeid

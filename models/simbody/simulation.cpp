@@ -1,10 +1,10 @@
 #include "shapeid/models/simbody/simulation.hpp"
 
 #include <cmath>
+#include <memory>
 
 #include "shapeid/models/error.hpp"
-#include "shapeid/models/simbody/forces.hpp"
-#include "shapeid/models/simbody/multibody.hpp"
+#include "shapeid/models/simbody/world.hpp"
 
 namespace shapeid {
 namespace {
@@ -15,83 +15,6 @@ void check(const SimulationOptions& options) {
   if (!(options.accuracy > 0.0 && options.accuracy < 1.0)) {
     throw InputError("accuracy is not between 0 and 1", "a number such as 1e-5");
   }
-}
-
-/// The robot, its drives and the ground as one system that steps through time.
-class World {
- public:
-  World(const Robot& robot, const SimulationOptions& options)
-      : robot_(robot),
-        multibody_(robot),
-        drives_(new DriveForce(multibody_)),
-        ground_(new GroundForce(multibody_, robot, options.ground)),
-        // The force subsystem owns the elements from here on.
-        drive_handle_(multibody_.forces, drives_),
-        ground_handle_(multibody_.forces, ground_),
-        integrator_(multibody_.system) {
-    integrator_.setAccuracy(options.accuracy);
-    integrator_.setAllowInterpolation(false);  // every sample is a state that was integrated to
-  }
-
-  /// With these torques (N m, n) from the first instant on.
-  void start(const RobotState& robot_state, const Eigen::VectorXd& torque) {
-    drives_->hold(torque);
-    SimTK::State state = multibody_.system.realizeTopology();
-    multibody_.set(state, robot_state);
-    integrator_.initialize(state);
-    realize();
-  }
-
-  /// Torques go straight to `command` until the instant `to` (s), and the world moves there.
-  void advance(double to, const Eigen::VectorXd& command) {
-    drives_->ramp(now(), to, command);
-    while (now() < to) integrator_.stepTo(to);
-    realize();
-  }
-
-  [[nodiscard]] double now() const { return integrator_.getTime(); }
-  [[nodiscard]] RobotState robot_state() const { return multibody_.get(integrator_.getState()); }
-  [[nodiscard]] SimulatedSample sample() const;
-
- private:
-  void realize() { multibody_.system.realize(integrator_.getState(), SimTK::Stage::Acceleration); }
-
-  const Robot& robot_;
-  Multibody multibody_;
-  DriveForce* drives_;
-  GroundForce* ground_;
-  SimTK::Force::Custom drive_handle_, ground_handle_;
-  SimTK::RungeKuttaMersonIntegrator integrator_;
-};
-
-SimulatedSample World::sample() const {
-  const SimTK::State& state = integrator_.getState();
-  const SimTK::MobilizedBody& base = multibody_.body(0);
-  SimulatedSample result;
-  result.state = robot_state();
-  result.drive_work = drives_->work(state);
-  result.ground_work = ground_->work(state);
-
-  const Eigen::Matrix3d to_base = result.state.base.linear().transpose();
-  const Eigen::Vector3d g = to_eigen(multibody_.gravity.getGravityVector(state));
-  Sample& s = result.sample;
-  s.time = state.getTime();
-  s.base_angular_velocity = result.state.base_angular_velocity;
-  s.base_angular_acceleration = to_base * to_eigen(base.getBodyAngularAcceleration(state));
-  s.base_specific_force = to_base * (to_eigen(base.getBodyOriginAcceleration(state)) - g);
-  s.q = result.state.q;
-  s.dq = result.state.dq;
-  s.ddq.resize(robot_.joint_count());
-  for (int j = 0; j < robot_.joint_count(); ++j) {
-    s.ddq[j] = multibody_.body(j + 1).getOneUDot(state, 0);
-  }
-  s.tau = drives_->torque(s.time);
-  for (std::size_t c = 0; c < robot_.contacts.size(); ++c) {
-    const Eigen::Vector3d force = to_eigen(ground_->force(state, c));
-    s.in_contact.push_back(force.z() > 0.0);
-    s.contact_force.emplace_back(to_base * force);
-  }
-  return result;
 }
 
 /// Standing still, the ground pressed in as far as the weight needs.
@@ -122,9 +45,13 @@ SimulationReport simulate(const Robot& robot, const SimulationOptions& options,
   check(options);
   const Robot loaded = options.load ? with_load(robot, *options.load) : robot;
   TrotController controller(robot, options.trot, options.seed);
-  World world(loaded, options);
-  const RobotState start = standing(loaded, options, controller);
-  world.start(start, controller.torque(0.0, start));
+  bool carries = options.load_from <= 0.0;
+  const auto world_of = [&](const Robot& r) {
+    return std::make_unique<World>(r, options.ground, options.disturbance, options.accuracy);
+  };
+  std::unique_ptr<World> world = world_of(carries ? loaded : robot);
+  const RobotState start = standing(carries ? loaded : robot, options, controller);
+  world->start(0.0, start, controller.torque(0.0, start));
 
   // The controller runs at its own pace, a whole number of times a sample.
   constexpr double slowest_control = 500.0;  // Hz
@@ -134,17 +61,24 @@ SimulationReport simulate(const Robot& robot, const SimulationOptions& options,
 
   SimulationReport report;
   for (std::size_t step = 0; report.samples < samples; ++step) {
-    const RobotState state = world.robot_state();
+    const RobotState state = world->robot_state();
+    if (!carries && world->now() >= options.load_from) {
+      const double now = world->now();
+      const Eigen::VectorXd torque = world->torque();
+      carries = true;
+      world = world_of(loaded);
+      world->start(now, state, torque);
+    }
     if (step % turns == 0) {
-      on_sample(world.sample());
+      on_sample(world->sample());
       ++report.samples;
     }
     report.distance = state.base.translation().head<2>().norm();
     if (has_fallen(state, options.trot)) {
-      report.fell_at = world.now();
+      report.fell_at = world->now();
       break;
     }
-    world.advance(static_cast<double>(step + 1) * period, controller.torque(world.now(), state));
+    world->advance(static_cast<double>(step + 1) * period, controller.torque(world->now(), state));
   }
   return report;
 }

@@ -7,6 +7,7 @@
 
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
+#include "shapeid/models/simbody/disturbance.hpp"
 #include "shapeid/models/simbody/ground.hpp"
 #include "shapeid/models/simbody/load.hpp"
 #include "shapeid/models/simbody/robot_state.hpp"
@@ -20,7 +21,9 @@ struct SimulationOptions {
   std::uint64_t seed = 1;  ///< of the phases and frequencies of the wanted motion
   TrotOptions trot;
   Ground ground;
-  std::optional<Load> load;  ///< carried from the start; the controller does not know
+  std::optional<Load> load;  ///< the controller does not know
+  double load_from = 0.0;    ///< s: the load is put on at this moment, moving along already
+  Disturbance disturbance;   ///< acts besides all that; its work is not counted
   double accuracy = 1e-5;    ///< of the integrator, relative
 };
 
