@@ -9,6 +9,9 @@ namespace shapeid::diagnosis {
 
 BodyModel generous_regions(const Robot& robot, const std::vector<int>& free_links) {
   constexpr double wider = 0.25;  // of the longest side, on every side
+  // Along each side. One box cannot shift its centre of mass, and the criterion that picks what to
+  // divide looks for mass, not for what the data lack: it may leave a light link whole for ever.
+  constexpr int cells = 4;
   BodyModel model = default_shapes(robot, free_links);
   const std::vector<SoughtShape> given = std::move(model.shapes);
   model.shapes.clear();
@@ -28,10 +31,14 @@ BodyModel generous_regions(const Robot& robot, const std::vector<int>& free_link
       if (child.parent == link) include(place, place);
     }
     const double margin = wider * (upper - lower).maxCoeff();
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.translation() = 0.5 * (lower + upper);
-    const Eigen::Vector3d sides = (upper - lower).array() + 2.0 * margin;
-    model.shapes.push_back({link, make_cuboid(sides, pose), std::to_string(model.shapes.size())});
+    const Eigen::Vector3d cell = ((upper - lower).array() + 2.0 * margin) / cells;
+    const Eigen::Vector3d corner = lower.array() - margin;
+    for (int k = 0; k < cells * cells * cells; ++k) {
+      const Eigen::Vector3d place(k % cells, k / cells % cells, k / (cells * cells));
+      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+      pose.translation() = corner + cell.cwiseProduct((place.array() + 0.5).matrix());
+      model.shapes.push_back({link, make_cuboid(cell, pose), std::to_string(model.shapes.size())});
+    }
   }
   return model;
 }

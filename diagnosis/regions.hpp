@@ -7,9 +7,9 @@
 
 namespace shapeid::diagnosis {
 
-/// One cuboid a free link, around its given shapes, its origin and the origins of its children, a
-/// quarter larger on every side. Given inertias may be far off, and the diagnosis must not blame an
-/// effect for mass that a tight box shuts out.
+/// A grid of cuboids for each free link, around its given shapes, its origin and the origins of its
+/// children, a quarter larger on every side. Given inertias may be far off, and the diagnosis must
+/// not blame an effect for mass that a tight box shuts out.
 [[nodiscard]] BodyModel generous_regions(const Robot& robot, const std::vector<int>& free_links);
 
 }  // namespace shapeid::diagnosis
