@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "theorems.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,7 +25,7 @@ std::string text_of(const fs::path& path) {
 
 struct Claim {
   std::string promised_in;
-  std::vector<std::string> derived_in, tests;
+  std::vector<std::string> derived_in, theorems, tests;
 };
 
 std::vector<std::string> items(const std::string& cell) {
@@ -31,7 +33,7 @@ std::vector<std::string> items(const std::string& cell) {
   std::istringstream words(cell);
   for (std::string word; words >> word;) {
     if (word.back() == ',') word.pop_back();
-    list.push_back(word);
+    if (word != "-") list.push_back(word);
   }
   return list;
 }
@@ -39,10 +41,10 @@ std::vector<std::string> items(const std::string& cell) {
 std::map<std::string, Claim> claims() {
   std::map<std::string, Claim> found;
   std::istringstream lines(text_of(root / "docs/claims.md"));
-  const std::regex row(R"(\| (C\d+) \| [^|]+ \| ([^|]+) \| ([^|]+) \| ([^|]+) \|)");
+  const std::regex row(R"(\| (C\d+) \| [^|]+ \| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([^|]+) \|)");
   for (std::string line; std::getline(lines, line);) {
     std::smatch m;
-    if (std::regex_match(line, m, row)) found[m[1]] = {m[2], items(m[3]), items(m[4])};
+    if (std::regex_match(line, m, row)) found[m[1]] = {m[2], items(m[3]), items(m[4]), items(m[5])};
   }
   return found;
 }
@@ -61,14 +63,14 @@ std::set<std::string> test_names() {
   return names;
 }
 
-/// Ids that the headers cite, as "Claim C3" or "Claims C4, C5", with the files that cite them.
+/// Ids that headers and proofs cite, as "Claim C3" or "Claims C4, C5", with the files that cite
+/// them.
 std::map<std::string, std::set<std::string>> citations() {
   std::map<std::string, std::set<std::string>> found;
   const std::regex cited(R"(Claims? (C\d+(?:, C\d+)*))"), id(R"(C\d+)");
-  for (const char* folder : {"models", "reference", "fast"}) {
-    if (!fs::exists(root / folder)) continue;
+  for (const char* folder : {"models", "reference", "fast", "proofs"}) {
     for (const auto& file : fs::recursive_directory_iterator(root / folder)) {
-      if (file.path().extension() != ".hpp") continue;
+      if (file.path().extension() != ".hpp" && file.path().extension() != ".v") continue;
       const std::string text = text_of(file.path());
       for (std::sregex_iterator m(text.begin(), text.end(), cited), end; m != end; ++m) {
         const std::string list = (*m)[1];
@@ -89,7 +91,7 @@ TEST(Claims, NamesAgreeOnBothSides) {
   for (const auto& [id, claim] : stated) {
     SCOPED_TRACE(id);
     const auto found = cited.find(id);
-    ASSERT_NE(found, cited.end()) << "no header cites it";
+    ASSERT_NE(found, cited.end()) << "no header and no proof cites it";
     EXPECT_TRUE(found->second.contains(claim.promised_in)) << claim.promised_in;
     for (const std::string& page : claim.derived_in) {
       EXPECT_TRUE(fs::exists(root / "docs" / page)) << page;
@@ -99,6 +101,49 @@ TEST(Claims, NamesAgreeOnBothSides) {
   for (const auto& [id, files] : cited) {
     EXPECT_TRUE(stated.contains(id)) << id << " is cited in " << *files.begin();
   }
+}
+
+/// What proofs/ proves of a claim, by the claim's id.
+std::map<std::string, std::set<std::string>> proved() {
+  std::map<std::string, std::set<std::string>> found;
+  for (const auto& file : fs::directory_iterator(root / "proofs")) {
+    if (file.path().extension() != ".v") continue;
+    const std::string text = text_of(file.path());
+    for (const auto& [theorem, id] : theorems(file.path().stem().string(), text)) {
+      EXPECT_NE(id, "") << theorem << " names no claim";
+      found[id].insert(theorem);
+    }
+  }
+  return found;
+}
+
+TEST(Claims, TheoremsAgreeOnBothSides) {
+  auto proofs = proved();
+  EXPECT_FALSE(proofs.empty());
+  for (const auto& [id, claim] : claims()) {
+    const std::set<std::string> stated(claim.theorems.begin(), claim.theorems.end());
+    EXPECT_EQ(stated, proofs[id]) << id;
+    proofs.erase(id);
+  }
+  for (const auto& [id, theorem] : proofs) ADD_FAILURE() << *theorem.begin() << " proves " << id;
+}
+
+TEST(Proofs, TakeNothingWithoutProof) {
+  for (const auto& file : fs::directory_iterator(root / "proofs")) {
+    if (file.path().extension() != ".v") continue;
+    for (const std::string& word : unproved(text_of(file.path()))) {
+      ADD_FAILURE() << file.path().filename() << ": " << word;
+    }
+  }
+}
+
+/// The list that the compiled theorems are compared with names each of them, and none else.
+TEST(Proofs, AssumptionsAreListedForEveryTheorem) {
+  std::set<std::string> all, listed;
+  for (const auto& [id, theorem] : proved()) all.insert(theorem.begin(), theorem.end());
+  std::istringstream lines(text_of(root / "proofs/assumptions.txt"));
+  for (std::string line; std::getline(lines, line);) listed.insert(line.substr(0, line.find(':')));
+  EXPECT_EQ(all, listed);
 }
 
 /// Links between the pages of docs/ and the READMEs lead somewhere.
