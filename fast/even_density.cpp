@@ -297,26 +297,16 @@ EvenDensity::Ten EvenDensity::share_of(const Density& density, const Ten& slopes
   return share;
 }
 
-// The y with D P T^T y = Phi.
-EvenDensity::Ten EvenDensity::unknowns_of(const Density& density, const Ten& Phi) noexcept {
-  Ten y = Ten::Zero();
-  for (int i = 0; i < density.rank; ++i) {
-    const int place = density.pivots[static_cast<std::size_t>(i)];
-    y[i] = (Phi[place] / density.lengths[place] - density.T.col(i).head(i).dot(y.head(i))) /
-           density.T(i, i);
-  }
-  return y;
-}
-
-// The residual of the damped problem in y, with the masses as they are; its correction solves the
-// normal equations by the triangle that is there. Masses are corrected, not made anew from w: where
-// columns of X nearly depend on each other w is large, and u_j . w loses digits.
-void EvenDensity::refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept {
+// The residual of the damped problem: slopes are those of the masses, to the last digits, and y is
+// kept as the sum of its corrections. (From Phi it would be lost where columns of X nearly depend
+// on each other.) Its correction solves the normal equations by the triangle that is there. Masses
+// are corrected, not made anew from w: there w is large, and u_j . w loses digits.
+void EvenDensity::refine(const Eigen::VectorXd& slopes) noexcept {
   for (int l = 0; l < columns_->links(); ++l) {
     const Density& density = densities_[static_cast<std::size_t>(l)];
-    const Ten residual = share_of(density, slopes.segment<10>(Eigen::Index{10} * l)) -
-                         lambda_ * unknowns_of(density, Phi.segment<10>(Eigen::Index{10} * l));
-    correction_.segment(density.first, density.rank) = residual.head(density.rank);
+    const Ten share = share_of(density, slopes.segment<10>(Eigen::Index{10} * l));
+    correction_.segment(density.first, density.rank) =
+        share.head(density.rank) - lambda_ * y_.segment(density.first, density.rank);
   }
   qr_.solve_normal(correction_);
   y_.head(qr_.size()) += correction_.head(qr_.size());

@@ -31,7 +31,7 @@ class EvenDensity final : public PassiveSet {
   [[nodiscard]] bool enter(int j) noexcept override;
   void dependence(Eigen::VectorXd& coefficients) noexcept override;
   void leave(int place) noexcept override;
-  void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept override;
+  void refine(const Eigen::VectorXd& slopes) noexcept override;
   [[nodiscard]] bool sound() const noexcept override { return sound_; }
   [[nodiscard]] const Eigen::VectorXd& target() noexcept override;
   [[nodiscard]] const Eigen::VectorXd& slopes(const Eigen::VectorXd& of_residual) noexcept override;
@@ -63,7 +63,6 @@ class EvenDensity final : public PassiveSet {
   [[nodiscard]] static Ten weights(const Density& density, int rank, const Ten& y,
                                    const Ten& rest) noexcept;
   [[nodiscard]] static Ten share_of(const Density& density, const Ten& slopes) noexcept;
-  [[nodiscard]] static Ten unknowns_of(const Density& density, const Ten& Phi) noexcept;
   void solve() noexcept;
 
   const ShapeColumns* columns_;

@@ -61,7 +61,7 @@ const Eigen::VectorXd& ManyLinks::target() noexcept {
   return target_;
 }
 
-void ManyLinks::refine(const Eigen::VectorXd& /*Phi*/, const Eigen::VectorXd& slopes) noexcept {
+void ManyLinks::refine(const Eigen::VectorXd& slopes) noexcept {
   for (std::size_t i = 0; i < passive_.size(); ++i) {
     const int j = passive_[i];
     correction_[static_cast<Eigen::Index>(i)] =

@@ -21,7 +21,7 @@ class ManyLinks final : public PassiveSet {
   [[nodiscard]] bool enter(int j) noexcept override;
   void dependence(Eigen::VectorXd& coefficients) noexcept override;
   void leave(int place) noexcept override;
-  void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept override;
+  void refine(const Eigen::VectorXd& slopes) noexcept override;
   [[nodiscard]] bool sound() const noexcept override { return sound_; }
   [[nodiscard]] const Eigen::VectorXd& target() noexcept override;
   [[nodiscard]] const Eigen::VectorXd& slopes(

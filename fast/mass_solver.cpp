@@ -318,24 +318,44 @@ bool MassSolver::some_enter() noexcept {
     refuse_without_mass(before);
     if (passive_.size() == before) ++iterations_;
   }
+  if (passive_.size() == before) return false;
   admit_refused();
-  return passive_.size() > before;
+  return true;
 }
 
 /// Of the shapes that entered at place `first` and behind it.
 void MassSolver::refuse_without_mass(std::size_t first) noexcept {
-  bool one_left = true;
-  while (one_left && passive_.size() > first) {
-    one_left = false;
-    const Eigen::VectorXd& target = set_->target();
-    for (std::size_t i = passive_.size(); i-- > first;) {
-      if (target[static_cast<Eigen::Index>(i)] > 0.0) continue;
-      const int j = passive_[i];
-      leave(static_cast<int>(i));
-      refuse(j);
-      one_left = true;
-    }
+  while (passive_.size() > first && some_are_refused(first)) {
   }
+}
+
+/// Those at place `first` and behind it whose target is not positive.
+bool MassSolver::some_are_refused(std::size_t first) noexcept {
+  const std::size_t before = passive_.size();
+  const Eigen::VectorXd& target = set_->target();
+  for (std::size_t i = before; i-- > first;) {
+    if (target[static_cast<Eigen::Index>(i)] > 0.0) continue;
+    const int j = passive_[i];
+    leave(static_cast<int>(i));
+    refuse(j);
+  }
+  return passive_.size() < before;
+}
+
+// Masses to the last digits that the factorisation allows. False if a shape had its mass from
+// rounding alone: then it is refused, for it would enter and leave for ever.
+bool MassSolver::refine() noexcept {
+  // Shapes that were refused have been in the set and out again: the target is made anew.
+  if (step_is_blocked()) return false;
+  evaluate();
+  for (int k = 0; k < most_refinements && largest_slope() > refined_slope; ++k) {
+    ++iterations_;
+    set_->refine(slopes_);
+    if (some_are_refused(0)) return false;
+    static_cast<void>(step_is_blocked());
+    evaluate();
+  }
+  return true;
 }
 
 Outcome MassSolver::iterate() noexcept {
@@ -344,16 +364,22 @@ Outcome MassSolver::iterate() noexcept {
   // clocks.
   const int most_steps = 100 + 4 * (static_cast<int>(lengths_.size()) + shapes());
   const int last = iterations_ + most_steps;
-  int refinements = 0;
   while (true) {
-    if (++iterations_ > last) return Outcome::too_many_steps;
-    if (step_is_blocked() || some_enter()) continue;
-    if (set_->keeps_slopes()) evaluate();
-    if (refinements == most_refinements || !(largest_slope() > refined_slope)) break;
-    ++refinements;
-    set_->refine(Phi_, slopes_);
+    ++iterations_;
+    if (step_is_blocked()) continue;  // takes a shape out, so comes to an end
+    const bool in_time = iterations_ <= last;
+    if (in_time && some_enter()) continue;
+    if (set_->keeps_slopes() || !in_time) evaluate();
+    if (!(largest_slope() > refined_slope)) break;
+    if (refine() && (!in_time || set_->keeps_slopes() || !some_enter())) break;
   }
+  admit_refused();
   if (!set_->sound()) return Outcome::ill_conditioned;
+  // Rounding may let a shape in and out for ever. It is no matter if the answer is right all the
+  // same.
+  if (iterations_ > last && columns_.steepest(slopes_, allowed_slope) >= 0) {
+    return Outcome::too_many_steps;
+  }
   for (std::size_t i = 0; i < passive_.size(); ++i) m_[passive_[i]] = masses_[i];
   return std::isfinite(value_.total()) ? Outcome::solved : Outcome::not_finite;
 }

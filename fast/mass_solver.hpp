@@ -19,7 +19,7 @@ enum class Outcome {
   solved,
   not_finite,       ///< a number of the rows is not finite
   ill_conditioned,  ///< the answer does not pass its own check: its gradient is not small enough
-  too_many_steps    ///< the bound on the steps of one call is reached
+  too_many_steps  ///< the bound on the steps of one call is reached, and shapes should still enter
 };
 
 /// Minimises  || R U m - c ||^2 + lambda sum_j m_j^2 / V_j  over m >= 0, with [R c] the triangle of
@@ -99,6 +99,8 @@ class MassSolver {
   void leave_without_mass() noexcept;
   [[nodiscard]] const std::vector<int>& entering_shapes() noexcept;
   [[nodiscard]] bool some_enter() noexcept;
+  [[nodiscard]] bool refine() noexcept;
+  [[nodiscard]] bool some_are_refused(std::size_t first) noexcept;
   void refuse_without_mass(std::size_t first) noexcept;
   void refuse(int j) noexcept;
   void admit_refused() noexcept;

@@ -101,7 +101,7 @@ void OneLink::leave(int place) noexcept {
 }
 
 // The normal equations of the correction, T^T T x = A^T r, by the inverse of T.
-void OneLink::refine(const Eigen::VectorXd& /*Phi*/, const Eigen::VectorXd& slopes) noexcept {
+void OneLink::refine(const Eigen::VectorXd& slopes) noexcept {
   Vector10 x = Vector10::Zero();
   for (int i = 0; i < size_; ++i) {
     const double slope = columns_->column(passive_[static_cast<std::size_t>(i)]).dot(slopes);

@@ -22,7 +22,7 @@ class OneLink final : public PassiveSet {
   [[nodiscard]] bool enter(int j) noexcept override;
   void dependence(Eigen::VectorXd& coefficients) noexcept override;
   void leave(int place) noexcept override;
-  void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept override;
+  void refine(const Eigen::VectorXd& slopes) noexcept override;
   [[nodiscard]] const Eigen::VectorXd& target() noexcept override { return target_; }
   [[nodiscard]] bool keeps_slopes() const noexcept override { return true; }
   [[nodiscard]] const Eigen::VectorXd& slopes(

@@ -35,9 +35,9 @@ class PassiveSet {
 
   /// Masses of the passive shapes (kg, of any sign) at their minimum; the first entries count.
   [[nodiscard]] virtual const Eigen::VectorXd& target() noexcept = 0;
-  /// A better target: one step of iterative refinement. `Phi` = U m and `slopes` = R^T (c - R Phi),
-  /// both 10 links, come from the masses of the present target alone.
-  virtual void refine(const Eigen::VectorXd& Phi, const Eigen::VectorXd& slopes) noexcept = 0;
+  /// A better target: one step of iterative refinement. `slopes` = R^T (c - R U m), 10 links, come
+  /// from the masses m of the present target alone. Only after target().
+  virtual void refine(const Eigen::VectorXd& slopes) noexcept = 0;
   /// Whether slopes() are known without those of the residual, at no cost.
   [[nodiscard]] virtual bool keeps_slopes() const noexcept { return false; }
   /// At the target, for a shape that is not passive, -1/2 df/dm_j = u_j . slopes of its link: 10

@@ -40,13 +40,15 @@ Agreement agreement(const TriangleCase& given, const fast::MassSolver& solver,
       scaled((p.Y * (p.U * (m - reference))).squaredNorm(), terms.dot(m + reference), size);
   if (p.lambda > 0.0) {
     here.masses = scaled_mass_difference(p, m, reference);
-    const double total = reference.sum();
-    if (total > 0.0) here.largest_move = (m - reference).lpNorm<Eigen::Infinity>() / total;
     const VectorXd z = gradient(p, m);
     for (Index j = 0; j < p.shapes(); ++j) {
       if ((m[j] > 0.0) == (reference[j] > 0.0)) continue;
       ++here.other_side;
       here.other_slope = std::max(here.other_slope, scaled(std::abs(0.5 * z[j]), terms[j], size));
+    }
+    const double total = reference.sum();
+    if (here.other_side == 0 && total > 0.0) {
+      here.largest_move = (m - reference).lpNorm<Eigen::Infinity>() / total;
     }
   }
   return here;

@@ -23,15 +23,18 @@ inline constexpr double damped_rounding =
 /// Differences in roundings of the problem's own terms (tests/support/scaled.hpp), the KKT residual
 /// as it is.
 struct Agreement {
-  double kkt = 0.0;           ///< of the fast masses, from the rows themselves
-  double objective = 0.0;     ///< f at the fast masses and at the reference's
-  double value = 0.0;         ///< what the solver says f is, and what it is
-  double Phi = 0.0;           ///< what the solver says U m is, and what it is
-  double masses = 0.0;        ///< lambda > 0 only: otherwise they are not unique
-  double largest_move = 0.0;  ///< largest difference of two masses over the sum of all, likewise
-  double motion = 0.0;        ///< || R (Phi - Phi) ||^2 against its bound, see the source
-  int other_side = 0;         ///< shapes that have mass in one answer and none in the other
-  double other_slope = 0.0;   ///< the largest half gradient among those (lambda > 0)
+  double kkt = 0.0;        ///< of the fast masses, from the rows themselves
+  double objective = 0.0;  ///< f at the fast masses and at the reference's
+  double value = 0.0;      ///< what the solver says f is, and what it is
+  double Phi = 0.0;        ///< what the solver says U m is, and what it is
+  double masses = 0.0;     ///< lambda > 0 only: otherwise they are not unique
+  /// Largest difference of two masses over the sum of all, likewise. Only if all shapes are on the
+  /// same side: where a slope is no more than rounding, a mass follows that rounding over lambda,
+  /// up to 1e-4 of the sum, and `masses` is its measure.
+  double largest_move = 0.0;
+  double motion = 0.0;       ///< || R (Phi - Phi) ||^2 against its bound, see the source
+  int other_side = 0;        ///< shapes that have mass in one answer and none in the other
+  double other_slope = 0.0;  ///< the largest half gradient among those (lambda > 0)
 };
 
 [[nodiscard]] Agreement agreement(const TriangleCase& given, const fast::MassSolver& solver,

@@ -13,6 +13,7 @@
 #include "shapeid/models/shapes_yaml.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/reference/regressor.hpp"
+#include "shapeid/tests/fast/agreement.hpp"
 #include "shapeid/tests/fast/allocations.hpp"
 #include "shapeid/tests/fast/cases.hpp"
 #include "shapeid/tests/fast/window_runs.hpp"
@@ -122,25 +123,44 @@ std::vector<Sample> any_motion(const Robot& robot, std::size_t count, std::uint6
   return samples;
 }
 
-TEST(FastIdentifierWindows, ArmOnAFixedBaseAsTheReference) {
+/// Free links of an arm on a fixed base. The first ones move about few axes, so that most of their
+/// parameters reach no row.
+class FastIdentifierArms : public testing::TestWithParam<std::vector<int>> {};
+
+TEST_P(FastIdentifierArms, AsTheReference) {
   UrdfOptions options;
   options.root = Root::fixed;
   const Robot robot = read_urdf(SHAPEID_SOURCE_DIR "/docs/examples/panda.urdf", options).robot;
-  const BodyModel model = default_shapes(robot, {6, 7});
+  const BodyModel model = default_shapes(robot, GetParam());
   const auto shapes = static_cast<Eigen::Index>(model.shapes.size());
   const Eigen::VectorXd m = Eigen::VectorXd::LinSpaced(shapes, 1.0, 3.0);
   const Eigen::VectorXd truth = all_parameters(model, shape_columns(model) * m);
-  std::vector<Sample> samples = any_motion(robot, 300, 11);
-  test::Draw draw(12);
-  for (Sample& s : samples) {
-    s.tau = reference::regressor(robot, s) * truth;
-    for (double& torque : s.tau) torque += 0.1 * draw.normal();
+  std::vector<Sample> samples = any_motion(robot, 100, 11);
+  for (const double noise : {0.0, 0.1}) {
+    SCOPED_TRACE(noise);
+    test::Draw draw(12);
+    for (Sample& s : samples) {
+      s.tau = reference::regressor(robot, s) * truth;
+      for (double& torque : s.tau) torque += noise * draw.normal();
+    }
+    for (const int divisions : {0, 10}) {
+      IdentifierSettings settings;
+      settings.contacts = ContactTreatment::ignore;
+      settings.expected_mass = m.sum();
+      settings.division.most_divisions = divisions;
+      const test::WindowRuns runs = test::run_windows(robot, model, settings, samples);
+      expect_as_reference(runs);
+      EXPECT_LT(runs.worst_tie, test::damped_rounding);  // as well as v is known
+    }
   }
-  IdentifierSettings settings;
-  settings.contacts = ContactTreatment::ignore;
-  settings.expected_mass = m.sum();
-  expect_as_reference(test::run_windows(robot, model, settings, samples));
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    FreeLinks, FastIdentifierArms,
+    testing::Values(std::vector{1}, std::vector{2}, std::vector{3}, std::vector{4}, std::vector{5},
+                    std::vector{6}, std::vector{7}, std::vector{6, 7}, std::vector{1, 2},
+                    std::vector{2, 3, 4, 5, 6, 7}, std::vector{1, 2, 3, 4, 5, 6, 7}),
+    [](const auto& instance) { return fmt::format("Links{}", fmt::join(instance.param, "")); });
 
 Robot corner_robot(const std::string& name) {
   for (const test::NamedRobot& candidate : test::corner_robots()) {

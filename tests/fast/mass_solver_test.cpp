@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "shapeid/fast/solve_masses.hpp"
@@ -27,35 +29,47 @@ using test::scaled_objective_difference;
 /// The solver's own bound on a gradient entry over its terms.
 constexpr double promised_slope = 1e-10;
 
-/// Counts what was compared and how often the fast path declined, and prints it at the end.
+/// Counts what was compared, how often the fast path declined, and how often an answer is right to
+/// what it promises but not to a few hundred roundings. Both are rare (docs/agreement.md), and
+/// bounded here.
 struct Tally {
   const char* what;
-  int compared = 0, declined = 0;
+  int compared = 0, declined = 0, rough = 0;
   explicit Tally(const char* name) : what(name) {}
-  ~Tally() { fmt::print("{}: {} compared, {} declined\n", what, compared, declined); }
+  ~Tally() {
+    fmt::print("{}: {} compared, {} of them roughly, {} declined\n", what, compared, rough,
+               declined);
+  }
   Tally(const Tally&) = delete;
   Tally& operator=(const Tally&) = delete;
+  [[nodiscard]] bool is_rare(int count) const { return count <= 1 + compared / 1000; }
 };
 
 /// The same minimum; for lambda > 0 also the same minimiser, as exactly as the problem's own
 /// gradient can tell in double.
-void expect_right(const PlantedProblem& planted, Tally& tally,
-                  double mass_roundings = few_hundred_eps) {
+void expect_right(const PlantedProblem& planted, Tally& tally) {
   const MassProblem& p = planted.problem;
   const std::optional<MassSolution> fast = fast::solve_masses(p);
   if (!fast) {
-    ++tally.declined;
+    RC_ASSERT(tally.is_rare(++tally.declined));
     return;
   }
   ++tally.compared;
   RC_ASSERT(!(fast->m.array() < 0.0).any());
   // What the solver checks of every answer before it gives it out, here from the rows themselves.
   RC_ASSERT(reference::kkt_residual(p, fast->m).worst() < promised_slope);
-  RC_ASSERT(scaled_objective_difference(p, fast->m, planted.m) < few_hundred_eps);
-  RC_ASSERT(scaled(std::abs(fast->value.total() - objective(p, fast->m).total()),
-                   test::objective_terms(p, fast->m), p.F.size() + p.shapes()) < few_hundred_eps);
+  const double terms = test::objective_terms(p, fast->m);
+  const Eigen::Index size = p.F.size() + p.shapes();
+  RC_ASSERT(scaled(std::abs(fast->value.total() - objective(p, fast->m).total()), terms, size) <
+            few_hundred_eps);
+  const double above = objective(p, fast->m).total() - objective(p, planted.m).total();
+  RC_ASSERT(above <= promised_slope * std::max(terms, test::objective_terms(p, planted.m)));
+  if (!(scaled_objective_difference(p, fast->m, planted.m) < few_hundred_eps)) {
+    RC_ASSERT(tally.is_rare(++tally.rough));
+    return;
+  }
   if (p.lambda > 0.0) {
-    RC_ASSERT(scaled_mass_difference(p, fast->m, reference::solve_masses(p).m) < mass_roundings);
+    RC_ASSERT(scaled_mass_difference(p, fast->m, reference::solve_masses(p).m) < few_hundred_eps);
   }
 }
 
@@ -71,11 +85,7 @@ RC_GTEST_PROP(FastMasses, Degenerate, ()) {
 
 RC_GTEST_PROP(FastMasses, NearParallel, ()) {
   static Tally tally("near parallel");
-  // In double a gradient is small to promised_slope, 4e5 roundings, where columns are parallel to
-  // 1e-12 and below; masses then differ by as many. Seen: five hundred.
-  constexpr double promised_roundings = 1e4;
-  expect_right(*planted_problem({.degenerate = true, .near_parallel = true}), tally,
-               promised_roundings);
+  expect_right(*planted_problem({.degenerate = true, .near_parallel = true}), tally);
 }
 
 RC_GTEST_PROP(FastMasses, BadlyScaled, ()) {

@@ -118,7 +118,7 @@ class Watched {
     const VectorXd g = slopes();
     for (int round = 0; round < 3; ++round) {
       const VectorXd Phi = parameters();
-      set_->refine(Phi, p.Y.transpose() * (p.F - p.Y * Phi));
+      set_->refine(p.Y.transpose() * (p.F - p.Y * Phi));
     }
     RC_ASSERT(set_->sound());
     LongVector Phi = LongVector::Zero(p.U.rows());

@@ -38,15 +38,24 @@ class ReferenceWindows {
     return first + k * settings_.stride;
   }
 
-  reference::DivisionRun solve(std::size_t k) {
+  reference::DivisionRun solve(std::size_t k) { return solve(k, options().most_divisions); }
+
+  /// The same with fewer divisions, and the v that decide the next.
+  reference::DivisionRun solve(std::size_t k, int most_divisions) {
     rows_.clear();
     for (std::size_t i = end(k) - settings_.window; i < end(k); ++i) rows_.add(samples_[i]);
     MassProblem problem = rows_.problem(model_);
     if (!lambda_) lambda_ = default_lambda(problem, settings_.expected_mass);
     problem.lambda = *lambda_;
+    DivisionOptions fewer = options();
+    fewer.most_divisions = most_divisions;
+    return reference::divide_and_solve(model_, problem, fewer);
+  }
+
+  [[nodiscard]] DivisionOptions options() const {
     DivisionOptions options = settings_.division;
     options.expected_mass = settings_.expected_mass;
-    return reference::divide_and_solve(model_, problem, options);
+    return options;
   }
 
  private:
@@ -71,9 +80,24 @@ std::vector<std::string> divided(const fast::Division& division, const BodyModel
   return all;
 }
 
+/// How far the v of two shapes are apart after as many divisions of window k, over the larger.
+double tie_of(ReferenceWindows& windows, std::size_t k, std::size_t divisions, const std::string& a,
+              const std::string& b) {
+  const reference::DivisionRun run = windows.solve(k, static_cast<int>(divisions));
+  const Eigen::VectorXd v =
+      reference::division_criterion(run.model, run.solution.m, windows.options());
+  const auto v_of = [&](const std::string& id) {
+    const auto place = std::find_if(run.model.shapes.begin(), run.model.shapes.end(),
+                                    [&](const SoughtShape& shape) { return shape.id == id; });
+    return v[place - run.model.shapes.begin()];
+  };
+  return std::abs(v_of(a) - v_of(b)) / v.maxCoeff();
+}
+
 /// Compares the objectives of all divisions up to the first that is not of the same shape.
 void compare(const fast::Identifier& identifier, const BodyModel& model,
-             const reference::DivisionRun& expected, WindowRuns& runs) {
+             const reference::DivisionRun& expected, ReferenceWindows& windows, std::size_t k,
+             WindowRuns& runs) {
   const double terms = objective_terms(expected.problem, expected.solution.m);
   const auto note = [&](double value, double right) {
     runs.worst_objective =
@@ -93,8 +117,14 @@ void compare(const fast::Identifier& identifier, const BodyModel& model,
     ++same;
     ++runs.divisions;
   }
-  if (same < std::max(ids.size(), expected.history.size())) {
+  if (same < std::min(ids.size(), expected.history.size())) {
     ++runs.parted;
+    runs.worst_tie = std::max(runs.worst_tie,
+                              tie_of(windows, k, same, ids[same], expected.history[same].divided));
+    return;
+  }
+  if (same < ids.size()) {
+    runs.first_wrong = fmt::format("window {}: fast divides on after {} divisions", k, same);
     return;
   }
   note(identifier.answer().value.total(), expected.solution.value.total());
@@ -118,12 +148,13 @@ WindowRuns run_windows(const Robot& robot, const BodyModel& model,
       return runs;
     }
     if (!complete) continue;
-    const reference::DivisionRun expected = windows.solve(static_cast<std::size_t>(runs.windows++));
+    const auto k = static_cast<std::size_t>(runs.windows++);
+    const reference::DivisionRun expected = windows.solve(k);
     if (result == Fed::window_declined) {
       ++runs.declined;
       continue;
     }
-    compare(identifier, model, expected, runs);
+    compare(identifier, model, expected, windows, k, runs);
     runs.iterations = std::max(runs.iterations, identifier.answer().iterations);
     if (identifier.answer().time != samples[fed - 1].time) {
       runs.first_wrong = fmt::format("sample {}: answered for another time", fed);
@@ -140,12 +171,12 @@ WindowRuns run_windows(const Robot& robot, const BodyModel& model,
 
 std::string describe(const WindowRuns& runs) {
   return fmt::format(
-      "{} windows, {} declined, {} equal divisions, {} windows part at a division and {} stop "
-      "early, "
+      "{} windows, {} declined, {} equal divisions, {} windows part at a division (v {:.1e} apart) "
+      "and {} stop early, "
       "at most {} iterations, {} samples by six rows; objective {:.1e} roundings apart, gap {:.1e} "
       "of its terms",
-      runs.windows, runs.declined, runs.divisions, runs.parted, runs.stopped, runs.iterations,
-      runs.six_rows, runs.worst_objective, runs.worst_gap);
+      runs.windows, runs.declined, runs.divisions, runs.parted, runs.worst_tie, runs.stopped,
+      runs.iterations, runs.six_rows, runs.worst_objective, runs.worst_gap);
 }
 
 }  // namespace shapeid::test

@@ -16,6 +16,7 @@ struct WindowRuns {
   int declined = 0;          ///< of these, by the fast path
   int divisions = 0;         ///< of the same shapes by both
   int parted = 0;            ///< windows in which another shape was divided next
+  double worst_tie = 0.0;    ///< of these: v of the two shapes apart in the reference, over its v
   int stopped = 0;           ///< windows in which fast stops dividing first: its solver declined
   int iterations = 0;        ///< the most in one window
   std::size_t six_rows = 0;  ///< samples by the six-row path
