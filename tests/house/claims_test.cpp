@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -12,16 +10,11 @@
 #include <vector>
 
 #include "theorems.hpp"
+#include "tree.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path root = SHAPEID_SOURCE_DIR;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 struct Claim {
   std::string promised_in;
@@ -103,9 +96,11 @@ TEST(Claims, NamesAgreeOnBothSides) {
   }
 }
 
-/// What proofs/ proves of a claim, by the claim's id.
-std::map<std::string, std::set<std::string>> proved() {
-  std::map<std::string, std::set<std::string>> found;
+using ByClaim = std::map<std::string, std::set<std::string>>;
+
+/// What the Coq files of proofs/ prove of a claim, by the claim's id.
+ByClaim proved() {
+  ByClaim found;
   for (const auto& file : fs::directory_iterator(root / "proofs")) {
     if (file.path().extension() != ".v") continue;
     const std::string text = text_of(file.path());
@@ -117,8 +112,22 @@ std::map<std::string, std::set<std::string>> proved() {
   return found;
 }
 
+/// And the files of bounds that Gappa proves: the first line names the claim.
+ByClaim bounded() {
+  ByClaim found;
+  const std::regex first(R"(^# Claim (C\d+)\. )");
+  for (const auto& file : fs::directory_iterator(root / "proofs/rounding")) {
+    const std::string text = text_of(file.path());
+    std::smatch m;
+    EXPECT_TRUE(std::regex_search(text, m, first)) << file.path() << " names no claim";
+    found[m[1]].insert(fs::relative(file.path(), root / "proofs").string());
+  }
+  return found;
+}
+
 TEST(Claims, TheoremsAgreeOnBothSides) {
-  auto proofs = proved();
+  ByClaim proofs = proved();
+  for (const auto& [id, files] : bounded()) proofs[id].insert(files.begin(), files.end());
   EXPECT_FALSE(proofs.empty());
   for (const auto& [id, claim] : claims()) {
     const std::set<std::string> stated(claim.theorems.begin(), claim.theorems.end());
