@@ -2,7 +2,7 @@
     a hypothesis is needed. *)
 From Coq Require Import Ring Field Arith Lia List QArith Qcanon.
 From Shapeid Require Import ordered_field numbers sums space mass_problem kkt certificate projection
-  merge body floor.
+  projection_qr merge body floor.
 Import ListNotations.
 
 Section Examples.
@@ -74,6 +74,17 @@ Section Examples.
       destruct i as [| [| i]]; [| | lia]; unfold image; cbn.
       + transitivity (0 + 1 * e 0%nat + 0 * e 1%nat); [ring | rewrite h; ring].
       + ring.
+  Qed.
+
+  (** rank_revealing of the same: Q = 1, R P^T = (1 1). *)
+  Example redundant_contacts_factor :
+    rank_revealing 2 2 1 named_twice (fun i a => if i =? a then 1 else 0) (fun _ _ => 1)
+      (fun l _ => if l =? 0 then 1 else 0).
+  Proof.
+    split; intros;
+      repeat match goal with h : (?a < 2)%nat |- _ => destruct a as [| [| ?]]; [clear h | clear h | lia]
+                           | h : (?a < 1)%nat |- _ => destruct a as [| ?]; [clear h | lia] end;
+      try lia; unfold dot, named_twice; cbn; ring.
   Qed.
 
   (** factored: the column (3, 4) is (3/5, 4/5) times 5. *)

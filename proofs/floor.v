@@ -34,12 +34,6 @@ Section Floor.
   Definition floor p x M low : K :=
     data_of p x - dot (parameters p) (slope p x) x + M * low.
 
-  Lemma sum_blocks n (f : nat -> K) : sum (10 * n) f = sum n (fun l => sum 10 (fun k => f (10 * l + k)%nat)).
-  Proof.
-    induction n as [| n IH]; [reflexivity |].
-    replace (10 * S n)%nat with (10 * n + 10)%nat by lia. rewrite sum_concat, IH. reflexivity.
-  Qed.
-
   (** The price of a body is the mean price of its points. *)
   Lemma body_price (B : Body K) (c : nat -> K) n :
     integrable B (fun r => sum n (fun k => c k * point_parameters r k)) /\
@@ -103,7 +97,7 @@ Section Floor.
         rewrite (sum_ext (10 * links) _ (fun k => sum (shapes q) (fun j => t j * (g k * U q k j)))).
         2: { intros k _. rewrite <- sum_scale. apply sum_ext. intros. ring. }
         rewrite sum_swap. apply sum_ext. intros j hj. rewrite sum_scale. f_equal.
-        rewrite sum_blocks.
+        rewrite sum_tens.
         rewrite (sum_ext links _ (fun l => (if link j =? l then 1 else 0) *
           sum 10 (fun k => g (10 * l + k)%nat * body_parameters (shape j) k))).
         - rewrite (sum_indicator links (link j) (fun l =>

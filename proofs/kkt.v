@@ -1,5 +1,5 @@
 (** When masses are the optimum of the mass problem, and the only one. *)
-From Coq Require Import Ring Field Lia.
+From Coq Require Import Ring Field Arith Lia.
 From Shapeid Require Import ordered_field sums mass_problem.
 
 Section Kkt.

@@ -102,6 +102,13 @@ Section Sums.
     - rewrite IH by lia. ring.
   Qed.
 
+  (** Ten numbers a link. *)
+  Lemma sum_tens n f : sum (10 * n) f = sum n (fun l => sum 10 (fun k => f (10 * l + k)%nat)).
+  Proof.
+    induction n as [| n IH]; [reflexivity |].
+    replace (10 * S n)%nat with (10 * n + 10)%nat by lia. rewrite sum_concat, IH. reflexivity.
+  Qed.
+
   Lemma dot_comm n x y : dot n x y = dot n y x.
   Proof. apply sum_ext. intros. ring. Qed.
 
@@ -130,6 +137,7 @@ Arguments sum_nonneg_zero {K}.
 Arguments sum_split {K}.
 Arguments sum_concat {K}.
 Arguments sum_indicator {K}.
+Arguments sum_tens {K}.
 Arguments dot_comm {K}.
 Arguments norm2_nonneg {K}.
 Arguments norm2_zero {K}.
