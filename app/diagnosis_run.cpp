@@ -149,6 +149,17 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
   return errors;
 }
 
+/// The log at three times the cutoff, from which the filter's own error is computed; none if there
+/// is no filter, or one that works forward only.
+std::optional<RecordedLog> less_smooth(const RobotInputs& robot, const DiagnoseOptions& options,
+                                       const RecordedLog& log, std::optional<Part> part) {
+  constexpr double times = 3.0, highest = 0.4;  // of the rate
+  MotionInputs inputs = options.inputs;
+  inputs.cutoff = std::min(times * inputs.cutoff, highest * log.motion.rate);
+  if (inputs.exact || inputs.causal || !(inputs.cutoff > options.inputs.cutoff)) return {};
+  return read_recording(options.inputs.log, robot, inputs, part);
+}
+
 void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
   const int base = robot.base_dof();
   for (int j = 0; j < robot.joint_count(); ++j) {
@@ -166,8 +177,8 @@ void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
 
 DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& options) {
   const bool split = options.test.empty();
-  const RecordedLog log = read_recording(options.inputs.log, robot, options.inputs,
-                                         split ? std::optional(Part::fitted) : std::nullopt);
+  const std::optional<Part> fitted_part = split ? std::optional(Part::fitted) : std::nullopt;
+  RecordedLog log = read_recording(options.inputs.log, robot, options.inputs, fitted_part);
   diagnosis::check_recording(robot.robot, log.recording, log.contacts);
   const std::string& test_path = split ? options.inputs.log : options.test;
   const std::optional<Part> test_part = split ? std::optional(Part::held_out) : std::nullopt;
@@ -183,8 +194,14 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   DiagnosisRun run{settings_for(robot, options, log), {}, {}, {},         {},
                    std::move(test.recording),         {}, {}, log.motion, robot.robot.notes};
   diagnosis::check_clocks(robot.robot, log.recording, run.settings);
+  const std::optional<RecordedLog> rough = less_smooth(robot, options, log, fitted_part);
+  if (rough) {
+    run.settings.rough = &rough->recording;
+    run.settings.cutoff = options.inputs.cutoff;
+  }
   const Recording* reference = earlier ? &earlier->recording : nullptr;
   run.loop = diagnosis::close_loop(robot.robot, log.recording, reference, run.settings);
+  log.recording.set_correction(run.loop.correction);
   run.consistent =
       diagnosis::make_consistent(robot.robot, log.recording, reference, run.settings, run.loop);
   run.notes.insert(run.notes.end(), robot.warnings.begin(), robot.warnings.end());

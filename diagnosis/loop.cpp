@@ -6,8 +6,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "shapeid/diagnosis/consistent.hpp"
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/filter_error.hpp"
 #include "shapeid/diagnosis/refine.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
@@ -51,6 +51,7 @@ class Loop {
     fit_masses();
     for (round_ = 0; round_ < settings_.rounds; ++round_) {
       const std::vector<std::string> before = ids();
+      correct();
       reweigh();
       auto start = std::chrono::steady_clock::now();
       screen();
@@ -100,11 +101,13 @@ class Loop {
   }
 
   /// The strongest prior that predicts held-out blocks as well as any, as far as their scatter
-  /// tells: what the data say nothing about stays as given.
+  /// tells: what the data say nothing about stays as given. None is so strong that it pulls on what
+  /// the data do say: effects would be found that undo it.
   void choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
     std::vector<double> priors;
     std::vector<Eigen::VectorXd> errors;
-    for (double prior = 1e-4; prior < 2e6; prior *= 10.0) {
+    constexpr double strongest = 10.0;  // a third of its natural size, for each parameter
+    for (double prior = 1e-4; prior <= 1.5 * strongest; prior *= 10.0) {
       fits.set_prior(prior);
       priors.push_back(prior);
       errors.push_back(fits.held_out(terms));
@@ -132,6 +135,15 @@ class Loop {
     BlockFits fits = tallied({});
     choose_prior(fits, {masses_});
     set_masses(fits.fit({masses_}));
+  }
+
+  /// What the filter makes of products, by the present model.
+  void correct() {
+    if (settings_.rough == nullptr) return;
+    const Viewer viewer(robot_, settings_.contacts, result_.model.effects);
+    result_.correction =
+        filter_error(viewer, result_.model, log_, *settings_.rough, settings_.cutoff);
+    log_.set_correction(result_.correction);
   }
 
   /// W = 1 / variance of what the present model leaves, row by row.
@@ -487,7 +499,7 @@ class Loop {
   }
 
   const Robot& robot_;
-  const Recording& log_;
+  Recording log_;
   const Recording* reference_;
   const LoopSettings& settings_;
   Eigen::VectorXd centre_;  ///< of the prior, 10 links

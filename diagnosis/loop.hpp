@@ -23,6 +23,10 @@ struct LoopSettings {
   double block_seconds = 0.0;  ///< 0: so that there are about forty, and none below half a second
   int folds = 8;
   int rounds = 4;  ///< of weights, screening and refits
+  /// The log filtered at a higher cutoff than `cutoff` (Hz), the log's own: what the filter makes
+  /// of products is then taken out. Null: the log counts as it is.
+  const Recording* rough = nullptr;
+  double cutoff = 0.0;
   SelectionRule rule;
 };
 
@@ -50,6 +54,7 @@ struct LoopResult {
   std::vector<std::string> hidden;    ///< cannot be told from masses and what was found
   std::vector<std::pair<std::string, double>> wrong_signs;  ///< id, its parameter over its error
   Eigen::VectorXd weight;
+  std::vector<Eigen::VectorXd> correction;  ///< of the log, by the last round's model; or none
   double prior = 1.0;
   double error_given = 0.0, error_rigid = 0.0, error_end = 0.0;  ///< held-out, weighted, per sample
   std::size_t samples = 0, hypotheses = 0, blocks = 0;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shapeid/diagnosis/effect.hpp"
@@ -24,6 +25,15 @@ class Recording {
   [[nodiscard]] double elapsed(std::size_t index) const;
   [[nodiscard]] double duration() const;
 
+  /// A force (dof) that counts as logged besides the torque, one a sample: what the filter took
+  /// from it (filter_error()). Zero-length: none.
+  void set_correction(std::vector<Eigen::VectorXd> correction) {
+    correction_ = std::move(correction);
+  }
+  [[nodiscard]] Eigen::VectorXd correction(std::size_t index) const {
+    return correction_.empty() ? Eigen::VectorXd() : correction_[index];
+  }
+
   /// Every stride-th sample that has neighbours for largest_shift on both sides. The same samples
   /// serve every hypothesis, also those that look at no neighbour.
   [[nodiscard]] std::vector<std::size_t> usable(std::size_t stride) const;
@@ -38,6 +48,7 @@ class Recording {
   std::vector<Sample> samples_;
   double rate_;
   std::vector<std::string> extra_;
+  std::vector<Eigen::VectorXd> correction_;
   std::vector<std::size_t> segment_begin_, segment_end_;  ///< of each sample's segment
 };
 

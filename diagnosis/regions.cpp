@@ -1,6 +1,7 @@
 #include "shapeid/diagnosis/regions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "shapeid/models/shapes_yaml.hpp"
@@ -9,9 +10,10 @@ namespace shapeid::diagnosis {
 
 BodyModel generous_regions(const Robot& robot, const std::vector<int>& free_links) {
   constexpr double wider = 0.25;  // of the longest side, on every side
-  // Along each side. One box cannot shift its centre of mass, and the criterion that picks what to
-  // divide looks for mass, not for what the data lack: it may leave a light link whole for ever.
-  constexpr int cells = 4;
+  // Along each side of the inner part. One box cannot shift its centre of mass, and the criterion
+  // that picks what to divide looks for mass, not for what the data lack: it may leave a light link
+  // whole for ever; and cells as large as the margin cannot be as slender as a trunk is.
+  constexpr int inner = 4;
   BodyModel model = default_shapes(robot, free_links);
   const std::vector<SoughtShape> given = std::move(model.shapes);
   model.shapes.clear();
@@ -31,13 +33,27 @@ BodyModel generous_regions(const Robot& robot, const std::vector<int>& free_link
       if (child.parent == link) include(place, place);
     }
     const double margin = wider * (upper - lower).maxCoeff();
-    const Eigen::Vector3d cell = ((upper - lower).array() + 2.0 * margin) / cells;
-    const Eigen::Vector3d corner = lower.array() - margin;
+    const Eigen::Vector3d outermost = Eigen::Vector3d::Constant(margin);
+    const Eigen::Vector3d cell = (upper - lower) / inner;
+    // Borders of the cells along an axis: the margin, the inner part, the margin.
+    const auto border = [&](int i) -> Eigen::Vector3d {
+      if (i == 0) return lower - outermost;
+      return i > inner + 1 ? Eigen::Vector3d(upper + outermost)
+                           : Eigen::Vector3d(lower + (i - 1) * cell);
+    };
+    constexpr int cells = inner + 2;
     for (int k = 0; k < cells * cells * cells; ++k) {
-      const Eigen::Vector3d place(k % cells, k / cells % cells, k / (cells * cells));
+      const std::array<int, 3> place = {k % cells, k / cells % cells, k / (cells * cells)};
+      Eigen::Vector3d from, to;
+      for (int axis = 0; axis < 3; ++axis) {
+        const int i = place[static_cast<std::size_t>(axis)];
+        from[axis] = border(i)[axis];
+        to[axis] = border(i + 1)[axis];
+      }
       Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-      pose.translation() = corner + cell.cwiseProduct((place.array() + 0.5).matrix());
-      model.shapes.push_back({link, make_cuboid(cell, pose), std::to_string(model.shapes.size())});
+      pose.translation() = 0.5 * (from + to);
+      model.shapes.push_back(
+          {link, make_cuboid(to - from, pose), std::to_string(model.shapes.size())});
     }
   }
   return model;

@@ -43,7 +43,9 @@ Sample Viewer::moved(const Recording& recording, std::size_t index) const {
 }
 
 View Viewer::view(const Recording& recording, std::size_t index) const {
-  return view(moved(recording, index), recording.elapsed(index));
+  View result = view(moved(recording, index), recording.elapsed(index));
+  result.correction = recording.correction(index);
+  return result;
 }
 
 View Viewer::view(Sample moved, double elapsed) const {
@@ -70,6 +72,7 @@ Eigen::VectorXd logged_force(const Viewer& viewer, const View& view) {
   if (viewer.contacts() == reference::ContactTreatment::measured) {
     force += reference::measured_contact_force(viewer.robot(), view.sample);
   }
+  if (view.correction.size() > 0) force += view.correction;
   return force;
 }
 

@@ -35,6 +35,7 @@ struct View {
   Eigen::MatrixXd Y;  ///< dof x 10 links, before Transformation::rows
   Eigen::MatrixXd J;  ///< contact rows x dof, likewise
   double elapsed = 0.0;
+  Eigen::VectorXd correction;  ///< Recording::correction()
 };
 
 /// Prepares views of a robot with the transformations among some effects. The robot must outlive
@@ -81,7 +82,8 @@ struct Prediction {
                                               const RichModel& model,
                                               const std::vector<int>& free_links);
 
-/// S^T tau as logged, plus measured contact forces if these are used, dof.
+/// S^T tau as logged, plus measured contact forces if these are used, plus the correction if there
+/// is one, dof.
 [[nodiscard]] Eigen::VectorXd logged_force(const Viewer& viewer, const View& view);
 
 /// Predicted minus logged, after the part that contact forces can explain is taken out
