@@ -67,26 +67,32 @@ Section Consistency.
     rewrite (sym ay ax), (sym az ax), (sym az ay). field. apply two_nonzero.
   Qed.
 
-  (** Claim C7. ... so can every cuboid with whatever map, *)
-  Theorem cuboids_are_consistent T c : consistent (unit_parameters (moments_of T c)).
+  Lemma twelve_pos : (0 : K) < 2 * 2 * 3.
   Proof.
-    intros w s.
+    repeat apply mul_pos; try apply two_pos.
+    apply add_pos; [apply one_pos | apply lt_le, two_pos].
+  Qed.
+
+  Lemma cuboid_form T c w s :
+    pseudo_inertia (unit_parameters (moments_of T c)) w s =
+    (dot3 w (centroid (moments_of T c)) + s) * (dot3 w (centroid (moments_of T c)) + s) +
+    sum3 (fun a => let g := sum3 (fun i => w i * linear T i a) in
+                   width c a * g * (width c a * g) / (2 * 2 * 3)).
+  Proof.
     assert (cov : forall i j, covariance (moments_of T c) i j =
       sum3 (fun a => linear T i a * (width c a * width c a / (2 * 2 * 3)) * linear T j a)).
     { intros i j. cbn. unfold product, transposed, sum3. cbn. ring. }
     rewrite solid_form.
     2: { intros i j. rewrite !cov. unfold sum3. ring. }
-    apply add_nonneg; [apply square_nonneg |].
-    set (g := fun a => sum3 (fun i => w i * linear T i a)).
-    assert (form : dot3 w (times (covariance (moments_of T c)) w) =
-      sum3 (fun a => width c a * g a * (width c a * g a) / (2 * 2 * 3))).
-    { unfold dot3 at 1, times, g. unfold sum3 at 1 2 3 4. rewrite !cov. unfold sum3.
-      rewrite !div_mul. ring. }
-    rewrite form. unfold sum3.
-    assert (twelve_pos : (0 : K) < 2 * 2 * 3).
-    { repeat apply mul_pos; try apply two_pos.
-      apply add_pos; [apply one_pos | apply lt_le, two_pos]. }
-    repeat apply add_nonneg; (apply div_nonneg; [apply square_nonneg | exact twelve_pos]).
+    f_equal. unfold dot3 at 1, times. unfold sum3 at 1 2 3 4. rewrite !cov. unfold sum3.
+    rewrite !div_mul. ring.
+  Qed.
+
+  (** Claim C7. ... so can every cuboid with whatever map, *)
+  Theorem cuboids_are_consistent T c : consistent (unit_parameters (moments_of T c)).
+  Proof.
+    intros w s. rewrite cuboid_form. apply add_nonneg; [apply square_nonneg |]. unfold sum3 at 1.
+    repeat apply add_nonneg; (apply div_nonneg; [apply square_nonneg | apply twelve_pos]).
   Qed.
 
   (** Claim C7. ... and every body of uniform density whatever its shape, *)

@@ -1,46 +1,8 @@
 (** The closed moments of cuboid.v are the integrals over the box: Riemann's, one coordinate after the
     other, of every function of order at most two. *)
-From Coq Require Import Reals Lra FunctionalExtensionality.
-From Shapeid Require Import ordered_field numbers space cuboid.
+From Coq Require Import Reals FunctionalExtensionality.
+From Shapeid Require Import ordered_field numbers space integral cuboid.
 Local Open Scope R_scope.
-
-(** The operations of [reals] by their own names, for Coq's tactics. *)
-Local Ltac by_name :=
-  change (@add reals) with Rplus in *; change (@mul reals) with Rmult in *;
-  change (@sub reals) with Rminus in *; change (@opp reals) with Ropp in *;
-  change (@div reals) with Rdiv in *; change (@inv reals) with Rinv in *;
-  change (@zero reals) with 0 in *; change (@one reals) with 1 in *;
-  change (carrier reals) with R in *.
-
-Definition is_integral (f : R -> R) (a b value : R) : Prop :=
-  exists h : Riemann_integrable f a b, RiemannInt h = value.
-
-Lemma quadratic_integral c0 c1 c2 a b :
-  a <= b ->
-  is_integral (fun x => c0 + c1 * x + c2 * (x * x)) a b
-    (c0 * (b - a) + c1 * (b * b - a * a) / 2 + c2 * (b * b * b - a * a * a) / 3).
-Proof.
-  intro ab.
-  set (f := fun x => c0 + c1 * x + c2 * (x * x)).
-  set (F := fun x => c0 * x + c1 * (x * x) / 2 + c2 * (x * x * x) / 3).
-  assert (slope : forall x, derivable_pt_lim F x (f x)).
-  { intro x. unfold F, f. 
-    replace (c0 + c1 * x + c2 * (x * x)) with
-      (c0 * 1 + c1 / 2 * (1 * x + x * 1) + c2 / 3 * ((1 * x + x * 1) * x + x * x * 1)) by field.
-    apply (derivable_pt_lim_ext
-      (fun x => c0 * x + c1 / 2 * (x * x) + c2 / 3 * (x * x * x))); [intro; field |].
-    repeat first [apply derivable_pt_lim_plus | apply derivable_pt_lim_scal |
-      apply (derivable_pt_lim_mult (fun x => x * x) (fun x => x)) |
-      apply (derivable_pt_lim_mult (fun x => x) (fun x => x)) | apply derivable_pt_lim_id]. }
-  pose (d := (fun x => exist _ (f x) (slope x)) : derivable F).
-  assert (same : derive F d = f) by (apply functional_extensionality; reflexivity).
-  assert (continuous : continuity f) by (unfold f; reg).
-  assert (h : Riemann_integrable (derive F d) a b).
-  { rewrite same. apply continuity_implies_RiemannInt; [exact ab | intros; apply continuous]. }
-  assert (c1' : continuity (derive F d)) by now rewrite same.
-  pose proof (FTC_Riemann (mkC1 c1') h) as value. cbn in value.
-  revert h value. rewrite same. intros h value. exists h. rewrite value. unfold F. field.
-Qed.
 
 (** One coordinate after the other, the last one innermost. *)
 Definition box_integral (f : Vec3 reals -> R) (c : Cell reals) (value : R) : Prop :=
@@ -50,16 +12,6 @@ Definition box_integral (f : Vec3 reals -> R) (c : Cell reals) (value : R) : Pro
       (lower c az) (upper c az) (over_z x y)) /\
     (forall x, is_integral (fun y => over_z x y) (lower c ay) (upper c ay) (over_yz x)) /\
     is_integral (fun x => over_yz x) (lower c ax) (upper c ax) value.
-
-Lemma is_integral_of c0 c1 c2 (f : R -> R) a b value :
-  a <= b -> (forall x, f x = c0 + c1 * x + c2 * (x * x)) ->
-  value = c0 * (b - a) + c1 * (b * b - a * a) / 2 + c2 * (b * b * b - a * a * a) / 3 ->
-  is_integral f a b value.
-Proof.
-  intros ab same ->. replace f with (fun x => c0 + c1 * x + c2 * (x * x)).
-  - now apply quadratic_integral.
-  - symmetry. apply functional_extensionality. exact same.
-Qed.
 
 (** Claim C6. The volume, centroid and covariance that the code computes of a cell of the canonical
     cuboid give the integral over the cell of every function of order at most two. *)
@@ -93,19 +45,19 @@ Proof.
   - intros x y. eapply is_integral_of with
       (c0 := c + g ax * x + g ay * y + H ax ax * (x * x) + (H ax ay + H ay ax) * (x * y) +
              H ay ay * (y * y))
-      (c1 := g az + (H ax az + H az ax) * x + (H ay az + H az ay) * y) (c2 := H az az);
+      (c1 := g az + (H ax az + H az ax) * x + (H ay az + H az ay) * y) (c2 := H az az) (c3 := 0) (c4 := 0);
       [exact oz | intro; ring | unfold z1, z2, z3; field].
   - intro x. eapply is_integral_of with
       (c0 := (c + g ax * x + H ax ax * (x * x)) * z1 + (g az + (H ax az + H az ax) * x) * z2 +
              H az az * z3)
       (c1 := (g ay + (H ax ay + H ay ax) * x) * z1 + (H ay az + H az ay) * z2)
-      (c2 := H ay ay * z1);
+      (c2 := H ay ay * z1) (c3 := 0) (c4 := 0);
       [exact oy | intro; ring | unfold y1, y2, y3; field].
   - eapply is_integral_of with
       (c0 := (c * z1 + g az * z2 + H az az * z3) * y1 + (g ay * z1 + (H ay az + H az ay) * z2) * y2 +
              H ay ay * z1 * y3)
       (c1 := (g ax * z1 + (H ax az + H az ax) * z2) * y1 + (H ax ay + H ay ax) * z1 * y2)
-      (c2 := H ax ax * z1 * y1);
+      (c2 := H ax ax * z1 * y1) (c3 := 0) (c4 := 0);
       [exact ox | intro; ring |].
     unfold y1, y2, y3, z1, z2, z3. by_name. field.
 Qed.
