@@ -19,7 +19,7 @@ Section Split.
     other_columns : forall k i, (i < shapes p)%nat -> i <> j -> U q k i = U p k i;
     other_volumes : forall i, (i < shapes p)%nat -> i <> j -> V q i = V p i;
     volumes : V p j = V q j + V q (shapes p);
-    positive : 0 < V q j /\ 0 < V q (shapes p);
+    positive_volumes : 0 < V q j /\ 0 < V q (shapes p);
     columns : forall k, V p j * U p k j = V q j * U q k j + V q (shapes p) * U q k (shapes p)
   }.
 
@@ -37,7 +37,7 @@ Section Split.
 
     Lemma whole_positive : 0 < V p j.
     Proof.
-      rewrite (volumes _ _ _ is_cut). destruct (positive _ _ _ is_cut).
+      rewrite (volumes _ _ _ is_cut). destruct (positive_volumes _ _ _ is_cut).
       apply add_pos; [assumption | now apply lt_le].
     Qed.
 
@@ -78,7 +78,7 @@ Section Split.
       rewrite (one_more _ _ _ is_cut). apply (sum_split _ j).
       - apply (place _ _ _ is_cut).
       - rewrite at_place, at_end. fold V1 V2.
-        pose proof whole_positive as whole. destruct (positive _ _ _ is_cut) as [p1 p2].
+        pose proof whole_positive as whole. destruct (positive_volumes _ _ _ is_cut) as [p1 p2].
         transitivity (m j * m j * (V1 + V2) / (V p j * V p j)).
         { field. repeat split; now apply pos_nonzero. }
         unfold V1, V2. rewrite <- (volumes _ _ _ is_cut). field. now apply pos_nonzero.
@@ -103,7 +103,7 @@ Section Split.
     Lemma split_keeps_sign : nonnegative p m -> nonnegative q (equal_density p q j m).
     Proof.
       intros hm i hi. rewrite (one_more _ _ _ is_cut) in hi.
-      destruct (positive _ _ _ is_cut) as [p1 p2].
+      destruct (positive_volumes _ _ _ is_cut) as [p1 p2].
       assert (mj : 0 <= m j) by (apply hm, (place _ _ _ is_cut)).
       destruct (Nat.eq_dec i j) as [-> | no].
       - rewrite at_place. apply div_nonneg; [| apply whole_positive].
@@ -169,7 +169,7 @@ Section Split.
   Lemma cut_well_formed p q j : cut p q j -> well_formed p -> well_formed q.
   Proof.
     intros c [w [v l]]. destruct (same_rows _ _ _ c) as [er _]. destruct (same_data _ _ _ c) as [_ efw].
-    destruct (positive _ _ _ c) as [p1 p2].
+    destruct (positive_volumes _ _ _ c) as [p1 p2].
     refine (conj _ (conj _ _)).
     - intros i hi. rewrite er in hi. destruct (efw i) as [_ ->]. now apply w.
     - intros i hi. rewrite (one_more _ _ _ c) in hi.
