@@ -75,8 +75,9 @@ void add_diagnose(CLI::App& app) {
   verb->add_flag_function("--list", print_catalogue, "print the effects that can be found");
   d.inputs.add_to(*verb);
   add_delivery_options(*verb, options->delivery);
+  verb->add_option("--also", d.also, "further logs of this robot, fitted together with the first");
   verb->add_option("--test", d.test,
-                   "log for the final comparison (default: every fifth two seconds of the log)");
+                   "logs for the final comparison (default: every fifth two seconds of the log)");
   verb->add_option("--reference", d.reference,
                    "earlier log of the same robot: what has come since is then a finding");
   auto* shapes = verb->add_option("--shapes", d.shapes,

@@ -1,6 +1,7 @@
 #include "shapeid/app/diagnosis_run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,12 +105,16 @@ Eigen::MatrixXd unfiltered_torque(const Recording& smooth, const diagnosis::Seri
   return tau;
 }
 
-Eigen::VectorXd rms_of(const Eigen::MatrixXd& rows) {
+/// Over the entries that count and are numbers.
+Eigen::VectorXd rms_of(
+    const Eigen::MatrixXd& rows,
+    const Eigen::Ref<const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>>& counted) {
   Eigen::VectorXd rms(rows.rows());
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     double sum = 0.0, count = 0.0;
-    for (const double x : rows.row(r)) {
-      if (std::isnan(x)) continue;
+    for (Eigen::Index i = 0; i < rows.cols(); ++i) {
+      const double x = rows(r, i);
+      if (!counted(r, i) || std::isnan(x)) continue;
       sum += x * x;
       count += 1.0;
     }
@@ -127,8 +132,10 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
   const diagnosis::Series zero =
       diagnosis::series(r, settings.contacts, nothing, run.test, settings.stride);
   TestErrors errors;
-  errors.where = options.test.empty() ? "every fifth two seconds of the log" : options.test;
+  errors.where = options.test.empty() ? "every fifth two seconds of the log"
+                                      : fmt::format("{}", fmt::join(options.test, ", "));
   errors.samples = run.after.index.size();
+  errors.at_rest = 1.0 - zero.counted.cast<double>().rowwise().mean();
   errors.zero = zero.rms();
   errors.given = run.before.rms();
   errors.found = run.after.rms();
@@ -139,14 +146,21 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
   }
   // The part that contact forces explain is the smooth signals' own: only the torque is exchanged.
   const Eigen::MatrixXd rough = tau - smooth;
-  errors.unfiltered_zero = rms_of(zero.residual.bottomRows(n) - rough);
-  errors.unfiltered_given = rms_of(run.before.residual.bottomRows(n) - rough);
-  errors.unfiltered_found = rms_of(run.after.residual.bottomRows(n) - rough);
+  const auto counted = zero.counted.bottomRows(n);
+  errors.unfiltered_zero = rms_of(zero.residual.bottomRows(n) - rough, counted);
+  errors.unfiltered_given = rms_of(run.before.residual.bottomRows(n) - rough, counted);
+  errors.unfiltered_found = rms_of(run.after.residual.bottomRows(n) - rough, counted);
   // Two passes of second order let through 0.87 of the cutoff's band.
   const double band = 0.87 * options.inputs.cutoff / (0.5 * run.motion.rate);
   errors.noise_floor =
-      rms_of(rough) * (band > 0.0 && band < 1.0 ? std::sqrt(band / (1.0 - band)) : 1.0);
+      rms_of(rough, counted) * (band > 0.0 && band < 1.0 ? std::sqrt(band / (1.0 - band)) : 1.0);
   return errors;
+}
+
+std::vector<std::string> fitted_logs(const DiagnoseOptions& options) {
+  std::vector<std::string> paths = {options.inputs.log};
+  paths.insert(paths.end(), options.also.begin(), options.also.end());
+  return paths;
 }
 
 /// The log at three times the cutoff, from which the filter's own error is computed; none if there
@@ -157,7 +171,18 @@ std::optional<RecordedLog> less_smooth(const RobotInputs& robot, const DiagnoseO
   MotionInputs inputs = options.inputs;
   inputs.cutoff = std::min(times * inputs.cutoff, highest * log.motion.rate);
   if (inputs.exact || inputs.causal || !(inputs.cutoff > options.inputs.cutoff)) return {};
-  return read_recording(options.inputs.log, robot, inputs, part);
+  return read_recordings(fitted_logs(options), robot, inputs, part);
+}
+
+void note_rests(const Robot& robot, DiagnosisRun& run) {
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    const double share = run.errors.at_rest[robot.base_dof() + j];
+    if (!(share > 0.0)) continue;
+    run.notes.push_back(
+        fmt::format("{} stands still in {:.0f} % of the test; its torque does not count there, "
+                    "because friction at rest holds any",
+                    robot.joint(j).name, 100.0 * share));
+  }
 }
 
 void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
@@ -178,14 +203,14 @@ void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
 DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& options) {
   const bool split = options.test.empty();
   const std::optional<Part> fitted_part = split ? std::optional(Part::fitted) : std::nullopt;
-  RecordedLog log = read_recording(options.inputs.log, robot, options.inputs, fitted_part);
+  RecordedLog log = read_recordings(fitted_logs(options), robot, options.inputs, fitted_part);
   diagnosis::check_recording(robot.robot, log.recording, log.contacts);
-  const std::string& test_path = split ? options.inputs.log : options.test;
+  const std::vector<std::string> test_paths = split ? fitted_logs(options) : options.test;
   const std::optional<Part> test_part = split ? std::optional(Part::held_out) : std::nullopt;
-  RecordedLog test = read_recording(test_path, robot, options.inputs, test_part);
+  RecordedLog test = read_recordings(test_paths, robot, options.inputs, test_part);
   MotionInputs unsmoothed = options.inputs;
   unsmoothed.cutoff = 0.0;
-  const RecordedLog raw = read_recording(test_path, robot, unsmoothed, test_part);
+  const RecordedLog raw = read_recordings(test_paths, robot, unsmoothed, test_part);
   std::optional<RecordedLog> earlier;
   if (!options.reference.empty()) {
     earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);
@@ -216,6 +241,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                                 run.settings.stride);
   run.errors = test_errors(robot, options, run, raw.recording);
   run.structures = diagnosis::unexplained(robot.robot, run.test, run.after);
+  note_rests(robot.robot, run);
   note_worse_joints(robot.robot, run);
   return run;
 }

@@ -12,7 +12,9 @@ namespace shapeid::app {
 
 struct DiagnoseOptions {
   MotionInputs inputs;
-  std::string test;       ///< log for the final comparison; empty: every fifth two seconds
+  std::vector<std::string> also;  ///< further logs that are fitted together with the first
+  /// Logs for the final comparison; none: every fifth two seconds.
+  std::vector<std::string> test;
   std::string reference;  ///< earlier log of the same robot; may be empty
   std::string shapes;     ///< shapes.yaml; empty: generous boxes
   std::vector<std::string> free_links;
@@ -27,6 +29,7 @@ struct TestErrors {
   std::string where;
   std::size_t samples = 0;
   Eigen::VectorXd zero, given, found;
+  Eigen::VectorXd at_rest;  ///< share of the samples in which a row does not count
   /// The same against the torque as logged, without any filter, joints only.
   Eigen::VectorXd unfiltered_zero, unfiltered_given, unfiltered_found;
   /// What noise of the logged torque leaves after the filter, joints only, N m: from what the

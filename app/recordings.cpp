@@ -1,7 +1,11 @@
 #include "shapeid/app/recordings.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <utility>
-#include <vector>
+
+#include "shapeid/models/error.hpp"
 
 namespace shapeid::app {
 
@@ -17,6 +21,37 @@ RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
   const MotionReport& report = log.report();
   return {diagnosis::Recording(std::move(samples), report.rate, report.extra), report,
           log.contacts()};
+}
+
+RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotInputs& robot,
+                            const MotionInputs& inputs, std::optional<Part> wanted) {
+  constexpr double pause = 1.0;       // s: a gap for everything that looks at neighbours
+  constexpr double same_rate = 0.01;  // relative
+  RecordedLog all = read_recording(paths.front(), robot, inputs, wanted);
+  std::vector<Sample> samples = all.recording.samples();
+  for (std::size_t k = 1; k < paths.size(); ++k) {
+    const RecordedLog more = read_recording(paths[k], robot, inputs, wanted);
+    if (!(std::abs(more.motion.rate - all.motion.rate) <= same_rate * all.motion.rate)) {
+      throw InputError({paths[k]},
+                       fmt::format("has {:.4g} samples a second, {} has {:.4g}", more.motion.rate,
+                                   paths.front(), all.motion.rate),
+                       "--rate, for a grid that all share");
+    }
+    if (more.motion.extra != all.motion.extra || more.contacts != all.contacts) {
+      throw InputError({paths[k]}, "has other columns than " + paths.front(),
+                       "logs with the same columns");
+    }
+    const double end = samples.empty() ? 0.0 : samples.back().time + pause;
+    for (Sample sample : more.recording.samples()) {
+      sample.time += end - more.recording.samples().front().time;
+      samples.push_back(std::move(sample));
+    }
+    all.motion.rows += more.motion.rows;
+    all.motion.samples += more.motion.samples;
+    all.motion.gaps += more.motion.gaps + 1;
+  }
+  all.recording = diagnosis::Recording(std::move(samples), all.motion.rate, all.motion.extra);
+  return all;
 }
 
 }  // namespace shapeid::app

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "shapeid/app/inputs.hpp"
 #include "shapeid/diagnosis/recording.hpp"
@@ -18,5 +19,11 @@ struct RecordedLog {
 /// The log, or one part of it.
 [[nodiscard]] RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
                                          const MotionInputs& inputs, std::optional<Part> wanted);
+
+/// Several logs of the same robot as one, a second's pause between them. Throws InputError if their
+/// rates or extra columns differ, or if contacts are logged in some only.
+[[nodiscard]] RecordedLog read_recordings(const std::vector<std::string>& paths,
+                                          const RobotInputs& robot, const MotionInputs& inputs,
+                                          std::optional<Part> wanted);
 
 }  // namespace shapeid::app

@@ -166,13 +166,18 @@ class Loop {
       if (found != result_.model.effects.end()) {
         h = *found;
       } else if (h.effect->id == "cogging") {
-        Eigen::VectorXd q(std::ssize(left.index));
-        for (Eigen::Index i = 0; i < q.size(); ++i) {
-          q[i] = log_[left.index[static_cast<std::size_t>(i)]].q[h.site];
+        const Eigen::Index row = robot_.base_dof() + h.site;
+        std::vector<double> q, r;
+        for (Eigen::Index i = 0; i < left.residual.cols(); ++i) {
+          if (!left.counted(row, i)) continue;
+          q.push_back(log_[left.index[static_cast<std::size_t>(i)]].q[h.site]);
+          r.push_back(left.residual(row, i));
         }
+        if (q.empty()) continue;
         const ShapeNumber& N = h.effect->shape.front();
-        h.shape[0] = strongest_ripple(q, left.residual.row(robot_.base_dof() + h.site).transpose(),
-                                      N.lower, N.upper);
+        h.shape[0] = strongest_ripple(Eigen::Map<Eigen::VectorXd>(q.data(), std::ssize(q)),
+                                      Eigen::Map<Eigen::VectorXd>(r.data(), std::ssize(r)), N.lower,
+                                      N.upper);
       }
     }
     for (const AppliedEffect& a : result_.model.effects) {

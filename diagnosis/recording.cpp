@@ -25,6 +25,26 @@ Recording::Recording(std::vector<Sample> samples, double rate, std::vector<std::
     }
     begin = i + 1;
   }
+  find_rests();
+}
+
+void Recording::find_rests() {
+  constexpr double slow = 0.01;     // rad/s or m/s
+  constexpr double seconds = 0.25;  // a motion that turns round is as slow for a moment, too
+  const auto longest_turn = static_cast<std::size_t>(std::ceil(seconds * rate_));
+  const Eigen::Index joints = samples_.empty() ? 0 : samples_.front().dq.size();
+  at_rest_.setConstant(joints, std::ssize(samples_), false);
+  for (Eigen::Index j = 0; j < joints; ++j) {
+    for (std::size_t i = 0; i < samples_.size();) {
+      std::size_t end = i;
+      while (end < segment_end_[i] && std::abs(samples_[end].dq[j]) < slow) ++end;
+      if (end > i + longest_turn) {
+        at_rest_.row(j).segment(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(end - i)) =
+            true;
+      }
+      i = std::max(end, i + 1);
+    }
+  }
 }
 
 double Recording::elapsed(std::size_t index) const {

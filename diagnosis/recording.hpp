@@ -1,6 +1,8 @@
 // The samples of a log in memory, because effects look at neighbours and fits go over them often.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -38,18 +40,26 @@ class Recording {
   /// serve every hypothesis, also those that look at no neighbour.
   [[nodiscard]] std::vector<std::size_t> usable(std::size_t stride) const;
 
+  /// Whether the joint stands still: slower than a hundredth of a radian (a centimetre) a second
+  /// for a quarter of a second or longer.
+  [[nodiscard]] bool at_rest(std::size_t index, Eigen::Index joint) const {
+    return at_rest_(joint, static_cast<Eigen::Index>(index));
+  }
+
   /// The motion `dt` seconds after a usable sample, by the cubic through four neighbours. Contact
   /// flags, forces and extras are those of the nearest sample. |dt| <= largest_shift.
   [[nodiscard]] Sample shifted(std::size_t index, double dt) const;
 
  private:
   [[nodiscard]] std::size_t reach() const;
+  void find_rests();
 
   std::vector<Sample> samples_;
   double rate_;
   std::vector<std::string> extra_;
   std::vector<Eigen::VectorXd> correction_;
-  std::vector<std::size_t> segment_begin_, segment_end_;  ///< of each sample's segment
+  std::vector<std::size_t> segment_begin_, segment_end_;        ///< of each sample's segment
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> at_rest_;  ///< joints x samples
 };
 
 }  // namespace shapeid::diagnosis

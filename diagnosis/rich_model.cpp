@@ -67,6 +67,16 @@ void Viewer::transform(const View& view, Rows& rows) const {
   }
 }
 
+Eigen::Array<bool, Eigen::Dynamic, 1> counted_rows(const Viewer& viewer, const Recording& recording,
+                                                   std::size_t index, const View& view) {
+  const Robot& robot = viewer.robot();
+  Eigen::Array<bool, Eigen::Dynamic, 1> counted =
+      Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(robot.dof(), true);
+  if (robot.root == Root::floating || view.J.rows() > 0) return counted;
+  for (Eigen::Index j = 0; j < robot.joint_count(); ++j) counted[j] = !recording.at_rest(index, j);
+  return counted;
+}
+
 Eigen::VectorXd logged_force(const Viewer& viewer, const View& view) {
   Eigen::VectorXd force = reference::applied_force(viewer.robot(), view.sample);
   if (viewer.contacts() == reference::ContactTreatment::measured) {

@@ -82,6 +82,15 @@ struct Prediction {
                                               const RichModel& model,
                                               const std::vector<int>& free_links);
 
+/// Which of the dof rows count, in fits and in errors. Dry friction holds a joint that stands still
+/// against any torque up to where it breaks away, and no model of motion says which: on a fixed
+/// base without contacts these joints' rows are left out. With contacts the projection mixes all
+/// rows, and all count.
+[[nodiscard]] Eigen::Array<bool, Eigen::Dynamic, 1> counted_rows(const Viewer& viewer,
+                                                                 const Recording& recording,
+                                                                 std::size_t index,
+                                                                 const View& view);
+
 /// S^T tau as logged, plus measured contact forces if these are used, plus the correction if there
 /// is one, dof.
 [[nodiscard]] Eigen::VectorXd logged_force(const Viewer& viewer, const View& view);

@@ -7,8 +7,9 @@
 namespace shapeid::diagnosis {
 
 Eigen::VectorXd Series::rms() const {
-  const auto count = static_cast<double>(std::max<Eigen::Index>(residual.cols(), 1));
-  return (residual.rowwise().squaredNorm() / count).cwiseSqrt();
+  const Eigen::ArrayXXd weight = counted.cast<double>();
+  const Eigen::ArrayXd count = weight.rowwise().sum().cwiseMax(1.0);
+  return ((residual.array().square() * weight).rowwise().sum() / count).sqrt();
 }
 
 Series series(const Robot& robot, reference::ContactTreatment contacts, const RichModel& model,
@@ -18,10 +19,12 @@ Series series(const Robot& robot, reference::ContactTreatment contacts, const Ri
   result.index = recording.usable(stride);
   result.residual.resize(robot.dof(), std::ssize(result.index));
   result.predicted.resize(robot.dof(), std::ssize(result.index));
+  result.counted.resize(robot.dof(), std::ssize(result.index));
   for (std::size_t i = 0; i < result.index.size(); ++i) {
     const View view = viewer.view(recording, result.index[i]);
     const auto column = static_cast<Eigen::Index>(i);
     result.residual.col(column) = residual(viewer, view, model);
+    result.counted.col(column) = counted_rows(viewer, recording, result.index[i], view);
     result.predicted.col(column) = logged_force(viewer, view) + result.residual.col(column);
   }
   return result;

@@ -14,7 +14,9 @@ struct Series {
   std::vector<std::size_t> index;  ///< samples of the recording
   Eigen::MatrixXd residual;        ///< dof x samples: the yardstick, predicted minus logged
   Eigen::MatrixXd predicted;       ///< dof x samples: logged plus residual
-  /// Root mean square of each generalised row.
+  /// dof x samples: counted_rows(). The others are in no error.
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> counted;
+  /// Root mean square of each generalised row, over what counts.
   [[nodiscard]] Eigen::VectorXd rms() const;
 };
 

@@ -84,6 +84,10 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
     M.middleCols(tally.inertial, hypotheses.count()) =
         hypotheses.at(recording, index, view, predicted);
     M.rightCols<1>() = logged_force(viewer, view);
+    const auto counted = counted_rows(viewer, recording, index, view);
+    for (Eigen::Index row = 0; row < M.rows(); ++row) {
+      if (!counted[row]) M.row(row).setZero();
+    }
     const Eigen::MatrixXd Q2 = reference::contact_free_basis(rows.J, options.weight).Q2;
     sums.add(Q2.transpose() * (root.asDiagonal() * M));
     if (block.samples++ == 0) block.from = elapsed;

@@ -81,18 +81,22 @@ std::optional<Structure> curve(const std::vector<double>& x, const std::vector<d
 
 std::vector<Structure> unexplained(const Robot& robot, const Recording& recording,
                                    const Series& series) {
-  const std::size_t count = series.index.size();
   std::vector<Structure> found;
-  if (count < 10 * bins) return found;
-  const auto signal = [&](const auto& of) {
-    std::vector<double> x;
-    for (std::size_t i = 0; i < count; ++i) x.push_back(of(recording[series.index[i]], i));
-    return x;
-  };
   for (int j = 0; j < robot.joint_count(); ++j) {
     const Eigen::Index row = robot.base_dof() + j;
+    std::vector<std::size_t> places;  // in the series, of what counts
     std::vector<double> y;
-    for (Eigen::Index i = 0; i < series.residual.cols(); ++i) y.push_back(series.residual(row, i));
+    for (Eigen::Index i = 0; i < series.residual.cols(); ++i) {
+      if (!series.counted(row, i)) continue;
+      places.push_back(static_cast<std::size_t>(i));
+      y.push_back(series.residual(row, i));
+    }
+    if (y.size() < 10 * bins) continue;
+    const auto signal = [&](const auto& of) {
+      std::vector<double> x;
+      for (const std::size_t i : places) x.push_back(of(recording[series.index[i]], i));
+      return x;
+    };
     const auto best_of = [&](auto&& candidates) {
       std::optional<Structure> best;
       for (const auto& [name, x] : candidates) {
@@ -136,8 +140,10 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
 Autocorrelation autocorrelation(const Recording& recording, const Series& series, Eigen::Index row,
                                 int lags) {
   Autocorrelation result;
-  const Eigen::VectorXd y = series.residual.row(row).transpose();
-  const Eigen::VectorXd d = y.array() - y.mean();
+  const Eigen::ArrayXd counts = series.counted.row(row).cast<double>().transpose();
+  const Eigen::ArrayXd y = series.residual.row(row).transpose();
+  const double mean = (y * counts).sum() / std::max(counts.sum(), 1.0);
+  const Eigen::VectorXd d = (y - mean) * counts;
   const Eigen::Index n = d.size();
   const double variance = d.squaredNorm();
   for (int lag = 0; lag <= lags && lag < n; ++lag) {
