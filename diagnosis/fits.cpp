@@ -31,7 +31,9 @@ SumWithError sum_with_error(const Eigen::VectorXd& values) {
 
 Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
   const Eigen::VectorXd difference = before - after;
-  const Eigen::VectorXd relative = difference.cwiseQuotient(before + after);
+  // A block that both fit without error tells nothing.
+  const Eigen::ArrayXd sum = before + after;
+  const Eigen::VectorXd relative = (sum > 0.0).select(difference.array() / sum, 0.0);
   return {difference.sum() / before.sum(),
           std::max(sum_with_error(difference).t(), sum_with_error(relative).t())};
 }
@@ -125,7 +127,8 @@ Eigen::VectorXd BlockFits::ridge(const Columns& a) const {
   Eigen::VectorXd r(a.count());
   for (Eigen::Index i = 0; i < a.count(); ++i) {
     const Eigen::Index column = a.index[static_cast<std::size_t>(i)];
-    r[i] = regularity + prior_ * precision_[column];
+    // What strengthens the prior of inertias must not freeze effects.
+    r[i] = regularity + (column < tally_.inertial ? prior_ : 1.0) * precision_[column];
   }
   return r;
 }

@@ -77,6 +77,8 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
     if (elapsed - here * options.block_seconds > options.block_seconds - options.margin) continue;
 
     const View view = viewer.view(recording, index);
+    const auto counted = counted_rows(viewer, recording, index, view);
+    if (!counted.any()) continue;
     const Prediction predicted = predict(viewer, view, model);
     Rows rows{view.Y, view.J};
     viewer.transform(view, rows);
@@ -84,7 +86,6 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
     M.middleCols(tally.inertial, hypotheses.count()) =
         hypotheses.at(recording, index, view, predicted);
     M.rightCols<1>() = logged_force(viewer, view);
-    const auto counted = counted_rows(viewer, recording, index, view);
     for (Eigen::Index row = 0; row < M.rows(); ++row) {
       if (!counted[row]) M.row(row).setZero();
     }
