@@ -72,6 +72,34 @@ TEST(Diagnose, FindsAKneesFrictionAndItsFilesAreOfUse) {
             0.5 * result["heldout"]["rms_before"][at].get<double>());
 }
 
+TEST(Diagnose, FitsAndTestsSeveralLogsTogether) {
+  for (const char* seed : {"1", "2", "3"}) {
+    const std::string words = fmt::format("simulate --seconds 4 --seed {0} --out run{0}.csv", seed);
+    ASSERT_EQ(shapeid(words).status, 0);
+  }
+  const auto diagnosed = [](const std::string& logs) {
+    const CommandRun run = shapeid(fmt::format("diagnose {} {} --json", files, logs));
+    EXPECT_EQ(run.status, 0) << run.err;
+    return nlohmann::json::parse(run.out);
+  };
+  const auto one = diagnosed("--log run1.csv --test run3.csv");
+  const auto two = diagnosed("--log run1.csv --also run2.csv --test run3.csv run1.csv");
+  // Blocks have margins at their ends, which costs a few samples more or less.
+  const auto samples = [](const nlohmann::json& r) { return r["samples"].get<double>(); };
+  EXPECT_NEAR(samples(two) / samples(one), 2.0, 0.05);
+  // Every second sample or so of each log counts: one more or less where the stride begins anew.
+  EXPECT_NEAR(two["heldout"]["samples"].get<int>(), 2 * one["heldout"]["samples"].get<int>(), 1);
+}
+
+TEST(Diagnose, LogsOfDifferentRatesAreNotMixed) {
+  ASSERT_EQ(shapeid("simulate --seconds 2 --out run.csv").status, 0);
+  ASSERT_EQ(shapeid("simulate --seconds 2 --rate 250 --out slow.csv").status, 0);
+  const CommandRun run = shapeid(fmt::format("diagnose {} --log run.csv --also slow.csv", files));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("slow.csv: has 250 samples a second, run.csv has 500"), std::string::npos)
+      << run.err;
+}
+
 TEST(Diagnose, ListsTheCatalogue) {
   const CommandRun run = shapeid("diagnose --list");
   EXPECT_EQ(run.status, 0);

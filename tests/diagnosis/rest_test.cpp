@@ -1,0 +1,79 @@
+// Joints that stand still: found, and left out of fits and errors, because friction at rest holds
+// any torque.
+#include <gtest/gtest.h>
+
+#include "shapeid/diagnosis/rich_model.hpp"
+#include "shapeid/diagnosis/series.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::arm;
+using test::arm_settings;
+using test::record;
+
+constexpr double rate = 100.0;  // Hz, of record()
+constexpr int rested = 1;       // joint
+
+/// A log of the arm that then holds joint `rested` still for two seconds while the others go on;
+/// its torque there is `held`.
+Recording with_rest(double held) {
+  const Recording moving = record({});
+  std::vector<Sample> samples = moving.samples();
+  const std::size_t still = samples.size() - static_cast<std::size_t>(2.0 * rate);
+  const double place = samples[still].q[rested];
+  for (std::size_t i = still; i < samples.size(); ++i) {
+    samples[i].q[rested] = place;
+    samples[i].dq[rested] = 0.0;
+    samples[i].ddq[rested] = 0.0;
+    samples[i].tau[rested] = held;
+  }
+  return Recording(std::move(samples), rate);
+}
+
+TEST(Rest, IsFoundWhereAJointStandsStillAndNotWhereItTurnsRound) {
+  const Recording log = with_rest(0.0);
+  const std::size_t count = log.samples().size(), still = count - 200;
+  std::size_t slow = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      const bool expected = j == rested && i >= still;
+      ASSERT_EQ(log.at_rest(i, j), expected) << "sample " << i << ", joint " << j;
+      if (!expected && std::abs(log[i].dq[j]) < 0.01) ++slow;
+    }
+  }
+  EXPECT_GT(slow, 0U) << "a joint that turns round is slow for a moment, and counts";
+}
+
+TEST(Rest, ShortStopsCount) {
+  std::vector<Sample> samples = record({}).samples();
+  for (std::size_t i = 500; i < 520; ++i) samples[i].dq[0] = 0.0;
+  const Recording log(std::move(samples), rate);
+  for (std::size_t i = 500; i < 520; ++i) EXPECT_FALSE(log.at_rest(i, 0));
+}
+
+TEST(Rest, TorqueThatHoldsAJointStillChangesNoFitAndNoError) {
+  const LoopSettings settings = arm_settings();
+  const Recording one = with_rest(0.0), other = with_rest(40.0);
+  const LoopResult a = close_loop(arm(), one, nullptr, settings);
+  const LoopResult b = close_loop(arm(), other, nullptr, settings);
+  EXPECT_EQ(a.model.Phi, b.model.Phi);
+  EXPECT_EQ(test::found_ids(a), test::found_ids(b));
+  EXPECT_EQ(series(arm(), settings.contacts, a.model, one, 1).rms(),
+            series(arm(), settings.contacts, a.model, other, 1).rms());
+}
+
+TEST(Rest, WithContactsEveryRowCounts) {
+  const Recording log = with_rest(0.0);
+  const Robot robot = arm();
+  const Viewer viewer(robot, reference::ContactTreatment::ignore, {});
+  const std::size_t index = log.samples().size() - 50;
+  View view = viewer.view(log, index);
+  EXPECT_FALSE(counted_rows(viewer, log, index, view)[rested]);
+  view.J = Eigen::MatrixXd::Ones(3, 3);
+  EXPECT_TRUE(counted_rows(viewer, log, index, view).all());
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
