@@ -171,7 +171,7 @@ std::optional<RecordedLog> less_smooth(const RobotInputs& robot, const DiagnoseO
   MotionInputs inputs = options.inputs;
   inputs.cutoff = std::min(times * inputs.cutoff, highest * log.motion.rate);
   if (inputs.exact || inputs.causal || !(inputs.cutoff > options.inputs.cutoff)) return {};
-  return read_recordings(fitted_logs(options), robot, inputs, part);
+  return read_recordings(fitted_logs(options), robot, inputs, part, log.shifts);
 }
 
 void note_rests(const Robot& robot, DiagnosisRun& run) {
@@ -210,7 +210,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   RecordedLog test = read_recordings(test_paths, robot, options.inputs, test_part);
   MotionInputs unsmoothed = options.inputs;
   unsmoothed.cutoff = 0.0;
-  const RecordedLog raw = read_recordings(test_paths, robot, unsmoothed, test_part);
+  const RecordedLog raw = read_recordings(test_paths, robot, unsmoothed, test_part, test.shifts);
   std::optional<RecordedLog> earlier;
   if (!options.reference.empty()) {
     earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);

@@ -19,12 +19,15 @@ RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
     if (!wanted || part_of(sample->time - *start) == *wanted) samples.push_back(*sample);
   }
   const MotionReport& report = log.report();
-  return {diagnosis::Recording(std::move(samples), report.rate, report.extra), report,
-          log.contacts()};
+  return {diagnosis::Recording(std::move(samples), report.rate, report.extra),
+          report,
+          log.contacts(),
+          {0.0}};
 }
 
 RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotInputs& robot,
-                            const MotionInputs& inputs, std::optional<Part> wanted) {
+                            const MotionInputs& inputs, std::optional<Part> wanted,
+                            const std::vector<double>& shifts) {
   constexpr double pause = 1.0;       // s: a gap for everything that looks at neighbours
   constexpr double same_rate = 0.01;  // relative
   RecordedLog all = read_recording(paths.front(), robot, inputs, wanted);
@@ -41,9 +44,15 @@ RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotIn
       throw InputError({paths[k]}, "has other columns than " + paths.front(),
                        "logs with the same columns");
     }
-    const double end = samples.empty() ? 0.0 : samples.back().time + pause;
+    double shift = 0.0;
+    if (!shifts.empty()) {
+      shift = shifts[k];
+    } else if (!samples.empty() && !more.recording.samples().empty()) {
+      shift = samples.back().time + pause - more.recording.samples().front().time;
+    }
+    all.shifts.push_back(shift);
     for (Sample sample : more.recording.samples()) {
-      sample.time += end - more.recording.samples().front().time;
+      sample.time += shift;
       samples.push_back(std::move(sample));
     }
     all.motion.rows += more.motion.rows;

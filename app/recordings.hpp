@@ -14,16 +14,19 @@ struct RecordedLog {
   diagnosis::Recording recording;
   MotionReport motion;
   reference::ContactTreatment contacts;
+  std::vector<double> shifts;  ///< s that each of several logs was moved by
 };
 
 /// The log, or one part of it.
 [[nodiscard]] RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
                                          const MotionInputs& inputs, std::optional<Part> wanted);
 
-/// Several logs of the same robot as one, a second's pause between them. Throws InputError if their
-/// rates or extra columns differ, or if contacts are logged in some only.
+/// Several logs of the same robot as one, a second's pause between them, or moved in time by
+/// `shifts`, so that the same logs with another filter have the same times. Throws InputError if
+/// their rates or extra columns differ, or if contacts are logged in some only.
 [[nodiscard]] RecordedLog read_recordings(const std::vector<std::string>& paths,
                                           const RobotInputs& robot, const MotionInputs& inputs,
-                                          std::optional<Part> wanted);
+                                          std::optional<Part> wanted,
+                                          const std::vector<double>& shifts = {});
 
 }  // namespace shapeid::app
