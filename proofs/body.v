@@ -2,7 +2,7 @@
     never negative for functions that are not. Cut by a plane, or by anything else, it gives two
     bodies, and moments add up because integrals do. *)
 From Coq Require Import Ring Field.
-From Shapeid Require Import ordered_field space.
+From Shapeid Require Import ordered_field sums space.
 
 Section Body.
   Context {K : OrderedField}.
@@ -29,19 +29,14 @@ Section Body.
   Definition body_parameters (B : Body) : Ten K := fun k =>
     integral B (fun x => point_parameters x k) / body_volume B.
 
-  (** [B1] and [B2] are what a function [side] (1 on one side, 0 on the other) leaves of [B]. What can
-      be integrated over one can be over the others. *)
+  (** [B1] and [B2] are what a function [side] (1 on one side, 0 on the other) leaves of [B]. What
+      can be integrated over one can be over the others. *)
   Definition cut_by (side : Vec3 K -> K) (B B1 B2 : Body) : Prop :=
     (forall x, side x = 0 \/ side x = 1) /\
     (forall f, (integrable B1 f <-> integrable B f) /\ (integrable B2 f <-> integrable B f)) /\
     (forall f, integrable B f -> integrable B (fun x => side x * f x)) /\
     (forall f, integrable B f -> integral B1 f = integral B (fun x => side x * f x)) /\
     (forall f, integrable B f -> integral B2 f = integral B (fun x => (1 - side x) * f x)).
-
-  (** Cut by the plane n . x = d. *)
-  Definition cut_by_plane (n : Vec3 K) (d : K) (B B1 B2 : Body) : Prop :=
-    exists side, cut_by side B B1 B2 /\
-      forall x, (dot3 n x <= d -> side x = 1) /\ (~ dot3 n x <= d -> side x = 0).
 
   Lemma parts_add_up side B B1 B2 f :
     cut_by side B B1 B2 -> integrable B f -> integral B f = integral B1 f + integral B2 f.
@@ -92,11 +87,33 @@ Section Body.
     cbn. refine (proj1 (same_integral B _ _ _ (integrable_scaled B 0 _ h0))). intro. ring.
   Qed.
 
+  (** A combination of a point's parameters is integrated number by number. *)
+  Lemma integral_of_parameters B (c : nat -> K) n :
+    integrable B (fun x => sum n (fun k => c k * point_parameters x k)) /\
+    integral B (fun x => sum n (fun k => c k * point_parameters x k)) =
+    sum n (fun k => c k * integral B (fun x => point_parameters x k)).
+  Proof.
+    induction n as [| n [IHi IHe]]; cbn [sum].
+    - destruct (has_moments B) as [h0 _].
+      destruct (integral_linear B 0 0 _ _ h0 h0) as [h e].
+      assert (nothing : forall _ : Vec3 K, 0 * 1 + 0 * 1 = (0 : K)) by (intro; ring).
+      destruct (same_integral B _ _ nothing h) as [h' e'].
+      split; [exact h' |]. rewrite e', e. ring.
+    - destruct (integral_linear B 1 (c n) _ _ IHi (parameters_integrable B n)) as [h e].
+      assert (one_more : forall x,
+        1 * sum n (fun k => c k * point_parameters x k) + c n * point_parameters x n =
+        sum n (fun k => c k * point_parameters x k) + c n * point_parameters x n)
+        by (intro; ring).
+      destruct (same_integral B _ _ one_more h) as [h' e'].
+      split; [exact h' |]. rewrite e', e, IHe. ring.
+  Qed.
+
   (** Claim C4. Every moment up to order two is what the parts hold together. *)
   Theorem moments_add_up side B B1 B2 :
     cut_by side B B1 B2 ->
     body_volume B = body_volume B1 + body_volume B2 /\
-    (forall i, integral B (fun x => x i) = integral B1 (fun x => x i) + integral B2 (fun x => x i)) /\
+    (forall i, integral B (fun x => x i) =
+               integral B1 (fun x => x i) + integral B2 (fun x => x i)) /\
     (forall i j, integral B (fun x => x i * x j) =
                  integral B1 (fun x => x i * x j) + integral B2 (fun x => x i * x j)).
   Proof.
@@ -118,7 +135,7 @@ Section Body.
     field. repeat apply conj; now apply pos_nonzero.
   Qed.
 
-  (** A body lies in a region if what is at least [low] on the region has a mean of at least [low]. *)
+  (** A body lies in a region if what is at least [low] there has a mean of at least [low]. *)
   Definition lies_in (region : Vec3 K -> Prop) (B : Body) : Prop :=
     forall f low, integrable B f -> (forall x, region x -> low <= f x) ->
     low * body_volume B <= integral B f.
@@ -132,7 +149,8 @@ Section Body.
     pose proof (stays _ h0) as hs0.
     destruct (integral_linear B 1 (- low) _ _ hs hs0) as [h e].
     apply le_of_sub. unfold body_volume. rewrite (i1 f hf), (i1 _ h0).
-    match goal with |- 0 <= ?a - low * ?b => replace (a - low * b) with (1 * a + - low * b) by ring end.
+    match goal with |- 0 <= ?a - low * ?b => replace (a - low * b)
+        with (1 * a + - low * b) by ring end.
     rewrite <- e. replace 0 with (0 * body_volume B) by ring.
     apply inside; [exact h |]. intros x hx. destruct (sides x) as [-> | ->].
     - match goal with |- 0 <= ?a => replace a with (0 : K) by ring end. apply le_refl.
@@ -157,6 +175,14 @@ Section Body.
       refine (proj2 (same_integral B _ _ _ _)); [intro; ring |].
       destruct (integral_linear B 1 (- (1)) f _ hf (other f hf)) as [h _].
       refine (proj1 (same_integral B _ _ _ h)). intro. ring.
+  Qed.
+  (** Claim C15. Parts of a body lie where it lies: no division leaves the regions. *)
+  Theorem parts_stay_in_the_region region side B B1 B2 :
+    cut_by side B B1 B2 -> lies_in region B -> lies_in region B1 /\ lies_in region B2.
+  Proof.
+    intros c inside. split.
+    - exact (below_lies_in region side B B1 B2 c inside).
+    - exact (above_lies_in region side B B1 B2 c inside).
   Qed.
 End Body.
 

@@ -54,6 +54,7 @@ Section Certificate.
     intros [[h ->] | [_ ->]]; [now apply sub_nonneg | apply le_refl].
   Qed.
 
+  (** There is one for every shape. *)
   Lemma minimiser_exists p m mu j : exists s, minimiser p m mu j s.
   Proof.
     destruct (le_total (step p m mu j) (m j)); [exists (m j - step p m mu j) | exists 0];
@@ -124,8 +125,8 @@ Section Certificate.
     now apply bound_below_model.
   Qed.
 
-  (** Claim C14. Nothing is given away where the multiplier fits, being zero or the masses using up M:
-      then the bound is the joint minimum itself. *)
+  (** Claim C14. Nothing is given away where the multiplier fits, being zero or the masses using up
+      M: then the bound is the joint minimum itself. *)
   Theorem fitting_multiplier_is_the_minimum p M m mu s :
     well_formed p -> 0 < lambda p -> 0 <= mu ->
     (forall j, (j < shapes p)%nat -> minimiser p m mu j (s j)) ->
@@ -156,7 +157,8 @@ Section Certificate.
     - rewrite (sum_ext _ (fun j => gradient p m j * (t j - m j))
         (fun j => gradient p m j * t j - gradient p m j * m j)) by (intros; ring).
       rewrite sum_sub. apply le_of_sub.
-      match goal with |- 0 <= ?a - ?c - (?b - ?c) => replace (a - c - (b - c)) with (a - b) by ring end.
+      match goal with |- 0 <= ?a - ?c - (?b - ?c) => replace (a - c - (b - c))
+          with (a - b) by ring end.
       apply sub_nonneg. apply (le_trans _ (sum (shapes p) t * low)).
       + apply le_sub. replace (sum (shapes p) t * low - M * low) with
           ((M - sum (shapes p) t) * - low) by ring.

@@ -21,9 +21,6 @@ Section Consistency.
   Local Ltac spread := unfold pseudo_inertia, second_moments, trace, tensor, first_moment, mass,
     times, dot3, sum3, identity; cbn.
 
-  Lemma half_twice : inv 2 * 2 = (1 : K).
-  Proof. field. apply pos_nonzero, two_pos. Qed.
-
   Lemma pseudo_inertia_linear a Phi1 b Phi2 w s :
     pseudo_inertia (fun k => a * Phi1 k + b * Phi2 k) w s =
     a * pseudo_inertia Phi1 w s + b * pseudo_inertia Phi2 w s.
@@ -115,24 +112,8 @@ Section Consistency.
       pseudo_inertia Phi w s = sum 10 (fun k => coefficient k * Phi k)).
     { intro Phi. unfold coefficient. spread. ring. }
     rewrite combination.
-    assert (under : forall n, integrable B (fun x => sum n (fun k => coefficient k * point_parameters x k)) /\
-      integral B (fun x => sum n (fun k => coefficient k * point_parameters x k)) =
-      sum n (fun k => coefficient k * integral B (fun x => point_parameters x k))).
-    { clear form combination. clearbody coefficient. induction n as [| n [IHi IHe]]; cbn [sum].
-      - destruct (has_moments B) as [h0 _].
-        destruct (integral_linear B 0 0 _ _ h0 h0) as [h e].
-        assert (nothing : forall _ : Vec3 K, 0 * 1 + 0 * 1 = (0 : K)) by (intro; ring).
-        destruct (same_integral B _ _ nothing h) as [h' e'].
-        split; [exact h' |]. rewrite e', e. ring.
-      - destruct (integral_linear B 1 (coefficient n) _ _ IHi (parameters_integrable B n)) as [h e].
-        assert (one_more : forall x,
-          1 * sum n (fun k => coefficient k * point_parameters x k) +
-          coefficient n * point_parameters x n =
-          sum n (fun k => coefficient k * point_parameters x k) +
-          coefficient n * point_parameters x n) by (intro; ring).
-        destruct (same_integral B _ _ one_more h) as [h' e'].
-        split; [exact h' |]. rewrite e', e, IHe. ring. }
-    destruct (under 10%nat) as [hi he]. rewrite <- he. apply never_negative; [| exact hi].
+    destruct (integral_of_parameters B coefficient 10) as [hi he]. rewrite <- he.
+    apply never_negative; [| exact hi].
     intro x. rewrite <- combination. apply points_are_consistent.
   Qed.
 
@@ -205,12 +186,14 @@ Section Consistency.
   Theorem consistent_tensor Phi v : consistent Phi -> 0 <= moment_about Phi v.
   Proof.
     intro h.
+    pose (across := fun a => cross v (fun i => identity i a)).
     assert (form : moment_about Phi v =
-      dot3 (cross v (fun i => identity i ax)) (times (second_moments Phi) (cross v (fun i => identity i ax))) +
-      dot3 (cross v (fun i => identity i ay)) (times (second_moments Phi) (cross v (fun i => identity i ay))) +
-      dot3 (cross v (fun i => identity i az)) (times (second_moments Phi) (cross v (fun i => identity i az)))).
-    { unfold moment_about, second_moments, trace, tensor, dot3, times, sum3, cross, identity. cbn.
-      field. apply two_nonzero. }
+      dot3 (across ax) (times (second_moments Phi) (across ax)) +
+      dot3 (across ay) (times (second_moments Phi) (across ay)) +
+      dot3 (across az) (times (second_moments Phi) (across az))).
+    { unfold across, moment_about, second_moments, trace, tensor, dot3, times, sum3, cross,
+        identity.
+      cbn. field. apply two_nonzero. }
     rewrite form. apply add_nonneg; [apply add_nonneg |]; now apply second_moments_nonneg.
   Qed.
 
@@ -258,8 +241,8 @@ Section Consistency.
       field; apply two_nonzero.
   Qed.
 
-  (** Claim C7. Seen from any frame, about any point, a body that can exist can exist: the inequalities
-      above hold about its centre of mass and in its principal axes too. *)
+  (** Claim C7. Seen from any frame, about any point, a body that can exist can exist: the
+      inequalities above hold about its centre of mass and in its principal axes too. *)
   Theorem consistent_in_every_frame T Phi : consistent Phi -> consistent (moved T Phi).
   Proof.
     intros h w s.

@@ -157,7 +157,8 @@ Section Cuboid.
       + intros i j. apply canonical_second.
   Qed.
 
-  (** Claim C4. models/cuboid.cpp, cut_coordinate: the lower part holds the asked share of the volume. *)
+  (** Claim C4. models/cuboid.cpp, cut_coordinate: the lower part holds the asked share of the
+      volume. *)
   Theorem cuboid_cut_coordinate T c axis share :
     let s := lower c axis + share * (upper c axis - lower c axis) in
     volume (moments_of T (below c axis s)) = share * volume (moments_of T c).
@@ -204,7 +205,8 @@ Section Cuboid.
     quadratic (constant_part T k) (linear_part T k) (quadratic_part T k) s.
   Proof.
     transitivity (parameters_of T 1 s (fun a b => s a * s b) k).
-    - do 10 (destruct k as [| k]; [cbn; unfold second_of, trace, steiner, dot3, times, sum3, identity;
+    - do 10 (destruct k as [| k]; [cbn;
+        unfold second_of, trace, steiner, dot3, times, sum3, identity;
         cbn; ring |]).
       cbn. ring.
     - rewrite parameters_of_expands. unfold quadratic. ring.

@@ -1,5 +1,5 @@
-(** The closed moments of cuboid.v are the integrals over the box: Riemann's, one coordinate after the
-    other, of every function of order at most two. *)
+(** The closed moments of cuboid.v are the integrals over the box: Riemann's, one coordinate after
+    the other, of every function of order at most two. *)
 From Coq Require Import Reals FunctionalExtensionality.
 From Shapeid Require Import ordered_field numbers space integral cuboid.
 Local Open Scope R_scope.
@@ -45,7 +45,8 @@ Proof.
   - intros x y. eapply is_integral_of with
       (c0 := c + g ax * x + g ay * y + H ax ax * (x * x) + (H ax ay + H ay ax) * (x * y) +
              H ay ay * (y * y))
-      (c1 := g az + (H ax az + H az ax) * x + (H ay az + H az ay) * y) (c2 := H az az) (c3 := 0) (c4 := 0);
+      (c1 := g az + (H ax az + H az ax) * x + (H ay az + H az ay) * y) (c2 := H az az)
+      (c3 := 0) (c4 := 0);
       [exact oz | intro; ring | unfold z1, z2, z3; field].
   - intro x. eapply is_integral_of with
       (c0 := (c + g ax * x + H ax ax * (x * x)) * z1 + (g az + (H ax az + H az ax) * x) * z2 +
@@ -54,7 +55,8 @@ Proof.
       (c2 := H ay ay * z1) (c3 := 0) (c4 := 0);
       [exact oy | intro; ring | unfold y1, y2, y3; field].
   - eapply is_integral_of with
-      (c0 := (c * z1 + g az * z2 + H az az * z3) * y1 + (g ay * z1 + (H ay az + H az ay) * z2) * y2 +
+      (c0 := (c * z1 + g az * z2 + H az az * z3) * y1 +
+             (g ay * z1 + (H ay az + H az ay) * z2) * y2 +
              H ay ay * z1 * y3)
       (c1 := (g ax * z1 + (H ax az + H az ax) * z2) * y1 + (H ax ay + H ay ax) * z1 * y2)
       (c2 := H ax ax * z1 * y1) (c3 := 0) (c4 := 0);
@@ -62,8 +64,8 @@ Proof.
     unfold y1, y2, y3, z1, z2, z3. by_name. field.
 Qed.
 
-(** Claim C6. So the ten unit parameters of a placed cuboid, times its volume, are the integrals of the
-    ten parameters of a point, r = L s + t, with the volume element det L ds. *)
+(** Claim C6. So the ten unit parameters of a placed cuboid, times its volume, are the integrals of
+    the ten parameters of a point, r = L s + t, with the volume element det L ds. *)
 Theorem cuboid_parameters_are_integrals (T : Frame reals) (cell : Cell reals) k :
   (forall i, lower cell i <= upper cell i) ->
   let r (s : Vec3 reals) i := add (times (linear T) s i) (translation T i) in

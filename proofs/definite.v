@@ -69,7 +69,8 @@ Section Definite.
     assert (w0 : forall i, w i = 0).
     { apply (only_zero (linear T)); [now apply pos_nonzero | exact g0]. }
     split; [exact w0 |].
-    apply square_zero in square0. rewrite <- square0. unfold from_plane, dot3, sum3. rewrite !w0. ring.
+    apply square_zero in square0. rewrite <- square0. unfold from_plane, dot3, sum3. rewrite !w0.
+    ring.
   Qed.
 
   (** Claim C7. So is a link that a definite shape with mass belongs to, whatever the others are. *)

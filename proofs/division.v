@@ -1,5 +1,6 @@
-(** A division from end to end: a shape of a mass problem is cut, with the volumes and columns that the
-    parts really have, and nothing changes. split.v says why, cuboid.v and body.v that parts add up. *)
+(** A division from end to end: a shape of a mass problem is cut, with the volumes and columns that
+    the parts really have, and nothing changes. split.v says why, cuboid.v and body.v that parts
+    add up. *)
 From Coq Require Import Ring Field Arith Lia.
 From Shapeid Require Import ordered_field sums mass_problem split space cuboid body.
 
@@ -9,7 +10,8 @@ Section Division.
   Implicit Types (p : MassProblem K) (m : nat -> K).
 
   (** The problem with shape [j] replaced by two: the first in its place, the second appended. *)
-  Definition with_parts p (j : nat) (v1 : K) (u1 : nat -> K) (v2 : K) (u2 : nat -> K) : MassProblem K :=
+  Definition with_parts p (j : nat) (v1 : K) (u1 : nat -> K) (v2 : K)
+      (u2 : nat -> K) : MassProblem K :=
     {| rows := rows p; parameters := parameters p; shapes := S (shapes p);
        Y := Y p; F := F p; W := W p; lambda := lambda p;
        U := fun k i => if i =? j then u1 k else if i =? shapes p then u2 k else U p k i;

@@ -20,7 +20,8 @@ Section Duality.
 
   (** r^T W r + lambda sum_j t_j^2 / V_j *)
   Definition full_objective p o t x : K :=
-    sum (rows p) (fun i => W p i * (full_residual p o t x i * full_residual p o t x i)) + density p t.
+    sum (rows p) (fun i => W p i * (full_residual p o t x i * full_residual p o t x i)) +
+        density p t.
 
   (** Half the slopes of the data term where the residual is r. *)
   Definition mass_slope p (r : nat -> K) (j : nat) : K :=
@@ -67,7 +68,8 @@ Section Duality.
   Lemma objective_from_any_residual p o r t x :
     full_objective p o t x =
     constant_terms p r + mass_terms p (mass_slope p r) t + other_terms o (other_slope p o r) x +
-    sum (rows p) (fun i => W p i * ((full_residual p o t x i - r i) * (full_residual p o t x i - r i))).
+    sum (rows p) (fun i =>
+      W p i * ((full_residual p o t x i - r i) * (full_residual p o t x i - r i))).
   Proof.
     unfold mass_terms, other_terms, full_objective.
     rewrite (sum_ext (shapes p) _ (fun j => 2 * (mass_slope p r j * t j))) by (intros; ring).
@@ -76,7 +78,8 @@ Section Duality.
     assert (rows_only :
       sum (rows p) (fun i => W p i * (full_residual p o t x i * full_residual p o t x i)) =
       constant_terms p r +
-      sum (rows p) (fun i => 2 * (W p i * r i * sum (parameters p) (fun k => Y p i k * Phi p t k))) +
+      sum (rows p) (fun i =>
+        2 * (W p i * r i * sum (parameters p) (fun k => Y p i k * Phi p t k))) +
       sum (rows p) (fun i => 2 * (W p i * r i * others_at o x i)) +
       sum (rows p) (fun i =>
         W p i * ((full_residual p o t x i - r i) * (full_residual p o t x i - r i)))).
@@ -85,8 +88,8 @@ Section Duality.
     rewrite rows_only. ring.
   Qed.
 
-  (** Claim C14. From any r, with whatever bounds the terms of masses and other unknowns from below: no
-      feasible point has a lower objective. *)
+  (** Claim C14. From any r, with whatever bounds the terms of masses and other unknowns from
+      below: no feasible point has a lower objective. *)
   Theorem weak_duality p o r masses rest :
     well_formed p ->
     forall t x, masses <= mass_terms p (mass_slope p r) t ->
@@ -99,7 +102,8 @@ Section Duality.
     apply sum_nonneg. intros i hi. apply mul_nonneg; [now apply lt_le, w | apply square_nonneg].
   Qed.
 
-  (** Claim C14. Of another unknown the end of its range that its slope points away from is the least. *)
+  (** Claim C14. Of another unknown the end of its range that its slope points away from is the
+      least. *)
   Theorem ends_of_ranges o (c x e : nat -> K) :
     (forall k, (k < others o)%nat -> (0 <= c k /\ e k <= x k) \/ (c k <= 0 /\ x k <= e k)) ->
     other_terms o c e <= other_terms o c x.
@@ -140,17 +144,22 @@ Section Duality.
                        (t j + (a j + nu) * V p j / lambda p) / V p j)) by (field; auto) end.
         apply mul_nonneg; [now apply lt_le |]. apply div_nonneg; [apply square_nonneg | exact v].
       - apply add_nonneg.
-        + apply mul_nonneg; [| now apply ht]. apply mul_nonneg; [apply lt_le, two_pos | exact water].
-        + apply mul_nonneg; [now apply lt_le |]. apply div_nonneg; [apply square_nonneg | exact v]. }
-    assert (left_side : - over (shapes p) under (fun j => V p j * (a j * a j - nu * nu)) / lambda p =
+        + apply mul_nonneg; [| now apply ht].
+          apply mul_nonneg; [apply lt_le, two_pos | exact water].
+        + apply mul_nonneg; [now apply lt_le |].
+          apply div_nonneg; [apply square_nonneg | exact v]. }
+    assert (left_side :
+      - over (shapes p) under (fun j => V p j * (a j * a j - nu * nu)) / lambda p =
                         sum (shapes p) floor - 2 * (nu * M)).
     { assert (filled : nu * M = over (shapes p) under
                 (fun j => - (nu * (V p j * (a j + nu)))) / lambda p).
       { transitivity ((nu * over (shapes p) under (fun j => - (V p j * (a j + nu))) -
-          nu * (over (shapes p) under (fun j => - (V p j * (a j + nu))) - lambda p * M)) / lambda p).
+          nu * (over (shapes p) under (fun j => - (V p j * (a j + nu))) - lambda p * M)) /
+          lambda p).
         - field. exact nl.
         - rewrite full, !div_mul. unfold over. rewrite <- sum_scale.
-          rewrite (sum_ext (shapes p) _ (fun j => if under j then - (nu * (V p j * (a j + nu))) else 0)).
+          rewrite (sum_ext (shapes p) _
+            (fun j => if under j then - (nu * (V p j * (a j + nu))) else 0)).
           + ring.
           + intros j _. destruct (under j); ring. }
       rewrite filled, !div_mul. unfold over, floor.
@@ -172,7 +181,8 @@ Section Duality.
     match goal with |- 0 <= ?b - ?y - (?x - ?z) =>
       replace (b - y - (x - z)) with ((b - x) + (z - y)) by ring end.
     apply add_nonneg; [exact each |].
-    replace (2 * (nu * M) - 2 * (nu * sum (shapes p) t)) with (2 * (nu * (M - sum (shapes p) t))) by ring.
+    replace (2 * (nu * M) - 2 * (nu * sum (shapes p) t))
+        with (2 * (nu * (M - sum (shapes p) t))) by ring.
     destruct total as [-> | total].
     - match goal with |- 0 <= ?d => replace d with (0 : K) by ring end. apply le_refl.
     - apply mul_nonneg; [apply lt_le, two_pos |].
@@ -197,7 +207,8 @@ Section Duality.
       rewrite (sum_ext (rows p) _ (fun _ => 0)); [rewrite sum_zero; ring |].
       intros i _. unfold full_residual, others_at. cbn. unfold r. ring.
     - intros t ht.
-      assert (slopes : forall j, gradient p m j = 2 * mass_slope p r j + 2 * lambda p * m j / V p j).
+      assert (slopes : forall j,
+        gradient p m j = 2 * mass_slope p r j + 2 * lambda p * m j / V p j).
       { intro j. unfold gradient. f_equal. unfold mass_slope, slope. rewrite <- sum_scale.
         apply sum_ext. intros. fold r. ring. }
       apply le_of_sub.
@@ -219,7 +230,8 @@ Section Duality.
     assert (terms : forall i, (i < n)%nat -> 0 <= d i * d i / w i).
     { intros i hi. apply div_nonneg; [apply square_nonneg | now apply hw]. }
     assert (squares : A * (A * E - B * B) =
-                      sum n (fun i => w i * ((A * r i - B * (d i / w i)) * (A * r i - B * (d i / w i))))).
+                      sum n (fun i =>
+                        w i * ((A * r i - B * (d i / w i)) * (A * r i - B * (d i / w i))))).
     { transitivity ((A * A) * sum n (fun i => w i * (r i * r i)) -
                     (2 * A * B) * sum n (fun i => d i * r i) +
                     (B * B) * sum n (fun i => d i * d i / w i)); [unfold A, B, E, dot; ring |].
@@ -248,7 +260,8 @@ Section Duality.
     assert (sum_nn : 0 <= x + root) by (apply add_nonneg; [now apply (le_trans _ root) | exact hr]).
     assert (none : (x - root) * (x + root) = 0).
     { apply le_antisym.
-      - apply le_of_sub. match goal with |- 0 <= ?d => replace d with (root * root - x * x) by ring end.
+      - apply le_of_sub. match goal with |- 0 <= ?d => replace d with (root * root - x * x)
+          by ring end.
         exact h.
       - now apply mul_nonneg. }
     destruct (mul_zero _ _ none) as [e | e].
@@ -259,9 +272,9 @@ Section Duality.
       apply mul_nonneg; [apply lt_le, two_pos | exact hr].
   Qed.
 
-  (** Claim C14. The mass bound that the checker proves: if a combination [d] of the rows weighs every
-      shape by at least [share] of its mass, what leaves an objective of at most [upper] is no
-      heavier than this. *)
+  (** Claim C14. The mass bound that the checker proves: if a combination [d] of the rows weighs
+      every shape by at least [share] of its mass, what leaves an objective of at most [upper] is
+      no heavier than this. *)
   Theorem rows_bound_the_mass p (d : nat -> K) share upper root t :
     well_formed p -> nonnegative p t -> objective p t <= upper -> 0 <= root ->
     upper * sum (rows p) (fun i => d i * d i / W p i) <= root * root ->
@@ -288,7 +301,8 @@ Section Duality.
     assert (weighed : sum (shapes p) (fun j => sum (parameters p) (fun k =>
         U p k j * sum (rows p) (fun i => Y p i k * d i)) * t j) =
       dot (rows p) d (F p) + dot (rows p) d r).
-    { pose (q := {| rows := rows p; parameters := parameters p; shapes := shapes p; Y := Y p; F := F p;
+    { pose (q := {| rows := rows p; parameters := parameters p; shapes := shapes p; Y := Y p;
+        F := F p;
                     W := fun _ => 1; U := U p; V := V p; lambda := lambda p |}).
       pose proof (slopes_of_masses q d t) as s. unfold mass_slope, Phi in s. cbn in s.
       transitivity (sum (shapes p) (fun j => sum (parameters p) (fun k =>

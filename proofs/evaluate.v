@@ -13,7 +13,8 @@ Definition mat (l : list (list rationals)) (i j : nat) : rationals := vec (nth i
 
 Definition index_of (a : Axis) : nat := match a with ax => 0 | ay => 1 | az => 2 end.
 Definition vec3 (l : list rationals) (a : Axis) : rationals := vec l (index_of a).
-Definition mat3 (l : list (list rationals)) (a b : Axis) : rationals := mat l (index_of a) (index_of b).
+Definition mat3 (l : list (list rationals)) (a b : Axis) : rationals :=
+  mat l (index_of a) (index_of b).
 
 Definition entries (n : nat) (x : nat -> rationals) : list rationals := map x (seq 0 n).
 Definition entries3 (x : Vec3 rationals) : list rationals := map x [ax; ay; az].

@@ -1,5 +1,5 @@
-(** The hypotheses of the theorems can be met, in every ordered field: small instances, and one where
-    a hypothesis is needed. *)
+(** The hypotheses of the theorems can be met, in every ordered field: small instances, and one
+    where a hypothesis is needed. *)
 From Coq Require Import Ring Field Arith Lia List QArith Qcanon.
 From Shapeid Require Import ordered_field numbers sums space mass_problem kkt certificate projection
   projection_qr merge body floor.
@@ -12,7 +12,7 @@ Section Examples.
   Lemma three_pos : (0 : K) < 3.
   Proof. apply add_pos; [apply one_pos | apply lt_le, two_pos]. Qed.
 
-  (** (m0 + m1 - 1)^2 + m0^2 + m1^2: columns that are equal, so that only lambda tells them apart. *)
+  (** (m0 + m1 - 1)^2 + m0^2 + m1^2: columns that are equal, so only lambda tells them apart. *)
   Definition two_equal_shapes : MassProblem K := {|
     rows := 1; parameters := 1; shapes := 2;
     Y := fun _ _ => 1; F := fun _ => 1; W := fun _ => 1; U := fun _ _ => 1; V := fun _ => 1;
@@ -82,7 +82,8 @@ Section Examples.
       (fun l _ => if l =? 0 then 1 else 0).
   Proof.
     split; intros;
-      repeat match goal with h : (?a < 2)%nat |- _ => destruct a as [| [| ?]]; [clear h | clear h | lia]
+      repeat match goal with h : (?a < 2)%nat |- _ => destruct a as [| [| ?]];
+          [clear h | clear h | lia]
                            | h : (?a < 1)%nat |- _ => destruct a as [| ?]; [clear h | lia] end;
       try lia; unfold dot, named_twice; cbn; ring.
   Qed.
@@ -90,7 +91,8 @@ Section Examples.
   (** factored: the column (3, 4) is (3/5, 4/5) times 5. *)
   Definition four : K := 2 * 2.
   Definition five : K := four + 1.
-  Definition column_of_two : Rows K := {| count := 2; entry := fun i _ => if i =? 0 then 3 else four |}.
+  Definition column_of_two : Rows K :=
+    {| count := 2; entry := fun i _ => if i =? 0 then 3 else four |}.
   Definition its_triangle : Rows K := {| count := 1; entry := fun _ _ => five |}.
 
   Example factors :
@@ -100,7 +102,8 @@ Section Examples.
     { apply pos_nonzero. apply add_pos; [| apply one_nonneg]. apply mul_pos; apply two_pos. }
     split.
     - intros i k _ _. cbn. field. exact no.
-    - intros l l' hl hl'. cbn in hl, hl'. replace l with 0%nat by lia. replace l' with 0%nat by lia. cbn.
+    - intros l l' hl hl'. cbn in hl, hl'.
+      replace l with 0%nat by lia. replace l' with 0%nat by lia. cbn.
       rewrite !div_mul.
       transitivity (five * five * (inv five * inv five)); [unfold five, four; ring |].
       field. exact no.
@@ -150,7 +153,8 @@ Section Examples.
     - intros j l k _ hl hk. replace l with 0%nat by lia. reflexivity.
     - intros. rewrite volume. apply one_pos.
     - intros j _ f low _ bound. rewrite volume. cbn.
-      replace (low * 1) with low by ring. replace (1 * f (fun _ => 0) + 0) with (f (fun _ => 0)) by ring.
+      replace (low * 1) with low by ring.
+      replace (1 * f (fun _ => 0) + 0) with (f (fun _ => 0)) by ring.
       now apply bound.
   Qed.
 
@@ -187,7 +191,7 @@ Section Examples.
   Qed.
 End Examples.
 
-(** The side of the plane n . x = d, over the rationals. *)
+(** The side of the plane n . x = d, over the rationals: as particles_on_two_sides takes it. *)
 Definition side_of_plane (n : Vec3 rationals) (d : rationals) (x : Vec3 rationals) : rationals :=
   if Qclt_le_dec d (dot3 n x) then zero else one.
 

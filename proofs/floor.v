@@ -29,38 +29,17 @@ Section Floor.
   Definition price (g : nat -> K) (l : nat) (r : Vec3 K) : K :=
     sum 10 (fun k => g (10 * l + k)%nat * point_parameters r k).
 
-  (** The floor from parameters [x], whether of the present masses or of any others: [low] is at most
-      every price in every region, and at most zero; M is the bound of the total mass. *)
+  (** The floor from parameters [x], whether of the present masses or of any others: [low] is at
+      most every price in every region, and at most zero; M is the bound of the total mass. *)
   Definition floor p x M low : K :=
     data_of p x - dot (parameters p) (slope p x) x + M * low.
-
-  (** The price of a body is the mean price of its points. *)
-  Lemma body_price (B : Body K) (c : nat -> K) n :
-    integrable B (fun r => sum n (fun k => c k * point_parameters r k)) /\
-    integral B (fun r => sum n (fun k => c k * point_parameters r k)) =
-    sum n (fun k => c k * integral B (fun r => point_parameters r k)).
-  Proof.
-    induction n as [| n [IHi IHe]]; cbn [sum].
-    - destruct (has_moments B) as [h0 _].
-      destruct (integral_linear B 0 0 _ _ h0 h0) as [h e].
-      assert (nothing : forall _ : Vec3 K, 0 * 1 + 0 * 1 = (0 : K)) by (intro; ring).
-      destruct (same_integral B _ _ nothing h) as [h' e'].
-      split; [exact h' |]. rewrite e', e. ring.
-    - destruct (integral_linear B 1 (c n) _ _ IHi (parameters_integrable B n)) as [h e].
-      assert (one_more : forall r,
-        1 * sum n (fun k => c k * point_parameters r k) + c n * point_parameters r n =
-        sum n (fun k => c k * point_parameters r k) + c n * point_parameters r n)
-        by (intro; ring).
-      destruct (same_integral B _ _ one_more h) as [h' e'].
-      split; [exact h' |]. rewrite e', e, IHe. ring.
-  Qed.
 
   Lemma price_of_a_body region (B : Body K) (g : nat -> K) l low :
     0 < body_volume B -> lies_in region B -> (forall r, region r -> low <= price g l r) ->
     low <= sum 10 (fun k => g (10 * l + k)%nat * body_parameters B k).
   Proof.
     intros v h bound.
-    destruct (body_price B (fun k => g (10 * l + k)%nat) 10) as [hi he].
+    destruct (integral_of_parameters B (fun k => g (10 * l + k)%nat) 10) as [hi he].
     pose proof (h _ low hi bound) as mean. rewrite he in mean.
     apply le_of_sub.
     assert (form : sum 10 (fun k => g (10 * l + k)%nat * body_parameters B k) - low =
@@ -73,7 +52,8 @@ Section Floor.
     rewrite form. apply div_nonneg; [now apply sub_nonneg | exact v].
   Qed.
 
-  (** Claim C15. Nothing that can be made of shapes in the regions, however many, is below the floor. *)
+  (** Claim C15. Nothing that can be made of shapes in the regions, however many, is below the
+      floor. *)
   Theorem floor_is_a_floor p q x links region link shape M low :
     well_formed p -> well_formed q -> same_rows p q -> made_of q links region link shape ->
     low <= 0 -> (forall l r, (l < links)%nat -> region l r -> low <= price (slope p x) l r) ->

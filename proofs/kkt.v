@@ -79,7 +79,8 @@ Section Kkt.
     pose proof (curvature_nonneg p (fun k => Phi p t k - Phi p c k) wf) as ct.
     pose proof (mul_nonneg _ _ (lt_le _ _ positive) (spread_nonneg p c m wf)) as sm.
     pose proof (mul_nonneg _ _ (lt_le _ _ positive) (spread_nonneg p c t wf)) as st.
-    apply le_sub in lm. apply le_sub in lt'. rewrite em in lm. rewrite et in lt'. rewrite back in lm.
+    apply le_sub in lm. apply le_sub in lt'. rewrite em in lm. rewrite et in lt'.
+    rewrite back in lm.
     revert lm lt' cm ct sm st.
     generalize (sum (shapes p) (fun j => gradient p c j * (t j - c j))).
     generalize (curvature p (fun k => Phi p m k - Phi p c k)).

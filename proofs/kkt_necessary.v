@@ -8,7 +8,8 @@ Section Necessary.
   Implicit Types (p : MassProblem K) (m : nat -> K).
 
   (** One mass moved by s: the objective is a parabola in s. *)
-  Definition moved (m : nat -> K) (j : nat) (s : K) (i : nat) : K := if i =? j then m i + s else m i.
+  Definition moved (m : nat -> K) (j : nat) (s : K) (i : nat) : K :=
+    if i =? j then m i + s else m i.
 
   Lemma moved_difference m j s i : moved m j s i - m i = (if j =? i then 1 else 0) * s.
   Proof. unfold moved. rewrite Nat.eqb_sym. destruct (j =? i); ring. Qed.
@@ -16,7 +17,8 @@ Section Necessary.
   Lemma objective_moved p m j s :
     (j < shapes p)%nat ->
     objective p (moved m j s) =
-    objective p m + gradient p m j * s + (curvature p (fun k => U p k j) + lambda p / V p j) * (s * s).
+    objective p m + gradient p m j * s +
+    (curvature p (fun k => U p k j) + lambda p / V p j) * (s * s).
   Proof.
     intro hj. rewrite (objective_expands p m).
     rewrite (sum_ext (shapes p) (fun i => gradient p m i * (moved m j s i - m i))
@@ -54,13 +56,15 @@ Section Necessary.
     set (w := - z). assert (hw : 0 < w).
     { split; [now apply opp_nonneg |]. intro e0. apply no. replace z with (- w) by (unfold w; ring).
       rewrite <- e0. ring. }
-    assert (hd : 0 < w + c * e) by (apply add_pos; [exact hw | apply mul_nonneg; [exact hc | now apply lt_le]]).
+    assert (hd : 0 < w + c * e).
+    { apply add_pos; [exact hw |]. apply mul_nonneg; [exact hc | now apply lt_le]. }
     pose proof (pos_nonzero _ hd) as nd.
     set (s := e * w / (w + c * e)).
     assert (s_pos : 0 <= s).
     { apply div_nonneg; [| exact hd]. apply mul_nonneg; now apply lt_le. }
     assert (s_small : s <= e).
-    { apply le_of_sub. replace (e - s) with (c * (e * e) / (w + c * e)) by (unfold s; field; exact nd).
+    { apply le_of_sub. replace (e - s)
+        with (c * (e * e) / (w + c * e)) by (unfold s; field; exact nd).
       apply div_nonneg; [| exact hd]. apply mul_nonneg; [exact hc | apply square_nonneg]. }
     specialize (h s s_pos s_small).
     replace (z * s + c * (s * s)) with (- (e * w * (w * w) / ((w + c * e) * (w + c * e)))) in h.
@@ -84,7 +88,8 @@ Section Necessary.
     assert (allowed : forall s, 0 <= m j + s -> 0 <= gradient p m j * s + c * (s * s)).
     { intros s hs.
       assert (ok : nonnegative p (moved m j s)).
-      { intros i hi. unfold moved. destruct (Nat.eqb_spec i j) as [-> | _]; [exact hs | now apply hm]. }
+      { intros i hi. unfold moved. destruct (Nat.eqb_spec i j) as [-> | _];
+          [exact hs | now apply hm]. }
       specialize (best _ ok). rewrite (objective_moved p m j s hj) in best. fold c in best.
       apply sub_nonneg in best. match type of best with 0 <= ?a => match goal with |- 0 <= ?b =>
         replace b with a by ring end end. exact best. }
@@ -98,7 +103,8 @@ Section Necessary.
       - split; [now apply hm | auto].
       - intros s hs hsm. replace (- gradient p m j * s + c * (s * s)) with
           (gradient p m j * (- s) + c * (- s * - s)) by ring.
-        apply allowed. apply sub_nonneg in hsm. replace (m j + - s) with (m j - s) by ring. exact hsm. }
+        apply allowed. apply sub_nonneg in hsm. replace (m j + - s) with (m j - s) by ring.
+        exact hsm. }
     assert (zero : gradient p m j = 0).
     { apply le_antisym; [| exact up]. apply le_of_sub.
       replace (0 - gradient p m j) with (- gradient p m j) by ring. exact down. }

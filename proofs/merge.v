@@ -41,7 +41,8 @@ Section Merge.
     norm2 n (fun i => sum k (fun l => Q i l * y l)) = norm2 k y.
   Proof.
     intro orthonormal. unfold norm2, dot.
-    transitivity (sum k (fun l => sum k (fun l' => (y l * y l') * sum n (fun i => Q i l * Q i l')))).
+    transitivity (sum k (fun l => sum k (fun l' =>
+      (y l * y l') * sum n (fun i => Q i l * Q i l')))).
     - rewrite (sum_ext n _ (fun i => sum k (fun l => sum k (fun l' =>
           (y l * y l') * (Q i l * Q i l'))))).
       + rewrite sum_swap. apply sum_ext. intros l _. rewrite sum_swap. apply sum_ext.
@@ -83,14 +84,15 @@ Section Merge.
       now replace (count A + i - count A)%nat with i by lia.
   Qed.
 
-  (** Windows merge in a tree of any form: of what is compressed on the way, and when, nothing shows. *)
+  (** Windows merge in a tree of any form: of what is compressed on the way, and when, nothing
+      shows. *)
   Inductive merged (n : nat) : Rows -> Rows -> Prop :=
   | as_they_are M : merged n M M
   | compressed R R' M : merged n R M -> compresses n R' R -> merged n R' M
   | together RA RB A B : merged n RA A -> merged n RB B -> merged n (stacked RA RB) (stacked A B)
   | exchanged R A B : merged n R (stacked A B) -> merged n R (stacked B A).
 
-  (** Claim C8. However windows were compressed and merged, the sum of squares is that of all rows. *)
+  (** Claim C8. However windows are compressed and merged, all sums of squares stay. *)
   Theorem merging_is_exact n R M : merged n R M -> compresses n R M.
   Proof.
     induction 1 as [M | R R' M _ IH c | RA RB A B _ IHA _ IHB | R A B _ IH]; intro x.

@@ -1,4 +1,4 @@
-(** Contact forces are eliminated, and nothing else: (7) to (9) with any weight and J of any rank. *)
+(** Contact forces are eliminated, and nothing else: (7) to (9) any weight, J of any rank. *)
 From Coq Require Import Ring Field Arith Lia.
 From Shapeid Require Import ordered_field sums.
 
@@ -58,7 +58,7 @@ Section Projection.
           2: { intros l hl. transitivity (dot n (fun i => A i l) e - c * dot n (fun i => A i l) a).
                - unfold dot. rewrite <- sum_scale, <- sum_sub. apply sum_ext. intros. ring.
                - rewrite (hf l hl), (hg l hl). ring. }
-          unfold dot at 1 3. rewrite <- sum_scale. unfold dot. 
+          unfold dot at 1 3. rewrite <- sum_scale. unfold dot.
           transitivity (sum n (fun i => a i * e i - c * (a i * a i)) + 0).
           - f_equal. apply sum_ext. intros. ring.
           - rewrite sum_sub. ring. }
@@ -71,7 +71,8 @@ Section Projection.
         - exists (dot n a e / dot n a a). rewrite ka. field. exact no. }
       destruct taken as [c hc].
       exists (fun l => if l =? k then c else f l - c * g l).
-      assert (same : forall i, x i - image (S k) A (fun l => if l =? k then c else f l - c * g l) i =
+      assert (same : forall i,
+        x i - image (S k) A (fun l => if l =? k then c else f l - c * g l) i =
                                e i - c * a i).
       { intro i. unfold e, a, image. cbn [sum]. rewrite Nat.eqb_refl.
         rewrite (sum_ext k _ (fun l => A i l * f l - c * (A i l * g l))).
@@ -114,7 +115,8 @@ Section Projection.
   }.
 
   (** Q2^T x *)
-  Definition projected (n : nat) (Q2 : nat -> nat -> K) x (a : nat) : K := dot n (fun i => Q2 i a) x.
+  Definition projected (n : nat) (Q2 : nat -> nat -> K) x (a : nat) : K :=
+    dot n (fun i => Q2 i a) x.
 
   Section OneSample.
     Variables (n k q : nat) (A Q2 : nat -> nat -> K).
@@ -186,7 +188,8 @@ Section Projection.
     Definition weighted (t : nat) (r : nat -> K) (i : nat) : K := root t i * r i.
     Definition weighted_JT (t i l : nat) : K := root t i * JT t i l.
 
-    Hypothesis bases : forall t, (t < N)%nat -> contact_free (n t) (k t) (q t) (weighted_JT t) (Q2 t).
+    Hypothesis bases : forall t, (t < N)%nat ->
+      contact_free (n t) (k t) (q t) (weighted_JT t) (Q2 t).
 
     (** (9): what is left of the weighted rows. *)
     Definition projected_objective (Phi : Unknowns) : K :=
@@ -239,7 +242,8 @@ Section Projection.
     (** Claim C2. So both problems have the same optimal parameters. *)
     Theorem same_optimal_parameters Phi :
       (forall Psi, projected_objective Phi <= projected_objective Psi) <->
-      (exists f : nat -> nat -> K, forall Psi g, augmented_objective Phi f <= augmented_objective Psi g).
+      (exists f : nat -> nat -> K, forall Psi g,
+         augmented_objective Phi f <= augmented_objective Psi g).
     Proof.
       split.
       - intro best. destruct (window_is_elimination Phi) as [[f e] _]. exists f. intros Psi g.

@@ -7,8 +7,8 @@ Section Qr.
   Context {K : OrderedField}.
   Add Field numbers : (field_laws K).
 
-  (** A = W^(1/2) J^T, n x k, is [Q1 Q2] [R; 0] P^T: Q (n x n) orthogonal, its first [rank] columns are
-      Q1, and R P^T (rank x k) has full row rank, being given with a right inverse [X]. *)
+  (** A = W^(1/2) J^T, n x k, is [Q1 Q2] [R; 0] P^T: Q (n x n) orthogonal, its first [rank] columns
+      are Q1, and R P^T (rank x k) has full row rank, being given with a right inverse [X]. *)
   Record rank_revealing (n k rank : nat) (A Q RP X : nat -> nat -> K) : Prop := {
     rank_fits : (rank <= n)%nat;
     columns_orthonormal : forall a b, (a < n)%nat -> (b < n)%nat ->

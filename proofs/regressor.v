@@ -101,9 +101,9 @@ Section Regressor.
       unfold sum3, skew, steiner, dot3, identity, sum3, tensor_times; cbn; ring.
   Qed.
 
-  (** Claim C1. Virtual power: whatever velocity v + w x x is given to the link, the particles' inertial
-      forces have the power of that wrench. So a generalised direction that moves the link by (v, w)
-      has the row v . force + w . moment, which is reference/regressor.cpp's J^T B. *)
+  (** Claim C1. Virtual power: whatever velocity v + w x x is given to the link, the particles'
+      inertial forces have the power of that wrench. So a generalised direction that moves the link
+      by (v, w) has the row v . force + w . moment, which is reference/regressor.cpp's J^T B. *)
   Theorem virtual_power q body v w :
     total (fun '(mu, x) => mu * dot3 (acceleration q x) (fun i => v i + cross w x i)) body =
     dot3 v (force q body) + dot3 w (moment q body).

@@ -1,5 +1,5 @@
-(** The order of relaxations, at lambda = 0: what parameters may be asks less than what shapes can make,
-    so its optimum is not above. *)
+(** The order of relaxations, at lambda = 0: what parameters may be asks less than what shapes can
+    make, so its optimum is not above. *)
 From Coq Require Import Ring Field.
 From Shapeid Require Import ordered_field sums space mass_problem consistency.
 
@@ -15,8 +15,8 @@ Section Relaxations.
   Definition masses_nonnegative (links : nat) x : Prop :=
     forall l, (l < links)%nat -> 0 <= x (10 * l)%nat.
 
-  (** Claim C7. Optimum (mass >= 0 only) <= optimum (bodies that can exist) <= optimum (any shapes that
-      can exist): each lower bound of one is a lower bound of the next. *)
+  (** Claim C7. Optimum (mass >= 0 only) <= optimum (bodies that can exist) <= optimum (any shapes
+      that can exist): each lower bound of one is a lower bound of the next. *)
   Theorem relaxations_come_in_order p links b :
     ((forall x, masses_nonnegative links x -> b <= data_of p x) ->
      forall x, all_consistent links x -> b <= data_of p x) /\

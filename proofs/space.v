@@ -1,5 +1,5 @@
-(** Vectors and matrices of space, and the ten inertial parameters in the order and with the signs of
-    models/inertia.hpp: m, m rx, m ry, m rz, Ixx, Ixy, Ixz, Iyy, Iyz, Izz about the link origin,
+(** Vectors and matrices of space, and the ten inertial parameters in the order and with the signs
+    of models/inertia.hpp: m, m rx, m ry, m rz, Ixx, Ixy, Ixz, Iyy, Iyz, Izz about the link origin,
     Ixy = - integral of x y dm. *)
 From Coq Require Import Ring Field.
 From Shapeid Require Import ordered_field.
@@ -23,7 +23,8 @@ Section Space.
   Definition trace (A : Mat3) : K := sum3 (fun i => A i i).
   Definition identity : Mat3 := fun i j => if same_axis i j then 1 else 0.
   Definition determinant (A : Mat3) : K :=
-    A ax ax * (A ay ay * A az az - A ay az * A az ay) - A ax ay * (A ay ax * A az az - A ay az * A az ax) +
+    A ax ax * (A ay ay * A az az - A ay az * A az ay) -
+    A ax ay * (A ay ax * A az az - A ay az * A az ax) +
     A ax az * (A ay ax * A az ay - A ay ay * A az ax).
 
   Definition cross (x y : Vec3) : Vec3 := fun i =>

@@ -165,10 +165,11 @@ Section Split.
     rewrite <- e. now apply bound.
   Qed.
 
-  (** Cuts leave a problem well formed. *)
-  Lemma cut_well_formed p q j : cut p q j -> well_formed p -> well_formed q.
+  (** Claim C4. What the other theorems ask of a problem stays true of it. *)
+  Theorem split_keeps_well_formed p q j : cut p q j -> well_formed p -> well_formed q.
   Proof.
-    intros c [w [v l]]. destruct (same_rows _ _ _ c) as [er _]. destruct (same_data _ _ _ c) as [_ efw].
+    intros c [w [v l]]. destruct (same_rows _ _ _ c) as [er _].
+    destruct (same_data _ _ _ c) as [_ efw].
     destruct (positive_volumes _ _ _ c) as [p1 p2].
     refine (conj _ (conj _ _)).
     - intros i hi. rewrite er in hi. destruct (efw i) as [_ ->]. now apply w.

@@ -118,7 +118,8 @@ Section Sums.
   Lemma norm2_zero n x : norm2 n x = 0 -> forall i, (i < n)%nat -> x i = 0.
   Proof.
     intros e i hi. apply square_zero.
-    apply (sum_nonneg_zero n (fun k => x k * x k)); [intros; apply square_nonneg | exact e | exact hi].
+    apply (sum_nonneg_zero n (fun k => x k * x k));
+        [intros; apply square_nonneg | exact e | exact hi].
   Qed.
 End Sums.
 

@@ -39,7 +39,8 @@ Proof.
       (c0 := a0 x + a1 x * y + yy * (y * y)) (c1 := b0 x + b1 * y) (c2 := zz) (c3 := 0) (c4 := 0);
       [lra | intro z; unfold a0, a1, b0, b1; ring | cbv zeta; field].
   - intros x hx hx1. eapply is_integral_of with
-      (c0 := a0 x * (1 - x) + b0 x * ((1 - x) * (1 - x)) / 2 + zz * ((1 - x) * (1 - x) * (1 - x)) / 3)
+      (c0 := a0 x * (1 - x) + b0 x * ((1 - x) * (1 - x)) / 2 +
+          zz * ((1 - x) * (1 - x) * (1 - x)) / 3)
       (c1 := a1 x * (1 - x) - a0 x + b1 * ((1 - x) * (1 - x)) / 2 - b0 x * (1 - x) -
              zz * ((1 - x) * (1 - x)))
       (c2 := yy * (1 - x) - a1 x + b0 x / 2 - b1 * (1 - x) + zz * (1 - x))
@@ -69,7 +70,7 @@ Qed.
 Section Tetrahedron.
   Variables a b c : Vec3 reals.
 
-  (** six_volumes of models/polyhedron.cpp: a . (b x c), the volume element of r = a x + b y + c z. *)
+  (** six_volumes of models/polyhedron.cpp: a . (b x c), the volume element. *)
   Definition six_volumes : R := dot3 a (cross b c).
 
   Definition point_at (s : Vec3 reals) (i : Axis) : R := a i * s ax + b i * s ay + c i * s az.

@@ -7,8 +7,9 @@ Section Tree.
   Context {K : OrderedField}.
   Add Field numbers : (field_laws K).
 
-  (** A link at an instant: its particles and its motion in link axes, its axes R (link to base), and
-      the velocities that each generalised direction gives its origin and its axes, in base axes. *)
+  (** A link at an instant: its particles and its motion in link axes, its axes R (link to base),
+      and the velocities that each generalised direction gives its origin and its axes, in base
+      axes. *)
   Record Link := {
     body : list (@Particle K);
     motion : @Motion K;
@@ -25,7 +26,8 @@ Section Tree.
       sum3 (fun j => axes l i j * moment_rows (motion l) j k)).
 
   (** Y and Phi of all links, ten columns and ten numbers each. *)
-  Definition regressor (links : nat -> Link) (d c : nat) : K := block (links (c / 10)%nat) d (c mod 10)%nat.
+  Definition regressor (links : nat -> Link) (d c : nat) : K :=
+    block (links (c / 10)%nat) d (c mod 10)%nat.
   Definition parameters (links : nat -> Link) (c : nat) : K :=
     parameters_of_particles (body (links (c / 10)%nat)) (c mod 10)%nat.
 
