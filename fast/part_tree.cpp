@@ -34,7 +34,7 @@ void PartTree::make_room() noexcept {
 
 bool PartTree::is_divisible(int part) const noexcept {
   const Part& whole = (*this)[part];
-  return whole.generation < last_generation && divisible(whole.shape);
+  return whole.generation < most_cuts && divisible(whole.shape);
 }
 
 int PartTree::parts_of(int part) noexcept {

@@ -7,6 +7,7 @@
 
 #include "shapeid/fast/shape_columns.hpp"
 #include "shapeid/models/body_model.hpp"
+#include "shapeid/models/division.hpp"
 
 namespace shapeid::fast {
 
@@ -41,9 +42,6 @@ class PartTree {
   [[nodiscard]] const Part& operator[](int part) const noexcept {
     return parts_[static_cast<std::size_t>(part)];
   }
-
-  /// A shape of this generation is not cut any further: it has 1e-12 of its ancestor's volume.
-  static constexpr int last_generation = 40;
 
  private:
   int most_divisions_;

@@ -42,7 +42,9 @@ Eigen::VectorXd division_criterion(const BodyModel& model, const Eigen::VectorXd
   const double V0 = V.sum();
   Eigen::VectorXd v = Eigen::VectorXd::Zero(V.size());
   for (Eigen::Index j = 0; j < v.size(); ++j) {
-    if (!divisible(model.shapes[static_cast<std::size_t>(j)].shape)) continue;
+    const SoughtShape& sought = model.shapes[static_cast<std::size_t>(j)];
+    const auto cuts = std::count(sought.id.begin(), sought.id.end(), '.');  // "3.0.1" has had two
+    if (cuts >= most_cuts || !divisible(sought.shape)) continue;
     const double mass = m[j] / options.expected_mass, size = V[j] / V0;
     v[j] = options.k1 * mass * size + options.k2 * mass / size;  // (16)
   }

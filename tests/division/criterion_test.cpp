@@ -1,6 +1,7 @@
 // Equation (16): which shape is divided, worked out by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "shapeid/reference/division.hpp"
@@ -68,6 +69,26 @@ TEST(DivisionOptions, SenselessOnesAreRefused) {
   EXPECT_THROW(run({.patience = 0, .expected_mass = 1.0}), std::invalid_argument);
   EXPECT_THROW(run({.most_divisions = -1, .expected_mass = 1.0}), std::invalid_argument);
   EXPECT_THROW(run({.tie = 1.0, .expected_mass = 1.0}), std::invalid_argument);
+}
+
+// Equal densities tie, and the first shape is cut again and again: far beyond what a double can
+// tell apart, if nothing ended it.
+TEST(Criterion, NoShapeIsCutForEver) {
+  test::ModelWithRows given;
+  given.model = test::one_cuboid({0, 0, 0}, {1, 1, 1});
+  given.problem.Y = Eigen::MatrixXd::Identity(1, 10);
+  given.problem.F = given.problem.W = Eigen::VectorXd::Ones(1);
+  test::use_shapes(given.problem, given.model, 1.0);
+  constexpr int divisions = 3 * 53 + 5;  // rounding forbids the 53rd cut of a side
+  const DivisionRun run = divide_and_solve(
+      given.model, given.problem,
+      {.k1 = 0.0, .k2 = 1.0, .step = 0.0, .most_divisions = divisions, .expected_mass = 1.0});
+  ASSERT_EQ(run.history.size(), static_cast<std::size_t>(divisions));
+  int most = 0;
+  for (const SoughtShape& shape : run.model.shapes) {
+    most = std::max(most, static_cast<int>(std::count(shape.id.begin(), shape.id.end(), '.')));
+  }
+  EXPECT_EQ(most, most_cuts);
 }
 
 }  // namespace
