@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -16,8 +17,15 @@
 namespace shapeid::test {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 /// What is kept of a reference run after the first solve and after every division.
 struct Snapshot {
+  MassProblem problem;
   Eigen::VectorXd m, Phi, v;
   double value;
   std::string divided;  ///< next; empty at the end
@@ -27,7 +35,7 @@ std::vector<Snapshot> reference_run(const ModelWithRows& given, const DivisionOp
   std::vector<Snapshot> snapshots;
   const auto watch = [&](const reference::DivisionRun& run) {
     if (!run.history.empty()) snapshots.back().divided = run.history.back().divided;
-    snapshots.push_back({run.solution.m, run.solution.Phi,
+    snapshots.push_back({run.problem, run.solution.m, run.solution.Phi,
                          reference::division_criterion(run.model, run.solution.m, options),
                          run.solution.value.total(), ""});
   };
@@ -49,38 +57,51 @@ double criterion(double m, double V, double V0, const DivisionOptions& options) 
   return options.k1 * mass * size + options.k2 * mass / size;
 }
 
+void compare(const fast::MassSolver& masses, const Snapshot& expected, double terms,
+             RunComparison& result) {
+  const Eigen::VectorXd m = masses.m();
+  const auto keep_worst = [](double& worst, double here) { worst = std::max(worst, here); };
+  keep_worst(result.worst_objective, scaled(std::abs(masses.value().total() - expected.value),
+                                            terms, expected.problem.F.size() + m.size()));
+  if (m.size() > 0 && expected.m.maxCoeff() > 0.0) {
+    keep_worst(result.worst_mass, (m - expected.m).cwiseAbs().maxCoeff() / expected.m.maxCoeff());
+    keep_worst(result.worst_scaled_mass, scaled_mass_difference(expected.problem, m, expected.m));
+  }
+  keep_worst(result.worst_Phi,
+             (masses.Phi() - expected.Phi).norm() / std::max(expected.Phi.norm(), 1e-300));
+  const auto one_sided = (m.array() > 0.0) != (expected.m.array() > 0.0);
+  result.other_side = std::max(result.other_side, static_cast<int>(one_sided.count()));
+}
+
 }  // namespace
 
 RunComparison compare_runs(const ModelWithRows& given, int most_divisions) {
   const DivisionOptions options{
       .step = 0.0, .most_divisions = most_divisions, .expected_mass = given.expected_mass};
+  RunComparison result;
+  const Clock::time_point start = Clock::now();
   const std::vector<Snapshot> expected = reference_run(given, options);
+  result.reference_seconds = seconds_since(start);
   const Eigen::MatrixXd R = triangle_of(given.problem);
   fast::Division run(given.model, options);
   run.set_lambda(given.problem.lambda);
 
-  RunComparison result;
+  Clock::time_point before = Clock::now();
   result.declined = run.start(R) != fast::Outcome::solved;
+  result.fast_seconds = seconds_since(before);
   const double V0 = given.problem.V.sum();
+  const double terms = objective_terms(given.problem, expected[0].m);
   for (std::size_t k = 0; !result.declined; ++k) {
     const Snapshot& snapshot = expected[k];
     const Eigen::VectorXd m = run.masses().m();
-    const double terms = objective_terms(given.problem, expected[0].m);
-    result.worst_objective = std::max(
-        result.worst_objective, scaled(std::abs(run.masses().value().total() - snapshot.value),
-                                       terms, given.problem.F.size() + m.size()));
-    if (m.size() > 0 && snapshot.m.maxCoeff() > 0.0) {
-      result.worst_mass = std::max(result.worst_mass,
-                                   (m - snapshot.m).cwiseAbs().maxCoeff() / snapshot.m.maxCoeff());
-    }
-    const double Phi_size = std::max(snapshot.Phi.norm(), 1e-300);
-    result.worst_Phi =
-        std::max(result.worst_Phi, (run.masses().Phi() - snapshot.Phi).norm() / Phi_size);
+    compare(run.masses(), snapshot, terms, result);
 
     std::vector<std::string> ids;
     for (int place = 0; place < run.masses().shapes(); ++place) ids.push_back(run.id(place));
     const Eigen::VectorXd V = run.masses().V();
+    before = Clock::now();
     const fast::Division::Step step = run.divide();
+    result.fast_seconds += seconds_since(before);
     result.declined = step == fast::Division::Step::declined;
     const bool divided = step == fast::Division::Step::divided;
     if (!divided && snapshot.divided.empty()) break;

@@ -8,19 +8,20 @@
 
 namespace shapeid::test {
 
-/// How a fast run compares with a reference run of the same problem.
+/// How a fast run compares with a reference run of the same problem. The worst over the first solve
+/// and all equal divisions.
 struct RunComparison {
   int divisions = 0;  ///< that both did, of the same shapes
   bool declined = false;
   /// Where they first divide different shapes: the largest difference of the two shapes' v, over
   /// the larger v, in either run. Empty if they never do.
   std::optional<double> tie_at_difference;
-  /// Largest over all equal divisions, in units of the problem's own rounding.
-  double worst_objective = 0.0;
-  /// After the last equal division, over the largest mass; active sets are compared where no mass
-  /// is that small.
-  double worst_mass = 0.0;
-  double worst_Phi = 0.0;        ///< over the terms of each entry
+  double worst_objective = 0.0;    ///< in roundings of the problem's terms
+  double worst_scaled_mass = 0.0;  ///< in roundings of the gradient's terms
+  double worst_mass = 0.0;         ///< over the largest mass
+  double worst_Phi = 0.0;          ///< over its length
+  int other_side = 0;              ///< most shapes that have mass by one and none by the other
+  double reference_seconds = 0.0, fast_seconds = 0.0;
   std::string first_difference;  ///< in words, with the input; empty if there is none
 };
 

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <string>
 
 #include "shapeid/tests/fast/division_runs.hpp"
 #include "shapeid/tests/support/scaled.hpp"
@@ -18,28 +20,48 @@ namespace {
 constexpr double tie = 2e-9;
 
 /// The default lambda is 1e-12 of the objective's scale, so a rounding of a gradient moves a mass
-/// by up to 1e12 roundings of the largest: 1e-4 at worst, by the condition of the shapes. What is
-/// seen is 1e-9; a wrong active set is seen at 1e-3.
-constexpr double mass_bound = 1e-6;
+/// by up to 1e12 roundings of the largest: 1e-4. A wrong active set is seen at 1e-3.
+constexpr double mass_bound = 1e-4;
+
+/// Of a run; SHAPEID_DIVISIONS asks for more (./run agreement).
+int most_divisions() {
+  const char* asked = std::getenv("SHAPEID_DIVISIONS");
+  return asked != nullptr ? std::stoi(asked) : 20;
+}
 
 struct Totals {
-  int runs = 0, divisions = 0, declined = 0, ties = 0;
-  double worst_objective = 0.0, worst_mass = 0.0, worst_Phi = 0.0;
+  int runs = 0, divisions = 0, declined = 0, ties = 0, other_side = 0;
+  test::RunComparison worst;
 
   void add(const test::RunComparison& run) {
     ++runs;
     divisions += run.divisions;
     declined += run.declined ? 1 : 0;
     ties += run.tie_at_difference ? 1 : 0;
-    worst_objective = std::max(worst_objective, run.worst_objective);
-    worst_mass = std::max(worst_mass, run.worst_mass);
-    worst_Phi = std::max(worst_Phi, run.worst_Phi);
+    other_side += run.other_side > 0 ? 1 : 0;
+    const auto keep = [&](double test::RunComparison::*what) {
+      worst.*what = std::max(worst.*what, run.*what);
+    };
+    keep(&test::RunComparison::worst_objective);
+    keep(&test::RunComparison::worst_scaled_mass);
+    keep(&test::RunComparison::worst_mass);
+    keep(&test::RunComparison::worst_Phi);
+    if (run.tie_at_difference) {
+      worst.tie_at_difference =
+          std::max(worst.tie_at_difference.value_or(0.0), *run.tie_at_difference);
+    }
+    worst.reference_seconds += run.reference_seconds;
+    worst.fast_seconds += run.fast_seconds;
   }
   ~Totals() {
     fmt::print(
-        "{} runs, {} equal divisions, {} declined, {} end at a tie; objective {:.2g} units, masses "
-        "{:.1e}, Phi {:.1e} apart\n",
-        runs, divisions, declined, ties, worst_objective, worst_mass, worst_Phi);
+        "{} runs, {} divisions of the same shapes, {} runs declined, {} end at a tie (v at most "
+        "{:.1e} apart), in {} a shape has mass by one alone; at most apart: objective {:.2g} "
+        "roundings, masses {:.2g} roundings or {:.1e} of the largest, Phi {:.1e} of its length; "
+        "reference {:.1f} s, fast {:.2f} s\n",
+        runs, divisions, declined, ties, worst.tie_at_difference.value_or(0.0), other_side,
+        worst.worst_objective, worst.worst_scaled_mass, worst.worst_mass, worst.worst_Phi,
+        worst.reference_seconds, worst.fast_seconds);
   }
 };
 
@@ -49,15 +71,19 @@ void expect_equal(const test::RunComparison& run) {
   }
   RC_ASSERT(!run.tie_at_difference || *run.tie_at_difference <= tie);
   RC_ASSERT(run.worst_objective < test::few_hundred_eps);
+  RC_ASSERT(run.worst_scaled_mass < test::few_hundred_eps);
   RC_ASSERT(run.worst_mass < mass_bound);
   RC_ASSERT(run.worst_Phi < mass_bound);
 }
 
-RC_GTEST_PROP(FastDivision, TwentyDivisionsOfAnyModel, ()) {
+RC_GTEST_PROP(FastDivision, WholeRunsOfAnyModel, ()) {
   static Totals totals;
-  const test::RunComparison run = test::compare_runs(*test::model_with_rows(), 20);
+  const test::RunComparison run = test::compare_runs(*test::model_with_rows(), most_divisions());
   totals.add(run);
   if (run.declined) fmt::print("{}\n", run.first_difference);
+  // A shape of 1e-8 of the volume beside the whole costs the density term's digits: the deeper, the
+  // more runs end so. 0 of 1000 runs of 20 divisions, 5 of 40 of a hundred (docs/agreement.md).
+  RC_ASSERT(totals.declined <= 1 + totals.divisions / 200);
   expect_equal(run);
 }
 
