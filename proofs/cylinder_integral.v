@@ -1,5 +1,5 @@
-(** The closed moments of models/cylinder.cpp are Riemann integrals over the sector, r dr dphi dz, in
-    axes whose x points along the middle of the arc (docs/derivations/shapes.md, section 6). *)
+(** The closed moments of models/cylinder.cpp are Riemann integrals over the sector, r dr dphi dz,
+    in axes whose x points along the middle of the arc (docs/derivations/shapes.md, section 6). *)
 From Coq Require Import Reals Lra.
 From Shapeid Require Import integral.
 Local Open Scope R_scope.
@@ -102,7 +102,9 @@ Section Sector.
 
   Lemma slope_of_sin_cos t :
     derivable_pt_lim (fun x => sin x * cos x) t (cos t * cos t + sin t * - sin t).
-  Proof. apply derivable_pt_lim_mult; [apply derivable_pt_lim_sin | apply derivable_pt_lim_cos]. Qed.
+  Proof.
+    apply derivable_pt_lim_mult; [apply derivable_pt_lim_sin | apply derivable_pt_lim_cos].
+  Qed.
 
   Lemma of_cos_cos :
     antiderivative_of (fun t => / 2 * (t + sin t * cos t)) (fun t => cos t * cos t).

@@ -52,6 +52,22 @@ Section Floor.
     rewrite form. apply div_nonneg; [now apply sub_nonneg | exact v].
   Qed.
 
+  (** The price of a shape's column, whatever the slopes g of the parameters. *)
+  Lemma column_price q links region link shape (g : nat -> K) j :
+    made_of q links region link shape -> (j < shapes q)%nat ->
+    sum (parameters q) (fun k => g k * U q k j) =
+    sum 10 (fun k => g (10 * link j + k)%nat * body_parameters (shape j) k).
+  Proof.
+    intros made hj. rewrite (ten_each _ _ _ _ _ made), sum_tens.
+    rewrite (sum_ext links _ (fun l => (if link j =? l then 1 else 0) *
+      sum 10 (fun k => g (10 * l + k)%nat * body_parameters (shape j) k))).
+    - rewrite (sum_indicator links (link j) (fun l =>
+        sum 10 (fun k => g (10 * l + k)%nat * body_parameters (shape j) k))); [reflexivity |].
+      now apply (on_a_link _ _ _ _ _ made).
+    - intros l hl. rewrite <- sum_scale. apply sum_ext. intros k hk.
+      rewrite (own_rows _ _ _ _ _ made) by assumption. destruct (link j =? l); ring.
+  Qed.
+
   (** Claim C15. Nothing that can be made of shapes in the regions, however many, is below the
       floor. *)
   Theorem floor_is_a_floor p q x links region link shape M low :
@@ -73,18 +89,12 @@ Section Floor.
     { assert (split : dot (parameters p) g (Phi q t) =
         sum (shapes q) (fun j => t j * sum 10 (fun k =>
           g (10 * link j + k)%nat * body_parameters (shape j) k))).
-      { unfold dot, Phi. rewrite <- ep, (ten_each _ _ _ _ _ made).
-        rewrite (sum_ext (10 * links) _ (fun k => sum (shapes q) (fun j => t j * (g k * U q k j)))).
+      { unfold dot, Phi. rewrite <- ep.
+        rewrite (sum_ext (parameters q) _
+          (fun k => sum (shapes q) (fun j => t j * (g k * U q k j)))).
         2: { intros k _. rewrite <- sum_scale. apply sum_ext. intros. ring. }
         rewrite sum_swap. apply sum_ext. intros j hj. rewrite sum_scale. f_equal.
-        rewrite sum_tens.
-        rewrite (sum_ext links _ (fun l => (if link j =? l then 1 else 0) *
-          sum 10 (fun k => g (10 * l + k)%nat * body_parameters (shape j) k))).
-        - rewrite (sum_indicator links (link j) (fun l =>
-            sum 10 (fun k => g (10 * l + k)%nat * body_parameters (shape j) k))); [reflexivity |].
-          now apply (on_a_link _ _ _ _ _ made).
-        - intros l hl. rewrite <- sum_scale. apply sum_ext. intros k hk.
-          rewrite (own_rows _ _ _ _ _ made) by assumption. destruct (link j =? l); ring. }
+        now apply (column_price q links region). }
       rewrite split. apply (le_trans _ (sum (shapes q) t * low)).
       - apply le_of_sub. replace (sum (shapes q) t * low - M * low) with
           ((M - sum (shapes q) t) * - low) by ring.
