@@ -56,8 +56,10 @@ void print_head(const Results& results) {
       "\nInputs are seeded trots of the bundled quadruped (`tests/bench/problems`). \"Solve\" has "
       "everything prepared that a\nsolver starts from: A and b for Lawson-Hanson, H and g for QP "
       "solvers, the triangle [R c] and the shape columns U\nfor ours, which therefore forms R U "
-      "inside the clock. \"Triangle\" starts at R, c and U for everybody. In division\nruns peers "
-      "have A or H made for them between the divisions, outside the clock. An answer is wrong if "
+      "inside the clock. \"Triangle\" starts at R, c and U for everybody: the same work. Rows "
+      "without a remark\nare of that kind; \"A or H given to the peer\" is the harder comparison. "
+      "In division runs peers have A or H made for them between the divisions, outside the clock. "
+      "An answer is wrong if "
       "its "
       "objective\nexceeds the best of all solvers' by more than 1e-9 of the right-hand side's norm "
       "squared.\n\n");
