@@ -44,16 +44,55 @@ const Sample& sample_at(const DiagnosisRun& run, Eigen::Index i) {
   return run.test[run.after.index[static_cast<std::size_t>(i)]];
 }
 
+/// First and end of the samples within `seconds` in which the joint moves most.
+std::pair<Eigen::Index, Eigen::Index> liveliest(const DiagnosisRun& run, int joint,
+                                                double seconds) {
+  const Eigen::Index all = run.after.residual.cols();
+  std::pair<Eigen::Index, Eigen::Index> best = {0, 0};
+  double motion = 0.0, most = -1.0;
+  for (Eigen::Index from = 0, end = 0; from < all; ++from) {
+    const double start = sample_at(run, from).time;
+    for (; end < all && sample_at(run, end).time - start < seconds; ++end) {
+      motion += std::pow(sample_at(run, end).dq[joint], 2);
+    }
+    if (motion > most) {
+      most = motion;
+      best = {from, end};
+    }
+    motion -= std::pow(sample_at(run, from).dq[joint], 2);
+  }
+  return best;
+}
+
 }  // namespace
+
+std::string errors_picture(const DiagnosisRun& run, const Robot& robot) {
+  const int base = robot.base_dof();
+  std::string script =
+      canvas(820, 320) +
+      "set style data histograms\nset style histogram clustered gap 1\n"
+      "set style fill solid 0.85 noborder\nset xtics rotate by -35\nset yrange [0:*]\n"
+      "set ylabel 'residual (N m, rms)'\n$d << EOD\n";
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    script +=
+        fmt::format("\"{}\" {:.5g} {:.5g} {:.5g}\n", robot.joint(j).name, run.errors.zero[base + j],
+                    run.errors.given[base + j], run.errors.found[base + j]);
+  }
+  script += fmt::format(
+      "EOD\nplot $d using 2:xtic(1) lc rgb '{}' title 'predicting zero', $d using 3 lc rgb '{}' "
+      "title 'given model', $d using 4 lc rgb '{}' title 'found'\n",
+      grey, orange, blue);
+  return gnuplot(script);
+}
 
 std::string torque_picture(const DiagnosisRun& run, const Robot& robot, int joint) {
   const Eigen::Index row = robot.base_dof() + joint;
-  const double start = sample_at(run, 0).time;
   constexpr double shown = 6.0;  // s
-  Eigen::Index count = 0;
-  while (count < run.after.residual.cols() && sample_at(run, count).time - start < shown) ++count;
+  const auto [from, end] = liveliest(run, joint, shown);
+  const double start = sample_at(run, 0).time;
   std::string script =
-      canvas(820, 360) + data("d", count, [&](Eigen::Index i) {
+      canvas(820, 360) + data("d", end - from, [&, from = from](Eigen::Index k) {
+        const Eigen::Index i = from + k;
         const double tau = run.after.predicted(row, i) - run.after.residual(row, i);
         return std::array{sample_at(run, i).time - start, tau,
                           run.before.predicted(row, i),   run.after.predicted(row, i),

@@ -7,8 +7,11 @@
 
 namespace shapeid::app {
 
-/// Logged torque with both predictions, and both residuals below, over some seconds of the test
-/// motion.
+/// Residual of every joint with zero torque, the given model and the found one, rms.
+[[nodiscard]] std::string errors_picture(const DiagnosisRun& run, const Robot& robot);
+
+/// Logged torque with both predictions, and both residuals below, over the seconds of the test
+/// motion in which the joint moves most.
 [[nodiscard]] std::string torque_picture(const DiagnosisRun& run, const Robot& robot, int joint);
 
 /// What is left after, over the joint's velocity, position, predicted torque, and time.

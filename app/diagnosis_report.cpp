@@ -124,6 +124,7 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
       "Predicted minus logged torque, root mean square, N m (base rows: N and N m). "
       "Unfiltered: the found model against the torque as logged.");
   page.table(errors_table(run, robot));
+  page.picture(errors_picture(run, robot), "Joints: the same errors as in the table.");
   page.heading("What was found");
   if (run.consistent.model.effects.empty()) {
     page.paragraph("No effect lowers the error on held-out blocks by more than chance.");

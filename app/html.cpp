@@ -63,6 +63,7 @@ h1 {{ font-size: 1.5rem }} h2 {{ font-size: 1.15rem; margin-top: 2rem }}
 table {{ border-collapse: collapse; font-size: 0.9rem }}
 th, td {{ padding: 0.2rem 0.8rem; border-bottom: 1px solid #ddd; text-align: right; font-variant-numeric: tabular-nums }}
 th:first-child, td:first-child {{ text-align: left }}
+td:not(:last-child) {{ white-space: nowrap }}
 figure {{ margin: 1.5rem 0 }} figure svg {{ max-width: 100%; height: auto }}
 figcaption {{ color: #555; font-size: 0.9rem }}
 </style></head><body>
