@@ -10,7 +10,8 @@ Section Cone.
   Definition made_of_shapes p x : Prop :=
     exists m, nonnegative p m /\ forall k, (k < parameters p)%nat -> x k = Phi p m k.
 
-  (** Claim C14. A direction in which no shape is negative, but the parameters are, separates them. *)
+  (** Claim C14. A direction in which no shape is negative, but the parameters are, separates them.
+      *)
   Theorem separated_parameters_cannot_be_made p x s :
     (forall j, (j < shapes p)%nat -> 0 <= dot (parameters p) s (fun k => U p k j)) ->
     dot (parameters p) s x < 0 -> ~ made_of_shapes p x.
@@ -27,8 +28,8 @@ Section Cone.
     rewrite e. apply sum_nonneg. intros j hj. apply mul_nonneg; [now apply hm | now apply no_shape].
   Qed.
 
-  (** Claim C14. The nearest point of the cone proves it either way: with s = U m - x at right angles to
-      U m and no shape below s, either s is zero or it separates. *)
+  (** Claim C14. The nearest point of the cone proves it either way: with s = U m - x at right
+      angles to U m and no shape below s, either s is zero or it separates. *)
   Theorem nearest_point_decides p x m :
     let s k := Phi p m k - x k in
     dot (parameters p) s (Phi p m) = 0 ->
