@@ -10,8 +10,7 @@ Section Cone.
   Definition made_of_shapes p x : Prop :=
     exists m, nonnegative p m /\ forall k, (k < parameters p)%nat -> x k = Phi p m k.
 
-  (** Claim C14. A direction in which no shape is negative, but the parameters are, separates them.
-      *)
+  (** Claim C14. A direction in which the parameters are negative and no shape is separates them. *)
   Theorem separated_parameters_cannot_be_made p x s :
     (forall j, (j < shapes p)%nat -> 0 <= dot (parameters p) s (fun k => U p k j)) ->
     dot (parameters p) s x < 0 -> ~ made_of_shapes p x.
