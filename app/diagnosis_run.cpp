@@ -240,7 +240,12 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   run.after = diagnosis::series(robot.robot, run.settings.contacts, run.consistent.model, run.test,
                                 run.settings.stride);
   run.errors = test_errors(robot, options, run, raw.recording);
-  run.structures = diagnosis::unexplained(robot.robot, run.test, run.after);
+  // On the log itself, which is longer and has no error of the filter in it; curves are judged on
+  // blocks that they were not fitted to.
+  run.structures = diagnosis::unexplained(
+      robot.robot, log.recording,
+      diagnosis::series(robot.robot, run.settings.contacts, run.consistent.model, log.recording,
+                        run.settings.stride));
   note_rests(robot.robot, run);
   note_worse_joints(robot.robot, run);
   return run;

@@ -1,6 +1,7 @@
 #include "shapeid/diagnosis/selection.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace shapeid::diagnosis {
@@ -8,6 +9,8 @@ namespace {
 
 // Gains closer than this many standard errors of their difference are not told apart.
 constexpr double separable = 2.0;
+// Standard errors by which a rival must gain to be named in an accepted one's place.
+constexpr double rival_t = 1.0;
 // Less than this share of a candidate's columns left free by the others: the data cannot see it.
 constexpr double hidden_share = 1e-4;
 // One hypothesis contains another if this share of its columns is in the other's span.
@@ -25,6 +28,11 @@ class Search {
     result_.error_given = fits_.given_error();
     result_.error_rigid = fits_.held_out({masses_});
     limit_ = limit_for(rule_.least_t, fits_.held_blocks());
+    std::size_t parameters = 0;
+    for (const Candidate& c : candidates_) {
+      if (c.members.empty()) parameters += c.term.columns.size();
+    }
+    least_z_ = limit_for(least_z(rule_.false_alarms, parameters), fits_.held_blocks());
     do {
       while (std::ssize(accepted_) < rule_.most_terms && advance()) {
       }
@@ -114,7 +122,7 @@ class Search {
     if (!candidates_[k].members.empty()) return true;  // judged one by one at the end
     const Eigen::ArrayXd each = fit.value.array() / fit.standard_error.array();
     const double z = effect.is_payload ? each[0] : each.abs().maxCoeff();  // a load has mass
-    if (!(z > rule_.least_z)) return false;
+    if (!(z > least_z_)) return false;
     if (!large(k, fit)) return false;
     for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
       const auto at = static_cast<Eigen::Index>(p);
@@ -260,7 +268,8 @@ class Search {
       if (other == k || same_place(k, other) || !candidates_[other].members.empty()) continue;
       const Eigen::VectorXd instead = fits_.held_out(with(other));
       const Gain own = gain_of(without, instead);
-      if (!passes({other, own.share, own.t, {}, false})) continue;
+      // Near the limit chance decides which of two passes: a rival need only gain something.
+      if (!(own.t > rival_t && own.share > 0.0)) continue;
       if (gain_of(instead, result_.error_end).t > separable) continue;
       if (wrong_sign(other, fit_of(other), 0.0)) continue;
       const bool nested = fits_.contained(terms(accepted_), candidates_[k].term,
@@ -275,12 +284,23 @@ class Search {
   const Term& masses_;
   const std::vector<Candidate>& candidates_;
   const SelectionRule& rule_;
-  double limit_ = 0.0;
+  double limit_ = 0.0, least_z_ = 0.0;
   std::vector<std::size_t> accepted_, dropped_;
   Selection result_;
 };
 
 }  // namespace
+
+double least_z(double probability, std::size_t parameters) {
+  const double each = probability / static_cast<double>(std::max<std::size_t>(parameters, 1));
+  double lower = 0.0, upper = 20.0;
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double z = 0.5 * (lower + upper);
+    (std::erfc(z / std::sqrt(2.0)) > each ? lower : upper) = z;
+  }
+  return upper;
+}
 
 double limit_for(double least_t, Eigen::Index blocks) {
   const double z = least_t, freedom = static_cast<double>(std::max<Eigen::Index>(blocks - 1, 1));

@@ -23,17 +23,19 @@ struct Candidate {
 /// that is left. A parameter of z standard errors has a held-out gain of z^2 - 2 in units of the
 /// noise, with a standard error of 2 |z|: `least_t` = 2.5 asks for z of about 5.4. With some
 /// hundred hypotheses tried, chance alone passes less often than once in ten thousand logs; what
-/// passes wrongly is structure that no hypothesis describes.
+/// passes wrongly is structure that no hypothesis describes. Standard errors come from blocks, and
+/// are themselves uncertain: both limits are enlarged for few blocks.
 struct SelectionRule {
   double least_t = 2.5;
-  double least_gain = 0.005;
-  /// Of its usual size that some parameter must have: products of filtered signals are not filtered
-  /// products, which looks like small delays, biases and inertias in logs without any.
-  double least_size = 0.2;
-  double least_z = 4.0;  ///< standard errors by which some parameter must differ from zero
+  double least_gain = 0.001;
+  /// Of its usual size that some parameter must have: what is smaller means nothing to a user.
+  double least_size = 0.002;
+  /// Logs without any effect in which chance alone may make some parameter differ from zero by
+  /// `least_z()` standard errors.
+  double false_alarms = 0.01;
   int most_terms = 60;
   int shortlist = 24;  ///< of the candidates, by promise, whose held-out error is computed
-  int rivals = 10;     ///< likewise of those that might take an accepted one's place
+  int rivals = 24;     ///< likewise of those that might take an accepted one's place
 };
 
 struct Scored {
@@ -70,6 +72,10 @@ struct Selection {
 /// `masses`: columns that are fitted always, the free links' above all.
 [[nodiscard]] Selection select(const BlockFits& fits, const Term& masses,
                                const std::vector<Candidate>& candidates, const SelectionRule& rule);
+
+/// Standard errors that none of `parameters` normal numbers of mean zero exceeds, in either
+/// direction, but with this probability.
+[[nodiscard]] double least_z(double probability, std::size_t parameters);
 
 /// `least_t` with many blocks, more with few: the quantile of Student's t of the same level.
 [[nodiscard]] double limit_for(double least_t, Eigen::Index blocks);

@@ -5,16 +5,17 @@
 #include <numeric>
 #include <optional>
 
-#include "shapeid/diagnosis/fits.hpp"
+#include "shapeid/diagnosis/selection.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
 
 constexpr std::size_t bins = 10;
 constexpr std::size_t blocks = 30, folds = 6;
-// As for effects; a few hundred curves are tried.
-constexpr double least_t = 3.0;
-constexpr double least_share = 0.02;
+// As for effects. By chance a curve of ten bins loses on other blocks, so that 2.5 standard errors
+// of gain are rarer than their number says, and a few hundred curves may be tried.
+constexpr double least_gain_t = 2.5;
+constexpr double least_share = 0.005;
 
 /// Edges so that every bin holds as many samples.
 std::vector<double> quantiles(std::vector<double> x) {
@@ -44,7 +45,8 @@ struct Binned {
 };
 
 /// The curve of y over x; empty if it does not hold on other blocks.
-std::optional<Structure> curve(const std::vector<double>& x, const std::vector<double>& y) {
+std::optional<Structure> curve(const std::vector<double>& x, const std::vector<double>& y,
+                               double least_t) {
   const std::vector<double> edges = quantiles(x);
   if (!(edges.back() > edges.front())) return std::nullopt;  // a constant
   const auto block_of = [&](std::size_t i) { return i * blocks / x.size(); };
@@ -82,6 +84,7 @@ std::optional<Structure> curve(const std::vector<double>& x, const std::vector<d
 std::vector<Structure> unexplained(const Robot& robot, const Recording& recording,
                                    const Series& series) {
   std::vector<Structure> found;
+  const double least_t = limit_for(least_gain_t, blocks);
   for (int j = 0; j < robot.joint_count(); ++j) {
     const Eigen::Index row = robot.base_dof() + j;
     std::vector<std::size_t> places;  // in the series, of what counts
@@ -101,7 +104,7 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
       std::optional<Structure> best;
       for (const auto& [name, x] : candidates) {
         if (std::any_of(x.begin(), x.end(), [](double v) { return std::isnan(v); })) continue;
-        std::optional<Structure> c = curve(x, y);
+        std::optional<Structure> c = curve(x, y, least_t);
         if (!c || (best && best->share >= c->share)) continue;
         best = c;
         best->joint = robot.joint(j).name;

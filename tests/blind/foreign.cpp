@@ -1,0 +1,155 @@
+#include "shapeid/tests/blind/foreign.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shapeid::blind {
+namespace {
+
+/// The encoder sits on the motor: it is ahead of the joint by the half gap on the side that drives.
+void backlash(Ingredients& in, const Machine&, const Amount& a) {
+  in.signals.emplace_back([a](Readings& readings) {
+    constexpr double light = 0.5;  // N m: below it the teeth change sides
+    for (Reading& r : readings) {
+      r.sample.q[a.site] += 0.5 * a.size * std::tanh(r.sample.tau[a.site] / light);
+    }
+  });
+}
+
+/// Likewise through a spring; size is the compliance, rad / N m.
+void flexible_joint(Ingredients& in, const Machine&, const Amount& a) {
+  in.signals.emplace_back([a](Readings& readings) {
+    for (Reading& r : readings) r.sample.q[a.site] += a.size * r.sample.tau[a.site];
+  });
+}
+
+/// Feet on foam: deep, and the ground does not spring back as it was pressed in.
+void soft_ground(Ingredients& in, const Machine&, const Amount& a) {
+  in.ground.stiffness /= a.size;
+  in.ground.dissipation *= 2.0;
+}
+
+/// Torque ripple that grows with the load, as of an eccentric gear.
+void load_ripple(Ingredients& in, const Machine&, const Amount& a) {
+  in.signals.emplace_back([a](Readings& readings) {
+    for (Reading& r : readings) {
+      r.sample.tau[a.site] *= 1.0 + a.size * std::sin(9.0 * r.sample.q[a.site] + 0.7);
+    }
+  });
+}
+
+/// Dahl's friction with a long way to turn round: the drive overcomes it.
+void hysteresis(Ingredients& in, const Machine&, const Amount& a) {
+  in.signals.emplace_back([a](Readings& readings) {
+    constexpr double way = 0.15;  // rad
+    double share = 0.0;
+    double before = readings.front().sample.q[a.site];
+    for (Reading& r : readings) {
+      const double step = r.sample.q[a.site] - before;
+      before = r.sample.q[a.site];
+      share += (step - std::abs(step) * share) / way;
+      r.sample.tau[a.site] += a.size * share;
+    }
+  });
+}
+
+/// The torque sensor reads no more than so much; size is the share of its largest reading cut off.
+void saturation(Ingredients& in, const Machine&, const Amount& a) {
+  in.signals.emplace_back([a](Readings& readings) {
+    double most = 0.0;
+    for (const Reading& r : readings) most = std::max(most, std::abs(r.sample.tau[a.site]));
+    const double limit = most * (1.0 - std::min(a.size, 0.9));
+    for (Reading& r : readings) {
+      r.sample.tau[a.site] = std::clamp(r.sample.tau[a.site], -limit, limit);
+    }
+  });
+}
+
+/// An offset that drifts as the drive grows warm.
+void warm_offset(Ingredients& in, const Machine&, const Amount& a) {
+  in.signals.emplace_back([a](Readings& readings) {
+    constexpr double slow = 8.0;  // s
+    for (Reading& r : readings) {
+      r.sample.tau[a.site] += a.size * (1.0 - std::exp(-r.sample.time / slow));
+    }
+  });
+}
+
+/// The torque of one drive goes through a slow filter of its own; size is its time constant, s.
+void slow_torque(Ingredients& in, const Machine&, const Amount& a) {
+  in.signals.emplace_back([a](Readings& readings) {
+    double state = readings.front().sample.tau[a.site];
+    for (std::size_t i = 1; i < readings.size(); ++i) {
+      const double dt = readings[i].sample.time - readings[i - 1].sample.time;
+      double& tau = readings[i].sample.tau[a.site];
+      state += (tau - state) * (1.0 - std::exp(-dt / a.size));
+      tau = state;
+    }
+  });
+}
+
+/// Friction of a bent shaft: larger on one side of the turn. Its mean is dry friction.
+void uneven_friction(Ingredients& in, const Machine&, const Amount& a) {
+  in.signals.emplace_back([a](Readings& readings) {
+    for (Reading& r : readings) {
+      const double uneven = 1.0 + std::sin(3.0 * r.sample.q[a.site]);
+      r.sample.tau[a.site] += a.size * uneven * std::tanh(r.sample.dq[a.site] / 0.02);
+    }
+  });
+}
+
+Kind make(const std::string& id, double nominal,
+          void (*put)(Ingredients&, const Machine&, const Amount&),
+          std::vector<std::string> described_by = {}) {
+  Kind k;
+  k.id = id;
+  k.foreign = true;
+  k.nominal = nominal;
+  k.put = put;
+  k.described_by = std::move(described_by);
+  return k;
+}
+
+}  // namespace
+
+std::vector<Kind> foreign_kinds() {
+  std::vector<Kind> all = {
+      make("backlash", 0.02, backlash),
+      make("flexible_joint", 0.002, flexible_joint),
+      make("load_ripple", 0.15, load_ripple),
+      make("hysteresis", 1.0, hysteresis, {"coulomb_friction", "joint_spring"}),
+      make("saturation", 0.3, saturation),
+      make("warm_offset", 0.6, warm_offset, {"torque_offset"}),
+      make("slow_torque", 0.008, slow_torque),
+      make("uneven_friction", 0.5, uneven_friction, {"coulomb_friction"}),
+      make("soft_ground", 8.0, soft_ground),
+  };
+  for (Kind& k : all) {
+    k.largest = 12.0 * k.nominal;
+    if (k.id == "saturation") k.largest = 0.8;
+    if (k.id == "soft_ground") {
+      k.dynamic = true;
+      k.arm = false;
+      k.place = Place::whole;
+    }
+  }
+  return all;
+}
+
+void delay(Readings& readings, double seconds,
+           const std::function<void(Sample&, const Sample&, double)>& add,
+           const std::function<void(Sample&)>& zero) {
+  const Readings before = readings;
+  const double step = before[1].sample.time - before[0].sample.time;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const double place = std::max(0.0, static_cast<double>(i) - seconds / step);
+    const auto early = static_cast<std::size_t>(place);
+    const std::size_t late = std::min(early + 1, before.size() - 1);
+    const double share = place - static_cast<double>(early);
+    zero(readings[i].sample);
+    add(readings[i].sample, before[early].sample, 1.0 - share);
+    add(readings[i].sample, before[late].sample, share);
+  }
+}
+
+}  // namespace shapeid::blind

@@ -1,0 +1,19 @@
+// Effects that the diagnosis's catalogue does not have.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "shapeid/tests/blind/ingredients.hpp"
+
+namespace shapeid::blind {
+
+[[nodiscard]] std::vector<Kind> foreign_kinds();
+
+/// Signals at t become those at t - seconds (>= 0), on a straight line between readings. `zero`
+/// clears them, `add` adds a share of another instant's.
+void delay(Readings& readings, double seconds,
+           const std::function<void(Sample&, const Sample&, double)>& add,
+           const std::function<void(Sample&)>& zero);
+
+}  // namespace shapeid::blind

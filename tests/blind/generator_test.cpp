@@ -1,0 +1,99 @@
+// What the generator puts into a trial is there, of the size it says, and the seal is needed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "shapeid/models/simbody/simbody_robot.hpp"
+#include "shapeid/tests/blind/yardstick.hpp"
+#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+
+namespace shapeid::blind {
+namespace {
+
+Trial arm_trial(std::vector<Item> items) {
+  Trial t;
+  t.machine = "arm";
+  t.items = std::move(items);
+  return t;
+}
+
+Item some(const std::string& id, int site) {
+  return {id, {site, kind(id).nominal, Eigen::Vector3d(0.48, -0.6, 0.64)}, 1.0};
+}
+
+TEST(Generator, SealKeepsTheTrial) {
+  Trial t = arm_trial({some("cogging", 2), some("drag", 3)});
+  t.noise_seed = 77;
+  const Trial back = trial_from_json(to_json(t));
+  EXPECT_EQ(to_json(back), to_json(t));
+  EXPECT_EQ(back.items[1].amount.direction, t.items[1].amount.direction);
+}
+
+/// Every effect changes the log, on each robot that it is for; without it the log is the clean one.
+TEST(Generator, EveryEffectOfSignalsShows) {
+  const Machine m = arm();
+  const Readings clean = simulate_clean(m, 5);
+  for (const Kind& k : kinds()) {
+    if (k.dynamic || !k.arm) continue;
+    SCOPED_TRACE(k.id);
+    Readings changed = clean;
+    change_signals(m, {some(k.id, k.place == Place::joint ? 2 : 0)}, changed);
+    double difference = 0.0;
+    for (std::size_t i = 0; i < clean.size(); ++i) {
+      difference += (changed[i].sample.q - clean[i].sample.q).norm() +
+                    (changed[i].sample.tau - clean[i].sample.tau).norm();
+    }
+    EXPECT_GT(difference, 0.0);
+  }
+}
+
+/// The catalogue's equation with the trial's numbers explains the simulated torque: the truth that
+/// is sealed is the truth that is simulated. Both come from equations of their own.
+TEST(Generator, SealedNumbersExplainTheSimulation) {
+  const Machine m = arm();
+  for (const Kind& k : kinds()) {
+    if (k.foreign || !k.dynamic || !k.arm) continue;
+    SCOPED_TRACE(k.id);
+    const Item item = some(k.id, k.place == Place::whole ? 0 : 2);
+    const Readings readings = simulate_trial(m, arm_trial({item}));
+    ASSERT_FALSE(readings.empty());
+    std::vector<Sample> samples;
+    for (const Reading& r : readings) samples.push_back(r.sample);
+    const diagnosis::Recording log(samples, m.rate);
+    const diagnosis::RichModel truth{stacked_parameters(m.robot), {applied(m, item)}};
+    const diagnosis::RichModel rigid{truth.Phi, {}};
+    const diagnosis::Viewer with(m.robot, reference::ContactTreatment::ignore, truth.effects);
+    const diagnosis::Viewer without(m.robot, reference::ContactTreatment::ignore, {});
+    double told = 0.0, untold = 0.0;
+    for (const std::size_t i : log.usable(20)) {
+      told += diagnosis::residual(with, with.view(log, i), truth).squaredNorm();
+      untold += diagnosis::residual(without, without.view(log, i), rigid).squaredNorm();
+    }
+    constexpr double all_of_it = 1e-12;  // squared; equations agree to rounding
+    EXPECT_LT(told, all_of_it * untold);
+    EXPECT_GT(untold, 0.0);
+  }
+}
+
+/// An effect of twice the detectable size gains more than one of the size, by what a model of known
+/// truth is worth: in noise alone the size is about 6.6 standard errors of its own fit.
+TEST(Yardstick, DetectableSizeFollowsTheNoise) {
+  const test::Scratch scratch;
+  Machine m = arm();
+  const Item item = some("torque_offset", 1);
+  const Readings readings = simulate_clean(m, 5);
+  const auto size = [&](double sigma) {
+    m.notes.noise_sigma["tau"] = sigma;
+    Trial t = arm_trial({});
+    write_logs(m, t, readings, scratch.path(""));
+    const diagnosis::Recording log = read_log(m, scratch.path("log.csv"));
+    return detectable_size(m, log, unit_change(m, item, readings, log, scratch.path(""), 1));
+  };
+  const double quiet = size(0.2), loud = size(0.8);
+  EXPECT_GT(loud, 2.5 * quiet);
+  EXPECT_LT(loud, 6.0 * quiet);
+}
+
+}  // namespace
+}  // namespace shapeid::blind

@@ -1,0 +1,34 @@
+// The robots of the blind tests: as they are, and as their files say.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shapeid/models/robot.hpp"
+#include "shapeid/models/robot_yaml.hpp"
+
+namespace shapeid::blind {
+
+struct Machine {
+  std::string name;  ///< "arm" or "quadruped"
+  std::string urdf, yaml;
+  Robot robot;  ///< as it is: the files' numbers
+  RobotNotes notes;
+  std::vector<int> free_links;  ///< the diagnosis is told wrong inertias of these
+  double rate = 0.0;            ///< Hz, of logs
+  double cutoff = 0.0;          ///< Hz, of the filter that the diagnosis is told to use
+};
+
+[[nodiscard]] Machine arm();
+[[nodiscard]] Machine quadruped();
+[[nodiscard]] Machine machine(const std::string& name);
+
+/// Inertias near the true ones, each of a body that can exist: what the diagnosis is given.
+[[nodiscard]] std::vector<InertialParameters> wrong_inertias(const Machine& machine,
+                                                             std::uint64_t seed);
+
+/// The robot with these inertias of its free links.
+[[nodiscard]] Robot with_inertias(const Machine& machine,
+                                  const std::vector<InertialParameters>& inertias);
+
+}  // namespace shapeid::blind

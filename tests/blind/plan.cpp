@@ -1,0 +1,151 @@
+#include "shapeid/tests/blind/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "shapeid/models/file_output.hpp"
+#include "shapeid/tests/blind/yardstick.hpp"
+
+namespace shapeid::blind {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<double, 5> ratios = {0.5, 1.0, 2.0, 4.0, 8.0};
+constexpr std::uint64_t motions = 5;  // of each robot; clean ones are simulated once
+
+/// A motion with nothing in it, and its log.
+struct Clean {
+  Readings readings;
+  diagnosis::Recording log;
+};
+
+class Generator {
+ public:
+  Generator(const PlanOptions& options, const std::string& folder)
+      : options_(options), folder_(folder), scratch_(folder + "/scratch") {
+    fs::create_directories(scratch_);
+  }
+  ~Generator() { fs::remove_all(scratch_); }
+  Generator(const Generator&) = delete;
+  Generator& operator=(const Generator&) = delete;
+
+  Trial make(int number) {
+    // Numbers of one trial do not depend on how many were drawn before.
+    Random random(options_.seed * 1000003 + static_cast<std::uint64_t>(number));
+    const int every = options_.quadruped_every;
+    const Machine m = machine(every > 0 && number % every == every - 1 ? "quadruped" : "arm");
+    Trial trial;
+    trial.machine = m.name;
+    trial.motion_seed = 100 * options_.seed + 1 + draw(random, motions);
+    trial.noise_seed = options_.seed * 10007 + static_cast<std::uint64_t>(number);
+    trial.inertia_seed = trial.noise_seed + 5;
+    put_items(m, number, random, trial);
+
+    const std::string own = fmt::format("{}/trial{:04}", folder_, number);
+    fs::create_directories(own);
+    Readings readings;
+    if (is_dynamic(trial)) {
+      readings = simulate_trial(m, trial);
+    } else {
+      readings = clean(m, trial.motion_seed).readings;
+      change_signals(m, trial.items, readings);
+    }
+    if (readings.empty()) {
+      trial.error = "the robot fell";
+    } else {
+      write_logs(m, trial, readings, own);
+    }
+    write_file(own + "/sealed.json", to_json(trial).dump(2) + "\n");
+    return trial;
+  }
+
+ private:
+  static std::size_t draw(Random& random, std::size_t count) {
+    return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
+  }
+
+  const Clean& clean(const Machine& m, std::uint64_t seed) {
+    const auto key = std::pair(m.name, seed);
+    const auto known = clean_.find(key);
+    if (known != clean_.end()) return known->second;
+    Readings readings = simulate_clean(m, seed);
+    if (readings.empty()) throw std::runtime_error("a clean robot fell: choose another seed");
+    write_logs(m, reference_trial(seed), readings, scratch_);
+    return clean_.emplace(key, Clean{readings, read_log(m, scratch_ + "/log.csv")}).first->second;
+  }
+
+  static Trial reference_trial(std::uint64_t seed) {
+    Trial trial;
+    trial.noise_seed = seed;
+    return trial;
+  }
+
+  void put_items(const Machine& m, int number, Random& random, Trial& trial) {
+    const int place = number % 10;
+    int count = 1;
+    bool foreign = place == 7 || place == 9;
+    if (place == 0 || place == 5) count = 0;
+    if (place == 4) count = 2;
+    if (!options_.only.empty()) {
+      count = options_.only == "clean" ? 0 : 1;
+      foreign = count > 0 && kind(options_.only).foreign;
+    }
+    std::vector<const Kind*> possible;
+    for (const Kind& k : kinds()) {
+      const bool wanted = options_.only.empty() ? k.foreign == foreign : k.id == options_.only;
+      if (wanted && !sites(m, k).empty()) possible.push_back(&k);
+    }
+    constexpr int most_draws = 50;
+    for (int attempt = 0; attempt < most_draws && std::ssize(trial.items) < count; ++attempt) {
+      if (possible.empty()) return;
+      const Kind& k = *possible[draw(random, possible.size())];
+      const bool again = !trial.items.empty() && trial.items.front().kind == k.id;
+      const double drawn = ratios[draw(random, ratios.size())];
+      const double ratio = options_.ratio > 0.0 ? options_.ratio : drawn;
+      if (again) continue;
+      if (const auto item = sized(m, k, ratio, random, trial)) trial.items.push_back(*item);
+    }
+  }
+
+  /// Empty if no robot could have so much of it there, or it cannot be seen at all.
+  std::optional<Item> sized(const Machine& m, const Kind& k, double ratio, Random& random,
+                            const Trial& trial) {
+    const std::vector<int> places = sites(m, k);
+    Item item{k.id, {places[draw(random, places.size())], k.nominal, {0, 0, 0}}, ratio};
+    for (double& d : item.amount.direction) d = random.normal();
+    item.amount.direction.normalize();
+    if (k.id == "soft_ground") {  // nothing of it reaches the equation of motion
+      item.ratio = 0.0;
+      return item;
+    }
+    const Clean& base = clean(m, trial.motion_seed);
+    const Eigen::MatrixXd change = unit_change(m, item, base.readings, base.log, scratch_,
+                                               reference_trial(trial.motion_seed).noise_seed);
+    item.amount.size = ratio * detectable_size(m, base.log, change);
+    if (!(item.amount.size < k.largest)) return std::nullopt;
+    return item;
+  }
+
+  PlanOptions options_;
+  std::string folder_, scratch_;
+  std::map<std::pair<std::string, std::uint64_t>, Clean> clean_;
+};
+
+}  // namespace
+
+void generate(const PlanOptions& options, const std::string& folder,
+              const std::function<void(int, const Trial&)>& on_trial) {
+  Generator generator(options, folder);
+  for (int number = 0; number < options.trials; ++number) {
+    const Trial trial = generator.make(number);
+    if (on_trial) on_trial(number, trial);
+  }
+}
+
+}  // namespace shapeid::blind

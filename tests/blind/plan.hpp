@@ -1,0 +1,28 @@
+// Which trials there are: drawn from a seed, so that two people see the same.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "shapeid/tests/blind/trial.hpp"
+
+namespace shapeid::blind {
+
+struct PlanOptions {
+  std::uint64_t seed = 1;
+  int trials = 20;
+  int quadruped_every = 4;  ///< every how many trials; 0: arms alone
+  double ratio = 0.0;       ///< times the detectable size, of every effect; 0: drawn
+  std::string only;         ///< trials of this kind alone ("clean" for none); empty: all kinds
+};
+
+/// Of ten trials two are clean, five hold one effect, one holds two, and two hold something that
+/// is not in the catalogue. Sizes are 0.5, 1, 2, 4 or 8 times the detectable size.
+/// Writes one folder a trial into `folder`: what the diagnosis may see (write_logs()), and
+/// sealed.json for the scorer alone. `on_trial` hears of each.
+void generate(const PlanOptions& options, const std::string& folder,
+              const std::function<void(int, const Trial&)>& on_trial = {});
+
+}  // namespace shapeid::blind

@@ -1,0 +1,55 @@
+// What a diagnosis said against what was there.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+#include "shapeid/tests/blind/trial.hpp"
+
+namespace shapeid::blind {
+
+enum class Outcome {
+  right,        ///< every item by name and place, nothing else (clean: nothing at all)
+  ambiguous,    ///< likewise, some item within the set of names that are said to be inseparable
+  partly,       ///< of two items one, nothing wrong
+  described,    ///< a foreign effect by the part of it that the catalogue has
+  unexplained,  ///< no name, structure reported
+  abstained,    ///< nothing said though something was there
+  refused,      ///< the log was refused
+  wrong_place,  ///< the right effect somewhere else
+  wrong         ///< something named that is not there
+};
+inline constexpr int outcomes = 9;
+
+[[nodiscard]] std::string name_of(Outcome outcome);
+
+struct Judgement {
+  Outcome outcome = Outcome::abstained;
+  bool beside = false;       ///< of the wrong: all that was there is named as well
+  std::string said;          ///< the findings' names
+  std::size_t set_size = 0;  ///< of the largest set of inseparable names
+  double error_ratio = 0.0;  ///< held-out error over that of the model told the truth; 0: not known
+  double mass_before = 0.0;  ///< distance of the given inertias from the true ones
+  double mass_after = 0.0;   ///< of the identified ones
+};
+
+/// `result` is the document of `shapeid diagnose --json`; null if it refused the log.
+[[nodiscard]] Judgement judge(const Trial& trial, const nlohmann::json& result);
+
+/// 95 % bounds of a share of which `hits` of `count` were seen (Wilson 1927).
+struct Bounds {
+  double lower = 0.0, upper = 1.0;
+};
+[[nodiscard]] Bounds wilson(int hits, int count);
+
+struct Scored {
+  Trial trial;
+  Judgement judgement;
+};
+
+/// The tables, in Markdown.
+[[nodiscard]] std::string tables(const std::vector<Scored>& all);
+
+}  // namespace shapeid::blind

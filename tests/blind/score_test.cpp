@@ -1,0 +1,115 @@
+// The scorer judged by answers whose worth is known.
+#include "shapeid/tests/blind/score.hpp"
+
+#include <gtest/gtest.h>
+
+namespace shapeid::blind {
+namespace {
+
+using nlohmann::json;
+
+Item item(const std::string& id, int site) { return {id, {site, 1.0, {1.0, 0.0, 0.0}}, 2.0}; }
+
+Trial trial(std::vector<Item> items) {
+  Trial t;
+  t.machine = "arm";
+  t.items = std::move(items);
+  return t;
+}
+
+json finding(const std::string& effect, const std::string& site,
+             const std::vector<std::string>& set = {}) {
+  return {{"effect", effect}, {"site", site}, {"ambiguous_with", set}};
+}
+
+json answer(const std::vector<json>& findings, bool structure = false) {
+  json unexplained = json::array();
+  if (structure) unexplained.push_back({{"joint", "lift"}, {"variable", "q.lift"}});
+  return {{"findings", findings}, {"unexplained", unexplained}, {"links", json::array()}};
+}
+
+Outcome outcome(const Trial& t, const json& said) { return judge(t, said).outcome; }
+
+TEST(Score, CleanLogs) {
+  EXPECT_EQ(outcome(trial({}), answer({})), Outcome::right);
+  EXPECT_EQ(outcome(trial({}), answer({finding("drag", "hand")})), Outcome::wrong);
+}
+
+/// A diagnosis that always says the same is right where that is so, and wrong elsewhere.
+TEST(Score, AlwaysTheSameAnswer) {
+  const json always = answer({finding("viscous_friction", "lift")});
+  EXPECT_EQ(outcome(trial({item("viscous_friction", 1)}), always), Outcome::right);
+  EXPECT_EQ(outcome(trial({item("viscous_friction", 2)}), always), Outcome::wrong_place);
+  int wrong = 0, judged = 0;
+  for (const Kind& k : kinds()) {
+    if (k.id == "viscous_friction" || !k.arm) continue;
+    ++judged;
+    if (outcome(trial({item(k.id, 1)}), always) == Outcome::wrong) ++wrong;
+  }
+  EXPECT_EQ(wrong, judged);
+  EXPECT_GT(judged, 20);
+}
+
+TEST(Score, NamesWithinTheSet) {
+  const Trial t = trial({item("torque_offset", 0)});
+  EXPECT_EQ(outcome(t, answer({finding("joint_spring", "turn", {"torque_offset@turn"})})),
+            Outcome::ambiguous);
+  EXPECT_EQ(outcome(t, answer({finding("joint_spring", "turn", {"torque_offset@lift"})})),
+            Outcome::wrong);
+}
+
+TEST(Score, OneOfTwoAndMoreThanThereIs) {
+  const Trial two = trial({item("torque_offset", 0), item("cogging", 3)});
+  const json first = finding("torque_offset", "turn"), second = finding("cogging", "twist");
+  EXPECT_EQ(outcome(two, answer({first, second})), Outcome::right);
+  EXPECT_EQ(outcome(two, answer({first})), Outcome::partly);
+  const Judgement more = judge(two, answer({first, second, finding("drag", "hand")}));
+  EXPECT_EQ(more.outcome, Outcome::wrong);
+  EXPECT_TRUE(more.beside);
+  const Judgement less = judge(two, answer({first, finding("drag", "hand")}));
+  EXPECT_EQ(less.outcome, Outcome::wrong);
+  EXPECT_FALSE(less.beside);
+  // One name cannot stand for two things.
+  const json wide = finding("drag", "hand", {"torque_offset@turn", "cogging@twist"});
+  EXPECT_EQ(outcome(two, answer({wide})), Outcome::partly);
+}
+
+TEST(Score, NothingSaid) {
+  const Trial t = trial({item("torque_offset", 0)});
+  EXPECT_EQ(outcome(t, answer({})), Outcome::abstained);
+  EXPECT_EQ(outcome(t, answer({}, true)), Outcome::unexplained);
+  EXPECT_EQ(outcome(t, json()), Outcome::refused);
+}
+
+TEST(Score, ForeignEffects) {
+  const Trial warm = trial({item("warm_offset", 1)});
+  EXPECT_EQ(outcome(warm, answer({finding("torque_offset", "lift")})), Outcome::described);
+  EXPECT_EQ(outcome(warm, answer({finding("torque_offset", "turn")})), Outcome::wrong);
+  EXPECT_EQ(outcome(warm, answer({}, true)), Outcome::unexplained);
+  EXPECT_EQ(outcome(trial({item("backlash", 1)}), answer({finding("torque_offset", "lift")})),
+            Outcome::wrong);
+}
+
+TEST(Score, InertiasAreComparedWithTheTruth) {
+  const Machine m = arm();
+  const Vector10 truth = m.robot.links[2].inertia.values;
+  const auto numbers = [](const Vector10& v) { return std::vector<double>(v.begin(), v.end()); };
+  json said = answer({});
+  said["links"].push_back(
+      {{"name", "upper"}, {"given", numbers(1.5 * truth)}, {"parameters", numbers(1.1 * truth)}});
+  const Judgement j = judge(trial({}), said);
+  EXPECT_GT(j.mass_before, 4.0 * j.mass_after);
+  EXPECT_GT(j.mass_after, 0.0);
+}
+
+/// Against the closed form at its well known values (Wilson 1927; Agresti and Coull 1998).
+TEST(Score, WilsonBounds) {
+  EXPECT_DOUBLE_EQ(wilson(0, 10).lower, 0.0);
+  EXPECT_NEAR(wilson(0, 10).upper, 0.2775, 1e-4);  // four digits are printed there
+  EXPECT_NEAR(wilson(5, 10).lower, 0.2366, 1e-4);
+  EXPECT_NEAR(wilson(5, 10).upper, 0.7634, 1e-4);
+  EXPECT_DOUBLE_EQ(wilson(0, 0).upper, 1.0);
+}
+
+}  // namespace
+}  // namespace shapeid::blind

@@ -1,0 +1,49 @@
+// One blind trial: what is in it, as the sealed file says, and the logs that show it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "shapeid/tests/blind/ingredients.hpp"
+
+namespace shapeid::blind {
+
+/// Something that is in a trial.
+struct Item {
+  std::string kind;
+  Amount amount;
+  double ratio = 0.0;  ///< size over the detectable one; 0 if no size can be detected
+};
+
+struct Trial {
+  std::string machine;
+  std::uint64_t motion_seed = 1, noise_seed = 1, inertia_seed = 1;
+  std::vector<Item> items;
+  std::string error;  ///< why there is no log (the robot fell); else empty
+};
+
+[[nodiscard]] nlohmann::json to_json(const Trial& trial);
+[[nodiscard]] Trial trial_from_json(const nlohmann::json& document);
+
+/// Seconds for the diagnosis to fit, and after them to test on.
+inline constexpr double fitted_seconds = 12.0, tested_seconds = 4.0;
+
+/// The simulated truth of a trial, before any noise. Empty if the robot falls.
+[[nodiscard]] Readings simulate_trial(const Machine& machine, const Trial& trial);
+/// The motion of the trial's seed with nothing in it.
+[[nodiscard]] Readings simulate_clean(const Machine& machine, std::uint64_t motion_seed);
+
+/// What the items that act on signals alone make of clean readings.
+void change_signals(const Machine& machine, const std::vector<Item>& items, Readings& readings);
+/// Whether anything in the trial must be simulated.
+[[nodiscard]] bool is_dynamic(const Trial& trial);
+
+/// Writes log.csv and test.csv (with noise), given.urdf and given.robot.yaml into the folder, which
+/// exists.
+void write_logs(const Machine& machine, const Trial& trial, const Readings& readings,
+                const std::string& folder);
+
+}  // namespace shapeid::blind

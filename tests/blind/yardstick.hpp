@@ -1,0 +1,39 @@
+// What a model that is told the truth is worth, and from which size on an effect can be seen at
+// all. Shares with the diagnosis the regressor, the filter and the effects' equations, but neither
+// its fits nor its choices.
+#pragma once
+
+#include <string>
+
+#include "shapeid/diagnosis/recording.hpp"
+#include "shapeid/diagnosis/rich_model.hpp"
+#include "shapeid/tests/blind/trial.hpp"
+
+namespace shapeid::blind {
+
+/// A log as the diagnosis reads it.
+[[nodiscard]] diagnosis::Recording read_log(const Machine& machine, const std::string& path);
+
+/// The catalogue's effect with the numbers that the item was put in with.
+[[nodiscard]] diagnosis::AppliedEffect applied(const Machine& machine, const Item& item);
+
+/// Generalised rows by which an item of unit size changes what is logged, dof x samples of
+/// `clean`.usable(1), on the motion of the clean log.
+[[nodiscard]] Eigen::MatrixXd unit_change(const Machine& machine, const Item& item,
+                                          const Readings& clean_readings,
+                                          const diagnosis::Recording& clean,
+                                          const std::string& scratch_folder,
+                                          std::uint64_t noise_seed);
+
+/// The smallest size from which on a model that knows the item lowers the blocked held-out error by
+/// three standard errors, masses refitted by both; infinity if there is none.
+[[nodiscard]] double detectable_size(const Machine& machine, const diagnosis::Recording& clean,
+                                     const Eigen::MatrixXd& unit_change);
+
+/// Root of the sum over joints of the mean squared residual on the test log, N m, of the model that
+/// is told the trial's effects and fits the masses to the other log.
+[[nodiscard]] double told_truth_error(const Machine& machine, const Trial& trial,
+                                      const diagnosis::Recording& log,
+                                      const diagnosis::Recording& test);
+
+}  // namespace shapeid::blind
