@@ -272,8 +272,12 @@ class Search {
       if (!(own.t > rival_t && own.share > 0.0)) continue;
       if (gain_of(instead, result_.error_end).t > separable) continue;
       if (wrong_sign(other, fit_of(other), 0.0)) continue;
-      const bool nested = fits_.contained(terms(accepted_), candidates_[k].term,
-                                          candidates_[other].term) > nested_share;
+      // Two that say the same contain each other: that is no reason to keep silent about one.
+      const auto within = [&](std::size_t inner, std::size_t outer) {
+        return fits_.contained(terms(accepted_), candidates_[inner].term, candidates_[outer].term) >
+               nested_share;
+      };
+      const bool nested = within(k, other) && !within(other, k);
       if (!nested) verdict.ambiguous.push_back(other);
     }
     result_.hidden = hidden;

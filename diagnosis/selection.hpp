@@ -27,9 +27,9 @@ struct Candidate {
 /// are themselves uncertain: both limits are enlarged for few blocks.
 struct SelectionRule {
   double least_t = 2.5;
-  double least_gain = 0.001;
+  double least_gain = 0.005;
   /// Of its usual size that some parameter must have: what is smaller means nothing to a user.
-  double least_size = 0.002;
+  double least_size = 0.02;
   /// Logs without any effect in which chance alone may make some parameter differ from zero by
   /// `least_z()` standard errors.
   double false_alarms = 0.01;

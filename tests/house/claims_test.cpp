@@ -61,7 +61,7 @@ std::set<std::string> test_names() {
 std::map<std::string, std::set<std::string>> citations() {
   std::map<std::string, std::set<std::string>> found;
   const std::regex cited(R"(Claims? (C\d+(?:, C\d+)*))"), id(R"(C\d+)");
-  for (const char* folder : {"models", "reference", "fast", "proofs"}) {
+  for (const char* folder : {"models", "reference", "fast", "diagnosis", "proofs"}) {
     for (const auto& file : fs::recursive_directory_iterator(root / folder)) {
       if (file.path().extension() != ".hpp" && file.path().extension() != ".v") continue;
       const std::string text = text_of(file.path());
