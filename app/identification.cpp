@@ -6,12 +6,15 @@
 #include <optional>
 #include <vector>
 
+#include "shapeid/app/certificate_text.hpp"
+#include "shapeid/app/limit.hpp"
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
 #include "shapeid/models/problem_json.hpp"
+#include "shapeid/proofs/certificate/certificate_json.hpp"
 #include "shapeid/reference/residual.hpp"
 
 namespace shapeid::app {
@@ -130,6 +133,7 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   Result result;
   result.robot_file = inputs.robot;
   result.log_file = inputs.log;
+  result.sought = model;
   result.found = identify(
       robot.robot, model, [&] { return effects ? effects->next() : samples.next(); }, settings,
       watch);
@@ -159,11 +163,16 @@ void deliver(const Delivery& delivery, const nlohmann::json& document, const std
     fmt::print(stderr, "wrote {}\n", path);
   };
   const reference::DivisionRun& run = result.found.run;
-  const Answer answer{problem_digest(run.problem), run.solution.m, run.solution.Phi,
+  const StatedProblem problem = stated_problem(result);
+  const Answer answer{problem_digest(problem), run.solution.m, run.solution.Phi,
                       run.solution.value.total()};
+  const certificate::Limit limit = limit_of_divisions(problem);
+  const certificate::Certified certified = certificate::certify(problem, answer, {}, limit);
   write("result.json", json);
-  write("problem.json", problem_to_json(run.problem));
+  write("problem.json", problem_to_json(problem));
   write("answer.json", answer_to_json(answer));
+  write("certificate.json", certificate_to_json(certified.proof, limit));
+  fmt::print(stderr, "{}", certified_text(certified));
   write("identified.urdf", write_urdf(inputs.robot, robot.robot, result.written));
 }
 

@@ -29,8 +29,8 @@ struct Delivery {
   bool json = false;   ///< standard output gets the document instead of the text
 };
 
-/// Prints the result; writes result.json (the document), problem.json, answer.json and
-/// identified.urdf into the folder, made if it is not there.
+/// Prints the result; writes result.json (the document), problem.json, answer.json, their
+/// certificate.json and identified.urdf into the folder, made if it is not there.
 void deliver(const Delivery& delivery, const nlohmann::json& document, const std::string& text,
              const Result& result, const RobotInputs& robot, const MotionInputs& inputs);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -144,6 +145,16 @@ double overall(const Eigen::VectorXd& rms, const Robot& robot) {
   return rms.tail(robot.joint_count()).norm();
 }
 
+StatedProblem stated_problem(const Result& result) {
+  StatedProblem stated{result.found.run.problem, {}, {}};
+  const std::vector<int>& free_links = result.sought.free_links;
+  for (const SoughtShape& sought : result.sought.shapes) {
+    const auto place = std::lower_bound(free_links.begin(), free_links.end(), sought.link);
+    stated.regions.push_back({place - free_links.begin(), sought.shape});
+  }
+  return stated;
+}
+
 void choose_written_links(Result& result, const Robot& robot, double least_mass) {
   for (const int index : result.found.run.model.free_links) {
     const InertialParameters inertia{result.found.Phi.segment<10>(Eigen::Index{10} * index)};
@@ -181,7 +192,7 @@ json result_json(const Result& result, const Robot& robot) {
           {"rate", result.motion.rate},
           {"gaps", result.motion.gaps},
           {"contacts_derived", result.motion.contacts_derived},
-          {"problem_digest", problem_digest(run.problem)},
+          {"problem_digest", problem_digest(stated_problem(result))},
           {"lambda", run.problem.lambda},
           {"mass_bound", run.problem.mass_bound},
           {"objective",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shapeid/app/inputs.hpp"
+#include "shapeid/models/stated_problem.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/reference/identify.hpp"
 
@@ -22,6 +23,7 @@ struct Comparison {
 
 struct Result {
   std::string robot_file, log_file;
+  BodyModel sought;  ///< as it was before the first division
   reference::Identification found;
   Comparison heldout;
   MotionReport motion;
@@ -29,6 +31,9 @@ struct Result {
   std::vector<IdentifiedLink> written;
   std::vector<std::string> notes;
 };
+
+/// The problem of the last division, with the undivided shapes as its regions: problem.json.
+[[nodiscard]] StatedProblem stated_problem(const Result& result);
 
 /// Which free links get a new inertia: those with more than `least_mass` (kg) that a URDF reader,
 /// ours included, accepts. Adds a note for each link that keeps the given one.

@@ -10,6 +10,7 @@ void add_load(CLI::App& app);
 void add_diagnose(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_convert(CLI::App& app);
+void add_certify(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_demo(CLI::App& app);
 

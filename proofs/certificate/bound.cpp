@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "shapeid/proofs/certificate/linear.hpp"
+
 namespace shapeid::certificate {
 namespace {
 
@@ -27,17 +29,6 @@ Rational water_filled(const Vector& a, const Vector& V, const Rational& lambda,
   return (nu * nu * volume - squares) / lambda;
 }
 
-std::optional<Rational> least_of_others(const ExactProblem& p, const Vector& c) {
-  Rational least;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (sgn(c[k]) == 0) continue;
-    const std::optional<Rational>& end = sgn(c[k]) > 0 ? p.lower[k] : p.upper[k];
-    if (!end) return std::nullopt;
-    least += 2 * c[k] * *end;
-  }
-  return least;
-}
-
 /// The combination of rows nearest to weighing the free links, found in doubles: what is proved
 /// with it does not depend on how it was found.
 Vector weighing_rows(const MassProblem& p) {
@@ -58,6 +49,17 @@ std::optional<Rational> least_mass_terms(const Vector& a, const Vector& V, const
   return Rational(2 * *M * least);
 }
 
+std::optional<Rational> least_of_others(const ExactProblem& p, const Vector& c) {
+  Rational least;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (sgn(c[k]) == 0) continue;
+    const std::optional<Rational>& end = sgn(c[k]) > 0 ? p.lower[k] : p.upper[k];
+    if (!end) return std::nullopt;
+    least += 2 * c[k] * *end;
+  }
+  return least;
+}
+
 std::optional<Rational> lower_bound(const ExactProblem& p, const Vector& r,
                                     const std::optional<Rational>& M) {
   const Slopes s = slopes(p, r);
@@ -68,6 +70,43 @@ std::optional<Rational> lower_bound(const ExactProblem& p, const Vector& r,
   for (std::size_t i = 0; i < r.size(); ++i)
     terms.emplace_back(-p.W[i] * r[i] * (r[i] + 2 * p.F[i]));
   return sum(terms);
+}
+
+Vector settled_columns(const ExactProblem& p, const Vector& Phi, Vector x) {
+  const auto endless = [&](std::size_t k, int slope) {
+    return (slope > 0 && !p.lower[k]) || (slope < 0 && !p.upper[k]);
+  };
+  std::vector<std::size_t> moving;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const bool inside = (!p.lower[k] || x[k] > *p.lower[k]) && (!p.upper[k] || x[k] < *p.upper[k]);
+    if (inside && (!p.lower[k] || !p.upper[k])) moving.push_back(k);
+  }
+  std::vector<Vector> CtWC;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    Vector unit(x.size());
+    unit[k] = 1;
+    CtWC.push_back(p.C.transposed_times(products(p.W, p.C.times(unit))));
+  }
+  for (;;) {
+    const Vector c = slopes(p, p.residual(Phi, x)).c;
+    std::vector<Vector> gram;
+    Vector right;
+    for (const std::size_t k : moving) {
+      gram.emplace_back();
+      for (const std::size_t l : moving) gram.back().push_back(CtWC[k][l]);
+      right.push_back(-c[k]);
+    }
+    const Vector step = solve(std::move(gram), std::move(right));
+    for (std::size_t i = 0; i < moving.size(); ++i) x[moving[i]] += step[i];
+    const Vector now = slopes(p, p.residual(Phi, x)).c;
+    bool settled = true;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      if (!endless(k, sgn(now[k]))) continue;
+      moving.push_back(k);
+      settled = false;
+    }
+    if (settled) return x;
+  }
 }
 
 MassBound mass_bound(const StatedProblem& stated, const ExactProblem& p, const Rational& upper) {

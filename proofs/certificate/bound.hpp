@@ -13,12 +13,20 @@ namespace shapeid::certificate {
                                                        const Rational& lambda,
                                                        const std::optional<Rational>& M);
 
+/// sum_k of the least of 2 c_k x_k between the bounds of x_k; empty if there is none.
+[[nodiscard]] std::optional<Rational> least_of_others(const ExactProblem& problem, const Vector& c);
+
 /// A number that the objective of no feasible point with sum t <= M lies below:
 ///   - r^T W r - 2 F^T W r + least mass terms + sum_k min over bounds of 2 c_k x_k.
 /// At the residual of an optimum it is the optimum (docs/derivations/certificate.md). Empty if
 /// some term has no minimum.
 [[nodiscard]] std::optional<Rational> lower_bound(const ExactProblem& problem, const Vector& r,
                                                   const std::optional<Rational>& M);
+
+/// The x nearest in kind to the given one for which the residual of (Phi, x) has a lower bound:
+/// columns that are free to move without end have no slope there. It need not keep the bounds of
+/// x, and the lower bound holds all the same.
+[[nodiscard]] Vector settled_columns(const ExactProblem& problem, const Vector& Phi, Vector x);
 
 /// Where the mass bound M of a proof comes from: never from the answer.
 struct MassBound {

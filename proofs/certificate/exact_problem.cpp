@@ -13,12 +13,6 @@ std::vector<std::optional<Rational>> bounds(const Eigen::VectorXd& b) {
   return exact_bounds;
 }
 
-Vector products(const Vector& a, const Vector& b) {
-  Vector c(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) c[i] = a[i] * b[i];
-  return c;
-}
-
 }  // namespace
 
 SparseRows::SparseRows(const Eigen::MatrixXd& M)
@@ -48,6 +42,20 @@ Vector SparseRows::transposed_times(const Vector& y) const {
     for (const Entry& e : rows_[i]) x[e.column] += e.value * y[i];
   }
   return x;
+}
+
+SparseRows SparseRows::squared() const {
+  SparseRows squares = *this;
+  for (std::vector<Entry>& row : squares.rows_) {
+    for (Entry& e : row) e.value *= e.value;
+  }
+  return squares;
+}
+
+Vector products(const Vector& a, const Vector& b) {
+  Vector c(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) c[i] = a[i] * b[i];
+  return c;
 }
 
 ExactProblem::ExactProblem(const StatedProblem& stated)

@@ -18,6 +18,8 @@ class SparseRows {
   [[nodiscard]] Vector times(const Vector& x) const;
   /// M^T y.
   [[nodiscard]] Vector transposed_times(const Vector& y) const;
+  /// Every entry squared.
+  [[nodiscard]] SparseRows squared() const;
   [[nodiscard]] std::size_t rows() const { return rows_.size(); }
   [[nodiscard]] std::size_t columns() const { return columns_; }
 
@@ -29,6 +31,9 @@ class SparseRows {
   std::vector<std::vector<Entry>> rows_;
   std::size_t columns_ = 0;
 };
+
+/// Entry by entry.
+[[nodiscard]] Vector products(const Vector& a, const Vector& b);
 
 /// The same letters as StatedProblem.
 struct ExactProblem {

@@ -1,0 +1,60 @@
+#include "shapeid/app/certificate_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace shapeid::app {
+namespace {
+
+using certificate::Existence;
+using certificate::Proof;
+
+std::string bodies_text(const Proof& p) {
+  const auto count = [&](Existence wanted) {
+    return std::count(p.bodies.begin(), p.bodies.end(), wanted);
+  };
+  return fmt::format(
+      "bodies of the free links: {} exist with volume, {} on the edge, {} cannot exist\n",
+      count(Existence::definite), count(Existence::semidefinite), count(Existence::impossible));
+}
+
+std::string where_from(const Proof& p) {
+  if (p.optimum_known) {
+    return p.free_set_right ? "solved exactly on the answer's own free set"
+                            : "solved exactly on a free set that the slopes named";
+  }
+  return "by duality";
+}
+
+}  // namespace
+
+std::string certified_text(const certificate::Certified& certified) {
+  const Proof& p = certified.proof;
+  std::string text = fmt::format(
+      "{}\n"
+      "objective of the answer: at most {:.17g}\n"
+      "optimum: in [{:.17g}, {:.17g}], {}\n"
+      "gap: at most {:.3g}; no mass is farther than {:.3g} kg from the optimum's; parameters: "
+      "{:.3g} kg, {:.3g} kg m, {:.3g} kg m^2\n"
+      "mass bound: {:.6g} kg, {}\n",
+      certified.reasons.empty() ? "accepted" : "rejected", p.objective_above, p.lower, p.upper,
+      where_from(p), p.gap, p.mass_distance, p.parameter_distance[0], p.parameter_distance[1],
+      p.parameter_distance[2], p.mass_bound,
+      p.mass_bound_declared ? "declared by the problem" : "proved from the rows");
+  text += bodies_text(p);
+  if (!p.made_of_shapes) {
+    text += p.plane.size() > 0
+                ? "the parameters as written are not made of the shapes: a plane separates them\n"
+                : "the parameters as written are the masses' to rounding, not exactly\n";
+  }
+  if (p.floor) {
+    text +=
+        fmt::format("floor of infinitely many divisions: {:.17g}; the answer is {:.3g} above it\n",
+                    *p.floor, p.objective_above - *p.floor);
+  }
+  for (const std::string& reason : certified.reasons) text += "reason: " + reason + "\n";
+  return text;
+}
+
+}  // namespace shapeid::app

@@ -1,0 +1,21 @@
+// The limit of infinitely many divisions: parameters near it, from which a floor is proved.
+#pragma once
+
+#include "shapeid/models/stated_problem.hpp"
+#include "shapeid/proofs/certificate/certify.hpp"
+
+namespace shapeid::app {
+
+struct LimitOptions {
+  int most_rounds = 60;
+  /// Stop when the floor is this near to what the point masses reach, relative to it.
+  double gap = 1e-4;
+};
+
+/// Adds a point mass where the polynomial is lowest, solves without the density term, drops the
+/// masses that became zero, and repeats (docs/derivations/certificate.md). Starts from the
+/// problem's own shapes. Empty for a problem without regions or other than masses.
+[[nodiscard]] certificate::Limit limit_of_divisions(const StatedProblem& problem,
+                                                    const LimitOptions& options = {});
+
+}  // namespace shapeid::app

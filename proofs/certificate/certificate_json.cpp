@@ -1,0 +1,117 @@
+#include "shapeid/proofs/certificate/certificate_json.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/strict_json.hpp"
+
+namespace shapeid::certificate {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* certificate_format = "shapeid-certificate-1";
+constexpr const char* manual = "docs/formats/certificate.md";
+
+json finite(double x) { return std::isfinite(x) ? json(x) : json(); }
+
+const char* name_of(Existence body) {
+  switch (body) {
+    case Existence::definite:
+      return "definite";
+    case Existence::semidefinite:
+      return "semidefinite";
+    case Existence::impossible:
+      break;
+  }
+  return "impossible";
+}
+
+json evidence_json(const Limit& evidence) {
+  return {{"limit_parameters", vector_json(evidence.parameters)},
+          {"limit_columns", vector_json(evidence.others)}};
+}
+
+Eigen::VectorXd sized(const json& object, const std::string& key, Eigen::Index size,
+                      const JsonSource& source) {
+  Eigen::VectorXd v = numbers(member(object, key, source), key, source);
+  if (v.size() != 0 && v.size() != size) {
+    throw InputError({source.name, 0, key}, fmt::format("{} numbers", v.size()),
+                     fmt::format("none, or {}", size));
+  }
+  return v;
+}
+
+}  // namespace
+
+json proof_json(const Proof& p) {
+  json bodies = json::array();
+  for (const Existence body : p.bodies) bodies.push_back(name_of(body));
+  json claim = {{"problem_digest", p.problem_digest},
+                {"answer_digest", p.answer_digest},
+                {"feasible", p.feasible},
+                {"objective", finite(p.objective_above)},
+                {"optimum", {{"lower", finite(p.lower)}, {"upper", finite(p.upper)}}},
+                {"gap", finite(p.gap)},
+                {"optimum_known", p.optimum_known},
+                {"free_set_right", p.free_set_right},
+                {"mass_bound", finite(p.mass_bound)},
+                {"mass_bound_declared", p.mass_bound_declared},
+                {"mass_distance", finite(p.mass_distance)},
+                {"parameter_distance", json::array()},
+                {"made_of_shapes", p.made_of_shapes},
+                {"plane", vector_json(p.plane)},
+                {"bodies", bodies},
+                {"floor", p.floor ? finite(*p.floor) : json()}};
+  for (const double distance : p.parameter_distance) {
+    claim["parameter_distance"].push_back(finite(distance));
+  }
+  return claim;
+}
+
+std::string certificate_to_json(const Proof& proof, const Limit& evidence) {
+  json claim = proof_json(proof);
+  claim["evidence_digest"] = digest(evidence_json(evidence).dump());
+  const json document = {
+      {"format", certificate_format}, {"claim", claim}, {"evidence", evidence_json(evidence)}};
+  return document.dump(1) + "\n";
+}
+
+Certificate certificate_from_json(const std::string& text, const std::string& name,
+                                  const StatedProblem& problem) {
+  const JsonSource source{name, manual};
+  const json document = parse_document(text, source, certificate_format, {"claim", "evidence"});
+  Certificate certificate;
+  certificate.claim = member(document, "claim", source);
+  std::set<std::string> keys = {"evidence_digest"};
+  const json all_claims = proof_json(Proof{});
+  for (const auto& item : all_claims.items()) keys.insert(item.key());
+  check_keys(certificate.claim, "claim", source, keys);
+  for (const std::string& key : keys) (void)member(certificate.claim, key, source);
+  const json& evidence = member(document, "evidence", source);
+  check_keys(evidence, "evidence", source, {"limit_parameters", "limit_columns"});
+  certificate.evidence = {sized(evidence, "limit_parameters", problem.masses.U.rows(), source),
+                          sized(evidence, "limit_columns", problem.others.values.cols(), source)};
+  if (certificate.evidence.parameters.size() > 0 &&
+      certificate.evidence.others.size() != problem.others.values.cols()) {
+    throw InputError({name, 0, "limit_columns"}, "missing beside limit_parameters", "one a column");
+  }
+  return certificate;
+}
+
+std::vector<std::string> false_claims(const Certificate& certificate, const Proof& proof) {
+  json proved = proof_json(proof);
+  proved["evidence_digest"] = digest(evidence_json(certificate.evidence).dump());
+  std::vector<std::string> reasons;
+  for (const auto& [key, claimed] : certificate.claim.items()) {
+    if (claimed == proved[key]) continue;
+    reasons.push_back(fmt::format("the certificate claims {} {}, proved is {}", key, claimed.dump(),
+                                  proved[key].dump()));
+  }
+  return reasons;
+}
+
+}  // namespace shapeid::certificate

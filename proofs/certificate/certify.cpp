@@ -1,0 +1,246 @@
+#include "shapeid/proofs/certificate/certify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "shapeid/models/strict_json.hpp"
+#include "shapeid/proofs/certificate/bound.hpp"
+#include "shapeid/proofs/certificate/cone.hpp"
+#include "shapeid/proofs/certificate/floor.hpp"
+#include "shapeid/proofs/certificate/optimum.hpp"
+
+namespace shapeid::certificate {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// 0: kg, 1: kg m, 2: kg m^2.
+Eigen::Index group_of(std::size_t parameter) {
+  const std::size_t place = parameter % 10;
+  return place == 0 ? 0 : (place < 4 ? 1 : 2);
+}
+
+class Certifier {
+ public:
+  Certifier(const StatedProblem& stated, const Answer& answer, const Tolerance& tolerance)
+      : stated_(stated), answer_(answer), tolerance_(tolerance), p_(stated) {}
+
+  Certified run(const Limit& limit) {
+    result_.proof.problem_digest = problem_digest(stated_);
+    result_.proof.answer_digest = digest(answer_to_json(answer_));
+    if (answer_.problem_digest != result_.proof.problem_digest) {
+      reject("answers another problem: digest {}, this problem's is {}", answer_.problem_digest,
+             result_.proof.problem_digest);
+    }
+    zero_objective_ = p_.data_term(p_.F);
+    x_ = exact(answer_.others);
+    find_masses();
+    check_bounds();
+    check_claims();
+    prove_interval();
+    for (std::size_t i = 0; i < Phi_.size(); i += 10) {
+      const auto at = Phi_.begin() + static_cast<std::ptrdiff_t>(i);
+      result_.proof.bodies.push_back(existence(Vector(at, at + 10)));
+    }
+    if (limit.parameters.size() > 0) {
+      const auto floor = floor_of_divisions(stated_, limit.parameters, limit.others);
+      if (floor) result_.proof.floor = rounded_down(floor->value);
+    }
+    return result_;
+  }
+
+ private:
+  template <class... Arguments>
+  void reject(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    result_.reasons.push_back(fmt::format(text, std::forward<Arguments>(arguments)...));
+  }
+
+  /// The answer's masses; or, of parameters alone, the nearest that the shapes can make.
+  void find_masses() {
+    Proof& proof = result_.proof;
+    const bool given = answer_.masses.size() > 0 || p_.shapes() == 0;
+    if (given) {
+      m_ = exact(answer_.masses);
+      proof.made_of_shapes = true;
+    } else {
+      NearestBody nearest = nearest_body(stated_.masses, answer_.parameters);
+      m_ = std::move(nearest.m);
+      proof.made_of_shapes = sgn(nearest.square_distance) == 0;
+      if (!proof.made_of_shapes) {
+        proof.plane.resize(static_cast<Eigen::Index>(nearest.plane.size()));
+        for (Eigen::Index i = 0; i < proof.plane.size(); ++i) {
+          proof.plane[i] = nearest.plane[static_cast<std::size_t>(i)].get_d();
+        }
+      }
+    }
+    Phi_ = p_.U.times(m_);
+    if (given) {
+      for (std::size_t i = 0; i < Phi_.size(); ++i) {
+        proof.made_of_shapes = proof.made_of_shapes && exact(claimed(i)) == Phi_[i];
+      }
+    }
+  }
+
+  void check_bounds() {
+    const std::size_t before = result_.reasons.size();
+    for (std::size_t j = 0; j < m_.size(); ++j) {
+      if (sgn(m_[j]) < 0) reject("mass {} is negative: {:g} kg", j, m_[j].get_d());
+    }
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      if ((p_.lower[k] && x_[k] < *p_.lower[k]) || (p_.upper[k] && x_[k] > *p_.upper[k])) {
+        reject("column {} is beyond its bounds: {:g}", k, x_[k].get_d());
+      }
+    }
+    if (p_.mass_bound && sum(m_) > *p_.mass_bound) {
+      reject("the masses add up to {:g} kg, the problem declares no more than {:g}",
+             sum(m_).get_d(), p_.mass_bound->get_d());
+    }
+    result_.proof.feasible = result_.reasons.size() == before;
+  }
+
+  [[nodiscard]] double claimed(std::size_t parameter) const {
+    return answer_.parameters[static_cast<Eigen::Index>(parameter)];
+  }
+
+  void check_claims() {
+    r_ = p_.residual(Phi_, x_);
+    f_ = p_.data_term(r_) + p_.density_term(m_);
+    const SparseRows sizes(stated_.masses.U.cwiseAbs());
+    Vector weights;
+    for (const Rational& mass : m_) weights.emplace_back(abs(mass));
+    const Vector terms = sizes.times(weights);
+    const Rational rounding = exact(tolerance_.rounding);
+    for (std::size_t i = 0; i < Phi_.size(); ++i) {
+      if (abs(exact(claimed(i)) - Phi_[i]) <= rounding * terms[i]) continue;
+      reject(
+          "parameter {} is said to be {:g}, {} {:g}", i, claimed(i),
+          answer_.masses.size() > 0 ? "the masses make it" : "the nearest body of the shapes has",
+          Phi_[i].get_d());
+    }
+    // A residual that is off by rounding times |W^(1/2) F| changes its square by no more than this.
+    const Rational root = exact(root_rounded_up(zero_objective_)) * rounding;
+    const Rational allowed = 2 * exact(root_rounded_up(f_)) * root + root * root;
+    if (abs(exact(answer_.objective) - f_) > allowed) {
+      reject("the objective is said to be {:g}, the answer's is {:g}", answer_.objective,
+             f_.get_d());
+    }
+  }
+
+  void prove_interval() {
+    Proof& proof = result_.proof;
+    proof.objective_above = rounded_up(f_);
+    if (!result_.proof.feasible) {
+      proof.lower = 0.0;  // a sum of squares
+      proof.upper = proof.gap = proof.mass_distance = proof.mass_bound = infinity;
+      proof.parameter_distance.setConstant(infinity);
+      return;
+    }
+    const MassBound bound = mass_bound(stated_, p_, f_);
+    proof.mass_bound = bound.M ? rounded_up(*bound.M) : infinity;
+    proof.mass_bound_declared = bound.declared;
+    const auto optimum = prove_optimum(stated_, start());
+    Rational gap;
+    if (optimum) {
+      proof.optimum_known = true;
+      proof.free_set_right = optimum->same;
+      proof.lower = rounded_down(optimum->value);
+      proof.upper = rounded_up(optimum->value);
+      gap = f_ - optimum->value;
+    } else {
+      const auto lower = lower_bound(p_, p_.residual(Phi_, settled_columns(p_, Phi_, x_)), bound.M);
+      const Rational floor = lower ? std::max<Rational>(0, *lower) : Rational(0);
+      proof.lower = rounded_down(floor);
+      proof.upper = rounded_up(f_);
+      gap = f_ - floor;
+    }
+    proof.gap = rounded_up(gap);
+    measure_distances(optimum, gap);
+    const Rational accepted = exact(tolerance_.gap) * zero_objective_;
+    if (gap > accepted) {
+      reject("the objective is {}{:.3g} above the optimum, up to {:.3g} is accepted",
+             optimum ? "" : "up to ", proof.gap, rounded_down(accepted));
+    }
+  }
+
+  /// The answer as doubles, where a search for the exact optimum starts.
+  [[nodiscard]] Start start() const {
+    Eigen::VectorXd m(static_cast<Eigen::Index>(m_.size()));
+    for (Eigen::Index j = 0; j < m.size(); ++j) m[j] = m_[static_cast<std::size_t>(j)].get_d();
+    return {m, answer_.others};
+  }
+
+  /// From the optimum where it is known; else f is strongly convex in W^(1/2) Y U m and in
+  /// (lambda / V)^(1/2) m: lambda sum (m - m*)^2 / V <= gap.
+  void measure_distances(const std::optional<Optimum>& optimum, const Rational& gap) {
+    Proof& proof = result_.proof;
+    proof.mass_distance = 0.0;
+    proof.parameter_distance.setZero();
+    const bool unique = sgn(p_.lambda) > 0;
+    if (!unique && sgn(gap) > 0) {
+      proof.mass_distance = infinity;
+      proof.parameter_distance.setConstant(infinity);
+      return;
+    }
+    if (!unique) return;
+    if (!optimum) {
+      const Rational by_volume = gap / p_.lambda;
+      if (!p_.V.empty()) {
+        const Rational largest = *std::max_element(p_.V.begin(), p_.V.end());
+        proof.mass_distance = root_rounded_up(by_volume * largest);
+      }
+      // Cauchy: (sum_j U_ij d_j)^2 <= (sum_j U_ij^2 V_j) (sum_j d_j^2 / V_j).
+      const Vector squares = p_.U.squared().times(p_.V);
+      for (std::size_t i = 0; i < squares.size(); ++i) {
+        widen(group_of(i), root_rounded_up(by_volume * squares[i]));
+      }
+      return;
+    }
+    for (std::size_t j = 0; j < m_.size(); ++j) {
+      const double apart = rounded_up(abs(m_[j] - optimum->m.at(j)));
+      proof.mass_distance = std::max(proof.mass_distance, apart);
+    }
+    for (std::size_t i = 0; i < Phi_.size(); ++i) {
+      widen(group_of(i), rounded_up(abs(exact(claimed(i)) - optimum->Phi.at(i))));
+    }
+  }
+
+  void widen(Eigen::Index group, double distance) {
+    double& widest = result_.proof.parameter_distance[group];
+    widest = std::max(widest, distance);
+  }
+
+  const StatedProblem& stated_;
+  const Answer& answer_;
+  Tolerance tolerance_;
+  ExactProblem p_;
+  Vector m_, x_, Phi_, r_;
+  Rational f_, zero_objective_;
+  Certified result_;
+};
+
+}  // namespace
+
+Violation why_unfit(const StatedProblem& p, const Answer& answer) {
+  if (answer.masses.size() != 0 && answer.masses.size() != p.masses.shapes()) {
+    return fmt::format("{} masses for {} shapes", answer.masses.size(), p.masses.shapes());
+  }
+  if (answer.parameters.size() != p.masses.U.rows()) {
+    return fmt::format("{} parameters, the problem has {}", answer.parameters.size(),
+                       p.masses.U.rows());
+  }
+  if (answer.others.size() != p.others.values.cols()) {
+    return fmt::format("{} columns, the problem has {}", answer.others.size(),
+                       p.others.values.cols());
+  }
+  return std::nullopt;
+}
+
+Certified certify(const StatedProblem& problem, const Answer& answer, const Tolerance& tolerance,
+                  const Limit& limit) {
+  return Certifier(problem, answer, tolerance).run(limit);
+}
+
+}  // namespace shapeid::certificate

@@ -1,0 +1,63 @@
+// Anyone's answer to a stated problem: accepted or rejected, and how far from the optimum at most.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/problem_json.hpp"
+#include "shapeid/proofs/certificate/consistency.hpp"
+
+namespace shapeid::certificate {
+
+/// When an answer is good enough. What is proved does not depend on it.
+struct Tolerance {
+  /// Of the objective above the optimum, relative to F^T W F, the objective of no mass at all.
+  double gap = 1e-9;
+  /// Of what an answer says beside its masses (parameters, objective), relative to the terms it is
+  /// computed from; and, of parameters without masses, of their distance from the shapes' cone.
+  double rounding = 1e-9;
+};
+
+/// Everything here is proved, in exact arithmetic, for the doubles of the problem; doubles of the
+/// report are rounded outward. Infinite where nothing is proved.
+struct Proof {
+  std::string problem_digest, answer_digest;
+  bool feasible = false;        ///< masses and columns keep every bound, the declared mass too
+  double objective_above = 0;   ///< f of the answer's masses is not above
+  double lower = 0;             ///< the optimum is not below
+  double upper = 0;             ///< nor above
+  double gap = 0;               ///< f of the answer minus the optimum is not above
+  bool optimum_known = false;   ///< solved exactly; lower and upper are its two neighbours
+  bool free_set_right = false;  ///< with the answer's own set of shapes with mass
+  double mass_bound = 0;        ///< kg: M
+  bool mass_bound_declared = false;
+  double mass_distance = 0;  ///< kg: no mass is farther from the optimum's (0 or inf at lambda = 0)
+  /// The same of kg, kg m, kg m^2.
+  Eigen::Vector3d parameter_distance = Eigen::Vector3d::Zero();
+  bool made_of_shapes = false;  ///< the parameters claimed are exactly U m for some m >= 0
+  Eigen::VectorXd plane;        ///< if not: a separating plane, rounded (10 free links), else empty
+  std::vector<Existence> bodies;  ///< of the free links, U m exactly
+  std::optional<double> floor;    ///< of infinitely many divisions, if asked for
+};
+
+struct Certified {
+  Proof proof;
+  std::vector<std::string> reasons;  ///< why the answer is rejected; empty: accepted
+};
+
+/// Empty if the answer has the sizes of the problem: then certify() can be called.
+[[nodiscard]] Violation why_unfit(const StatedProblem& problem, const Answer& answer);
+
+/// `limit`: parameters (10 free links) near the limit of infinitely many divisions, with other
+/// unknowns, from which a floor is proved; empty: no floor.
+struct Limit {
+  Eigen::VectorXd parameters, others;
+};
+
+[[nodiscard]] Certified certify(const StatedProblem& problem, const Answer& answer,
+                                const Tolerance& tolerance = {}, const Limit& limit = {});
+
+}  // namespace shapeid::certificate

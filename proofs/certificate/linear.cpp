@@ -1,0 +1,37 @@
+#include "shapeid/proofs/certificate/linear.hpp"
+
+#include <optional>
+#include <utility>
+
+namespace shapeid::certificate {
+
+Vector solve(std::vector<Vector> A, Vector b) {
+  const std::size_t n = b.size();
+  std::vector<std::optional<std::size_t>> row_of(n);
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = next;
+    while (pivot < n && sgn(A[pivot][k]) == 0) ++pivot;
+    if (pivot == n) continue;
+    std::swap(A[pivot], A[next]);
+    std::swap(b[pivot], b[next]);
+    for (std::size_t i = next + 1; i < n; ++i) {
+      if (sgn(A[i][k]) == 0) continue;
+      const Rational factor = A[i][k] / A[next][k];
+      for (std::size_t j = k; j < n; ++j) A[i][j] -= factor * A[next][j];
+      b[i] -= factor * b[next];
+    }
+    row_of[k] = next++;
+  }
+  Vector x(n);
+  for (std::size_t k = n; k-- > 0;) {
+    if (!row_of[k]) continue;
+    const Vector& row = A[*row_of[k]];
+    Rational rest = b[*row_of[k]];
+    for (std::size_t j = k + 1; j < n; ++j) rest -= row[j] * x[j];
+    x[k] = rest / row[k];
+  }
+  return x;
+}
+
+}  // namespace shapeid::certificate

@@ -1,0 +1,14 @@
+// Small dense systems of rationals.
+#pragma once
+
+#include <vector>
+
+#include "shapeid/proofs/certificate/rational.hpp"
+
+namespace shapeid::certificate {
+
+/// A solution of A x = b, which must have one (normal equations always do), by elimination;
+/// unknowns without a pivot are zero.
+[[nodiscard]] Vector solve(std::vector<Vector> A, Vector b);
+
+}  // namespace shapeid::certificate
