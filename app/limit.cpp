@@ -9,30 +9,31 @@
 namespace shapeid::app {
 namespace {
 
-/// Columns and volumes of the shapes with mass, and one more for a point of the region.
-MassProblem with_point(const MassProblem& p, const Eigen::VectorXd& m,
-                       const certificate::Place& place) {
+struct Columns {
+  MassProblem problem;
+  Eigen::VectorXd start;
+};
+
+/// The shapes with mass, and a point of unit mass at each place.
+Columns with_points(const MassProblem& p, const Eigen::VectorXd& m,
+                    const std::vector<certificate::Place>& places) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index j = 0; j < m.size(); ++j) {
     if (m[j] > 0.0) kept.push_back(j);
   }
-  MassProblem next = p;
   const auto n = static_cast<Eigen::Index>(kept.size());
-  next.U.setZero(p.U.rows(), n + 1);
-  next.U.leftCols(n) = p.U(Eigen::all, kept);
-  next.U.col(n).segment<10>(10 * place.link) =
-      from_centre(1.0, place.point, Eigen::Matrix3d::Zero()).values;
-  next.V = Eigen::VectorXd::Ones(n + 1);  // no density term asks for them
-  return next;
-}
-
-Eigen::VectorXd start(const Eigen::VectorXd& m) {
-  Eigen::VectorXd masses = Eigen::VectorXd::Zero((m.array() > 0.0).count() + 1);
-  Eigen::Index next = 0;
-  for (const double mass : m) {
-    if (mass > 0.0) masses[next++] = mass;
+  const Eigen::Index all = n + static_cast<Eigen::Index>(places.size());
+  Columns next{p, Eigen::VectorXd::Zero(all)};
+  next.start.head(n) = m(kept);
+  next.problem.U.setZero(p.U.rows(), all);
+  next.problem.U.leftCols(n) = p.U(Eigen::all, kept);
+  for (Eigen::Index k = n; k < all; ++k) {
+    const certificate::Place& place = places[static_cast<std::size_t>(k - n)];
+    next.problem.U.col(k).segment<10>(10 * place.link) =
+        from_centre(1.0, place.point, Eigen::Matrix3d::Zero()).values;
   }
-  return masses;
+  next.problem.V = Eigen::VectorXd::Ones(all);  // no density term asks for them
+  return next;
 }
 
 }  // namespace
@@ -51,9 +52,10 @@ certificate::Limit limit_of_divisions(const StatedProblem& stated, const LimitOp
       highest = floor->value.get_d();
       best.parameters = solution.Phi;
     }
-    if (!floor->next || solution.value.data - highest <= options.gap * highest) break;
-    p = with_point(p, solution.m, *floor->next);
-    solution = reference::solve_masses(p, start(solution.m));
+    if (floor->next.empty() || solution.value.data - highest <= options.gap * highest) break;
+    Columns next = with_points(p, solution.m, floor->next);
+    solution = reference::solve_masses(next.problem, next.start);
+    p = std::move(next.problem);
   }
   return best;
 }

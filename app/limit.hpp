@@ -9,12 +9,12 @@ namespace shapeid::app {
 struct LimitOptions {
   int most_rounds = 60;
   /// Stop when the floor is this near to what the point masses reach, relative to it.
-  double gap = 1e-4;
+  double gap = 1e-6;
 };
 
-/// Adds a point mass where the polynomial is lowest, solves without the density term, drops the
-/// masses that became zero, and repeats (docs/derivations/certificate.md). Starts from the
-/// problem's own shapes. Empty for a problem without regions or other than masses.
+/// Adds a point mass on each link where its polynomial is lowest, solves without the density term,
+/// drops the masses that became zero, and repeats (docs/derivations/certificate.md). Starts from
+/// the problem's own shapes. Empty for a problem without regions or other than masses.
 [[nodiscard]] certificate::Limit limit_of_divisions(const StatedProblem& problem,
                                                     const LimitOptions& options = {});
 

@@ -165,10 +165,18 @@ class Certifier {
     }
   }
 
-  /// The answer as doubles, where a search for the exact optimum starts.
+  /// Where a search for the exact optimum starts: the answer. Of parameters alone their slopes say
+  /// which shapes would have mass, if there is a density term to make them unique.
   [[nodiscard]] Start start() const {
-    Eigen::VectorXd m(static_cast<Eigen::Index>(m_.size()));
-    for (Eigen::Index j = 0; j < m.size(); ++j) m[j] = m_[static_cast<std::size_t>(j)].get_d();
+    Eigen::VectorXd m = answer_.masses;
+    if (m.size() == 0) {
+      m.resize(static_cast<Eigen::Index>(m_.size()));
+      const Vector a = slopes(p_, p_.residual(exact(answer_.parameters), x_)).a;
+      for (std::size_t j = 0; j < m_.size(); ++j) {
+        const double slope_says = sgn(a[j]) < 0 ? 1.0 : 0.0;
+        m[static_cast<Eigen::Index>(j)] = sgn(p_.lambda) > 0 ? slope_says : m_[j].get_d();
+      }
+    }
     return {m, answer_.others};
   }
 

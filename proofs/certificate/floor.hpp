@@ -2,21 +2,22 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "shapeid/models/stated_problem.hpp"
 #include "shapeid/proofs/certificate/rational.hpp"
 
 namespace shapeid::certificate {
 
-/// Where the polynomial is lowest: the place for a point mass that would lower the objective most.
+/// Where the polynomial of a link is lowest: a place for a point mass that lowers the objective.
 struct Place {
   Eigen::Index link = 0;
   Eigen::Vector3d point;  ///< m, link frame
 };
 
 struct Floor {
-  Rational value;             ///< no mass distribution in the regions has a lower data term
-  std::optional<Place> next;  ///< empty if mass nowhere would lower it
+  Rational value;           ///< no mass distribution in the regions has a lower data term
+  std::vector<Place> next;  ///< at most one a link; empty if mass nowhere would lower it
 };
 
 /// From the residual of any parameters (10 free links) and other unknowns: the nearer they are to

@@ -11,7 +11,7 @@ namespace {
 using Indices = std::vector<std::size_t>;
 
 /// Sets of shapes that are tried: the start's, and what exact slopes suggest after it.
-constexpr int most_sets = 3;
+constexpr int most_sets = 6;
 
 struct DyadicProblem {
   explicit DyadicProblem(const StatedProblem& p)

@@ -1,0 +1,193 @@
+// Answers of both paths and of nobody: accepted, or rejected for the right reason.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <chrono>
+#include <string>
+
+#include "shapeid/fast/solve_masses.hpp"
+#include "shapeid/proofs/certificate/certify.hpp"
+#include "shapeid/reference/mass_solver.hpp"
+#include "shapeid/tests/certificate/oracle.hpp"
+#include "shapeid/tests/certificate/problems.hpp"
+#include "shapeid/tests/certificate/verdict.hpp"
+#include "shapeid/tests/support/generators.hpp"
+
+namespace shapeid::certificate {
+namespace {
+
+using test::honest_answer;
+
+std::string first_reason(const Certified& c) {
+  return c.reasons.empty() ? "accepted" : c.reasons.front();
+}
+
+TEST(Certify, AcceptsBothPathsAndKnowsTheOptimum) {
+  for (const double lambda : {1.0, 0.0}) {
+    StatedProblem p = test::load_problem();
+    p.masses.lambda *= lambda;
+    const auto fast = fast::solve_masses(p.masses);
+    ASSERT_TRUE(fast);
+    for (const Eigen::VectorXd& m : {reference::solve_masses(p.masses).m, fast->m}) {
+      const Certified c = certify(p, honest_answer(p, m));
+      EXPECT_EQ(first_reason(c), "accepted");
+      EXPECT_TRUE(c.proof.optimum_known);
+      EXPECT_TRUE(c.proof.free_set_right);
+      EXPECT_LE(c.proof.lower, c.proof.upper);
+      EXPECT_LE(c.proof.upper, c.proof.objective_above);
+      EXPECT_LT(c.proof.gap, 1e-12 * c.proof.upper);
+      EXPECT_EQ(c.proof.bodies, std::vector{Existence::definite});
+    }
+  }
+}
+
+/// The interval holds the optimum of all active sets, whatever is answered.
+RC_GTEST_PROP(Certify, IntervalHoldsTheOptimumWhateverIsAnswered, ()) {
+  StatedProblem p = *test::small_problem(*rc::gen::arbitrary<bool>());
+  RC_PRE(p.masses.F.size() >= p.others.values.cols());
+  const test::ExactMinimum truth = test::minimum_of_all_active_sets(p);
+  const Eigen::VectorXd m = (*test::vector(p.masses.shapes(), 1.0)).cwiseMax(0.0);
+  const Eigen::VectorXd x = (*test::vector(p.others.values.cols(), 1.0))
+                                .cwiseMax(p.others.lower)
+                                .cwiseMin(p.others.upper);
+  const Proof proof = certify(p, honest_answer(p, m, x)).proof;
+  const mpq_class f = test::exact_objective(p, m, x);
+  RC_ASSERT(proof.feasible);
+  RC_ASSERT(mpq_class(proof.lower) <= truth.value);
+  RC_ASSERT(truth.value <= mpq_class(proof.upper));
+  RC_ASSERT(f <= mpq_class(proof.objective_above));
+  RC_ASSERT(f - truth.value <= mpq_class(proof.gap));
+  if (std::isfinite(proof.mass_distance) && p.masses.lambda > 0.0) {
+    for (Eigen::Index j = 0; j < m.size(); ++j) {
+      const mpq_class apart = abs(truth.m[static_cast<std::size_t>(j)] - mpq_class(m[j]));
+      RC_ASSERT(apart <= mpq_class(proof.mass_distance));
+    }
+  }
+}
+
+TEST(Certify, RejectsWrongAnswers) {
+  const StatedProblem p = test::load_problem();
+  const Eigen::VectorXd m = reference::solve_masses(p.masses).m;
+  Eigen::Index heaviest = 0;
+  const double mass = m.maxCoeff(&heaviest);
+  const auto with = [&](Eigen::Index j, double value) {
+    Eigen::VectorXd wrong = m;
+    wrong[j] = value;
+    return certify(p, honest_answer(p, wrong));
+  };
+  EXPECT_NE(first_reason(with(heaviest, 1.001 * mass)).find("above the optimum"),
+            std::string::npos);
+  EXPECT_NE(first_reason(with(heaviest, 0.0)).find("above the optimum"), std::string::npos);
+  EXPECT_NE(first_reason(with(heaviest, -mass)).find("negative"), std::string::npos);
+  EXPECT_NE(first_reason(with(heaviest, 11.0)).find("declares no more"), std::string::npos);
+}
+
+/// m = 0 certifies itself wherever the mass bound is the answer's own sum.
+TEST(Certify, RejectsNoMassAtAll) {
+  for (const double declared : {10.0, 0.0}) {
+    StatedProblem p = test::load_problem();
+    p.masses.mass_bound = declared;
+    const Certified c = certify(p, honest_answer(p, Eigen::VectorXd::Zero(p.masses.shapes())));
+    EXPECT_NE(first_reason(c).find("above the optimum"), std::string::npos);
+    EXPECT_EQ(c.proof.mass_bound_declared, declared > 0.0);
+  }
+}
+
+/// Where even the exact steps do not find the free set, duality alone says how far it is.
+TEST(Certify, DualityAloneIsTight) {
+  StatedProblem p = test::load_problem();
+  p.masses.lambda = 0.0;  // then a wrong free set is not mended
+  Eigen::VectorXd m = reference::solve_masses(p.masses).m;
+  const double optimum = certify(p, honest_answer(p, m)).proof.upper;
+  constexpr double left = 1e-13;  // kg, as an interior method leaves it
+  for (double& mass : m) {
+    if (mass == 0.0) mass = left;
+  }
+  const Certified c = certify(p, honest_answer(p, m));
+  EXPECT_EQ(first_reason(c), "accepted");
+  EXPECT_FALSE(c.proof.optimum_known);
+  EXPECT_LE(c.proof.lower, optimum);
+  // A kilogram changes the objective by about the data's own size, and M kilograms may move.
+  const double size = p.masses.F.dot(p.masses.W.cwiseProduct(p.masses.F));
+  const double shapes = static_cast<double>(p.masses.shapes());
+  EXPECT_LT(c.proof.gap, 2.0 * (1.0 + p.masses.mass_bound) * shapes * left * size);
+}
+
+Answer parameters_alone(const StatedProblem& p, const Eigen::VectorXd& m) {
+  Answer answer = honest_answer(p, m);
+  answer.masses.resize(0);
+  return answer;
+}
+
+TEST(Certify, ParametersAloneAreEnough) {
+  const StatedProblem p = test::load_problem();
+  const Certified c = certify(p, parameters_alone(p, reference::solve_masses(p.masses).m));
+  EXPECT_EQ(first_reason(c), "accepted");
+  EXPECT_TRUE(c.proof.optimum_known);
+}
+
+TEST(Certify, ParametersThatAreNotMadeOfTheShapesAreSeparated) {
+  const StatedProblem p = test::load_problem();
+  // The unconstrained least squares fit: lower objective, no body of these shapes.
+  const Eigen::VectorXd Phi = p.masses.Y.colPivHouseholderQr().solve(p.masses.F);
+  Answer answer = parameters_alone(p, Eigen::VectorXd::Zero(p.masses.shapes()));
+  answer.parameters = Phi;
+  const Certified c = certify(p, answer);
+  EXPECT_NE(first_reason(c).find("nearest body of the shapes"), std::string::npos);
+  EXPECT_FALSE(c.proof.made_of_shapes);
+  ASSERT_EQ(c.proof.plane.size(), 10);
+  EXPECT_LT(c.proof.plane.dot(Phi), 0.0);
+  EXPECT_GE((p.masses.U.transpose() * c.proof.plane).minCoeff(),
+            -1e-12 * c.proof.plane.norm() * p.masses.U.colwise().norm().maxCoeff());
+}
+
+TEST(Certify, SizesThatDoNotFitAreSaid) {
+  const StatedProblem p = test::load_problem();
+  const Answer good = honest_answer(p, Eigen::VectorXd::Zero(p.masses.shapes()));
+  EXPECT_FALSE(why_unfit(p, good));
+  Answer bad = good;
+  bad.masses.resize(3);
+  EXPECT_EQ(*why_unfit(p, bad), "3 masses for 48 shapes");
+  bad = good;
+  bad.parameters.resize(11);
+  EXPECT_EQ(*why_unfit(p, bad), "11 parameters, the problem has 10");
+  bad = good;
+  bad.others.resize(1);
+  EXPECT_EQ(*why_unfit(p, bad), "1 columns, the problem has 0");
+}
+
+/// Nothing to find, and nothing to find it from.
+TEST(Certify, EmptyProblems) {
+  StatedProblem p;
+  p.masses.Y.resize(2, 0);
+  p.masses.U.resize(0, 0);
+  p.masses.F = Eigen::Vector2d(1.0, 2.0);
+  p.masses.W = Eigen::Vector2d(1.0, 1.0);
+  const Certified c = certify(p, honest_answer(p, Eigen::VectorXd(0)));
+  EXPECT_EQ(first_reason(c), "accepted");
+  EXPECT_EQ(c.proof.lower, 5.0);
+  StatedProblem zero = test::load_problem();
+  zero.masses.F.setZero();
+  const Certified none =
+      certify(zero, honest_answer(zero, Eigen::VectorXd::Zero(zero.masses.shapes())));
+  EXPECT_EQ(first_reason(none), "accepted");
+  EXPECT_EQ(none.proof.upper, 0.0);
+}
+
+/// 130 rows and a thousand shapes, all of it.
+TEST(Certify, AThousandShapesOnThirteenLinks) {
+  const StatedProblem p = test::body_problem(77);
+  const auto solution = fast::solve_masses(p.masses);
+  ASSERT_TRUE(solution);
+  const Answer answer = honest_answer(p, solution->m);
+  const auto start = std::chrono::steady_clock::now();
+  const Certified c = certify(p, answer);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  fmt::print("certified in {:.2f} s\n", seconds.count());
+  EXPECT_EQ(first_reason(c), "accepted");
+  EXPECT_TRUE(c.proof.optimum_known);
+}
+
+}  // namespace
+}  // namespace shapeid::certificate

@@ -1,0 +1,155 @@
+// Files that were tampered with: every single field, one after the other.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "shapeid/models/strict_json.hpp"
+#include "shapeid/reference/mass_solver.hpp"
+#include "shapeid/tests/certificate/problems.hpp"
+#include "shapeid/tests/certificate/verdict.hpp"
+#include "shapeid/tests/support/load_problem.hpp"
+
+namespace shapeid::certificate {
+namespace {
+
+using nlohmann::json;
+using test::Files;
+
+struct Honest {
+  StatedProblem problem;
+  Answer answer;
+  Files files;
+};
+
+/// A small problem with everything in it: other columns, regions, a floor.
+Honest honest(bool others) {
+  test::Draw draw(5);
+  Honest h;
+  h.problem.masses = test::load_window(
+      draw, 3, test::cuboid_body(1.0, {0.1, -0.02, 0.05}, {0.04, 0.05, 0.06}), 0.01);
+  MassProblem& p = h.problem.masses;
+  test::fill_with_cuboids(p, {-0.2, -0.1, 0.0}, {0.2, 0.1, 0.1}, {3, 2, 1});
+  p.lambda = default_lambda(p, 1.0);
+  h.problem.regions = {
+      {0, make_cuboid({0.4, 0.2, 0.1}, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.05)))}};
+  const Eigen::VectorXd m = reference::solve_masses(p).m;
+  Eigen::VectorXd x;
+  if (others) {
+    // A column that the residual does not feel: its best x is zero, between its bounds.
+    Eigen::VectorXd column(p.F.size());
+    for (double& c : column) c = draw.sign();
+    const Eigen::VectorXd r = p.W.cwiseProduct(p.Y * (p.U * m) - p.F);
+    column -= r * (column.dot(r) / r.squaredNorm());
+    h.problem.others = {column, Eigen::VectorXd::Constant(1, -1.0),
+                        Eigen::VectorXd::Constant(1, 2.0)};
+    x = Eigen::VectorXd::Zero(1);
+  }
+  h.answer = test::honest_answer(h.problem, m, x);
+  h.files = test::honest_files(h.problem, h.answer, true);
+  return h;
+}
+
+/// The smallest change there is.
+json nudged(const json& leaf) {
+  if (leaf.is_boolean()) return !leaf.get<bool>();
+  if (leaf.is_string()) return leaf.get<std::string>() + "0";
+  if (leaf.is_number()) return std::nextafter(leaf.get<double>(), HUGE_VAL);
+  return 1.0;  // null, or an empty list
+}
+
+/// A change of one part in a thousand.
+json shaken(const json& leaf) {
+  if (!leaf.is_number()) return nudged(leaf);
+  const double x = leaf.get<double>();
+  return x == 0.0 ? 1e-3 : 1.001 * x;
+}
+
+/// Calls `judge(where, text)` for the document with each leaf changed, then with each member taken
+/// away.
+template <class Change, class Judge>
+void for_every_forgery(const std::string& text, Change change, Judge judge) {
+  const json document = json::parse(text);
+  const json leaves = document.flatten();
+  for (const auto& [path, leaf] : leaves.items()) {
+    const json::json_pointer place(path);
+    json forged = document;
+    forged[place] = change(leaf);
+    judge(path, forged.dump());
+    json shorter = document;
+    if (shorter[place.parent_pointer()].is_array()) {
+      shorter[place.parent_pointer()].erase(std::stoul(place.back()));
+    } else {
+      shorter[place.parent_pointer()].erase(place.back());
+    }
+    judge(path + " taken away", shorter.dump());
+  }
+}
+
+TEST(Forgery, EveryFieldOfEveryFileCounts) {
+  for (const bool others : {false, true}) {
+    const Files good = honest(others).files;
+    ASSERT_TRUE(test::accepted(good));
+    int tried = 0;
+    const auto refused = [&](const std::string& what, const Files& files) {
+      ++tried;
+      EXPECT_FALSE(test::accepted(files)) << what;
+    };
+    for_every_forgery(good.problem, nudged, [&](const std::string& where, const std::string& text) {
+      refused("problem " + where, {text, good.answer, good.certificate});
+      refused("problem without certificate " + where, {text, good.answer, ""});
+    });
+    for_every_forgery(good.answer, nudged, [&](const std::string& where, const std::string& text) {
+      refused("answer " + where, {good.problem, text, good.certificate});
+    });
+    for_every_forgery(good.certificate, nudged,
+                      [&](const std::string& where, const std::string& text) {
+                        refused("certificate " + where, {good.problem, good.answer, text});
+                      });
+    EXPECT_GT(tried, 1000);
+  }
+}
+
+/// Without a certificate rounding is forgiven; a part in a thousand is not.
+TEST(Forgery, EveryFieldOfAnAnswerAloneCounts) {
+  const Files good = honest(true).files;
+  ASSERT_TRUE(test::accepted({good.problem, good.answer, ""}));
+  for_every_forgery(good.answer, shaken, [&](const std::string& where, const std::string& text) {
+    EXPECT_FALSE(test::accepted({good.problem, text, ""})) << where;
+  });
+}
+
+/// A forger who names the right digests meets the mathematics.
+TEST(Forgery, DigestsMadeGoodDoNotHelp) {
+  const Honest h = honest(false);
+  const std::set<std::string> felt = {"Y", "F", "W", "lambda"};
+  for_every_forgery(h.files.problem, shaken, [&](const std::string& where, std::string text) {
+    if (!felt.contains(where.substr(1, where.find('/', 1) - 1)) ||
+        where.find("taken") != std::string::npos) {
+      return;
+    }
+    const StatedProblem forged = stated_problem_from_json(text, "problem.json");
+    Answer answer = h.answer;
+    answer.problem_digest = problem_digest(forged);
+    json certificate = json::parse(h.files.certificate);
+    certificate["claim"]["problem_digest"] = answer.problem_digest;
+    certificate["claim"]["answer_digest"] = digest(answer_to_json(answer));
+    EXPECT_FALSE(test::accepted({text, answer_to_json(answer), certificate.dump()})) << where;
+  });
+}
+
+TEST(Forgery, DuplicateKeysAreRefused) {
+  const Files good = honest(false).files;
+  for (std::string Files::*const file : {&Files::problem, &Files::answer, &Files::certificate}) {
+    Files forged = good;
+    std::string& text = forged.*file;
+    const std::string format = json::parse(text)["format"].dump();
+    text.insert(text.find('{') + 1, "\"format\":" + format + ",");
+    EXPECT_FALSE(test::accepted(forged));
+  }
+}
+
+}  // namespace
+}  // namespace shapeid::certificate

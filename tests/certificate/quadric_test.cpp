@@ -1,0 +1,118 @@
+// The lowest value of a quadratic polynomial on solids, against points inside them.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "shapeid/proofs/certificate/floor.hpp"
+#include "shapeid/proofs/certificate/quadric.hpp"
+#include "shapeid/reference/mass_solver.hpp"
+#include "shapeid/tests/certificate/problems.hpp"
+#include "shapeid/tests/support/generators.hpp"
+#include "shapeid/tests/support/shape_generators.hpp"
+
+namespace shapeid::certificate {
+namespace {
+
+Vector exact3(const Eigen::Vector3d& x) { return exact(Eigen::VectorXd(x)); }
+
+/// pi(x), written down once more.
+Vector point_parameters(const Eigen::Vector3d& p) {
+  const Vector x = exact3(p);
+  return {1,
+          x[0],
+          x[1],
+          x[2],
+          x[1] * x[1] + x[2] * x[2],
+          -x[0] * x[1],
+          -x[0] * x[2],
+          x[0] * x[0] + x[2] * x[2],
+          -x[1] * x[2],
+          x[0] * x[0] + x[1] * x[1]};
+}
+
+RC_GTEST_PROP(Quadric, IsTheCostOfAPointMass, ()) {
+  const Vector g = exact(*test::vector(10, 1.0));
+  const Eigen::Vector3d x = *test::vector3(2.0);
+  RC_ASSERT(cost_of_point(g).at(exact3(x)) == dot(g, point_parameters(x)));
+}
+
+RC_GTEST_PROP(Quadric, NoPointOfTheShapeIsLower, ()) {
+  const Vector g = exact(*test::vector(10, 1.0));
+  const Shape shape = *test::solid();
+  const Quadric q = cost_of_point(g);
+  const Lowest lowest = lowest_in(q, shape);
+  for (int k = 0; k < 20; ++k) {
+    const Eigen::Vector3d x = test::point_inside(shape, *test::whereabouts());
+    // A drawn point is inside to rounding of its coordinates; 1e-9 of the slopes is far more.
+    const double slack = 1e-9 * (1.0 + std::pow(test::reach(shape), 2));
+    RC_ASSERT(lowest.value <= q.at(exact3(x)) + exact(slack * 20.0));
+  }
+}
+
+/// For cuboids and polyhedra the value is taken at a point of the shape.
+RC_GTEST_PROP(Quadric, LowestIsReachedInCuboidsAndPolyhedra, ()) {
+  const Vector g = exact(*test::vector(10, 1.0));
+  const Shape shape =
+      *rc::gen::arbitrary<bool>() ? *test::cuboid_cell() : *test::convex_polyhedron();
+  const Quadric q = cost_of_point(g);
+  const Lowest lowest = lowest_in(q, shape);
+  RC_ASSERT(lowest.value == q.at(lowest.point));
+  const Eigen::Vector3d x(lowest.point[0].get_d(), lowest.point[1].get_d(),
+                          lowest.point[2].get_d());
+  RC_ASSERT(contains(shape, x, 1e-9 * test::reach(shape)));
+}
+
+/// On balls and cylinders the bound is met to what the enclosing solid costs.
+TEST(Quadric, BallsAndCylindersAreNearlyReached) {
+  const Eigen::Isometry3d pose(Eigen::Translation3d(0.3, -0.2, 0.1));
+  const Shape ball = make_ellipsoid({0.1, 0.1, 0.1}, pose);
+  const Shape cylinder = make_cylinder(0.1, 0.4, pose);
+  // x + y is lowest on the ball at distance sqrt(2) radius below its centre's value.
+  Vector g(10);
+  g[1] = g[2] = 1;
+  const Quadric q = cost_of_point(g);
+  const double truth = 0.1 - 0.1 * std::sqrt(2.0);
+  EXPECT_LE(lowest_in(q, ball).value, exact(truth + 1e-15));
+  EXPECT_GT(lowest_in(q, ball).value, exact(truth - 1e-9));
+  EXPECT_LE(lowest_in(q, cylinder).value, exact(truth + 1e-15));
+  EXPECT_GT(lowest_in(q, cylinder).value, exact(truth - 0.003 * 0.1 * std::sqrt(2.0)));
+  Vector nothing(10);
+  nothing[0] = 3;
+  EXPECT_EQ(lowest_in(cost_of_point(nothing), ball).value, 3);
+}
+
+TEST(Floor, ClosesInOnTheLimitFromBelow) {
+  const StatedProblem p = test::load_problem();
+  MassProblem finer = p.masses;  // point masses where the polynomial is lowest, one after another
+  finer.lambda = 0.0;
+  double reached = reference::solve_masses(finer).value.data;
+  const double undivided = reached;
+  double floor = 0.0;
+  for (int round = 0; round < 60; ++round) {
+    const MassSolution solution = reference::solve_masses(finer);
+    const auto proved = floor_of_divisions(p, solution.Phi, {});
+    ASSERT_TRUE(proved);
+    floor = std::max(floor, rounded_down(proved->value));
+    reached = solution.value.data;
+    EXPECT_LT(floor, reached);
+    if (proved->next.empty()) break;
+    finer.U.conservativeResize(Eigen::NoChange, finer.U.cols() + 1);
+    finer.U.rightCols<1>() =
+        from_centre(1.0, proved->next.front().point, Eigen::Matrix3d::Zero()).values;
+    finer.V = Eigen::VectorXd::Ones(finer.U.cols());
+  }
+  EXPECT_LT(reached, undivided);
+  EXPECT_GT(floor, 0.99 * reached);
+}
+
+TEST(Floor, NeedsRegionsAndABound) {
+  StatedProblem p = test::load_problem();
+  const Eigen::VectorXd Phi = p.masses.U.rowwise().mean();
+  StatedProblem boundless = p;
+  boundless.masses.mass_bound = 0.0;
+  EXPECT_FALSE(floor_of_divisions(boundless, Phi, {}));
+  p.regions.clear();
+  EXPECT_FALSE(floor_of_divisions(p, Phi, {}));
+}
+
+}  // namespace
+}  // namespace shapeid::certificate

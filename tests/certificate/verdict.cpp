@@ -1,0 +1,29 @@
+#include "shapeid/tests/certificate/verdict.hpp"
+
+#include "shapeid/models/error.hpp"
+
+namespace shapeid::test {
+
+using namespace certificate;
+
+Files honest_files(const StatedProblem& problem, const Answer& answer, bool floor) {
+  const Limit limit = floor ? Limit{answer.parameters, answer.others} : Limit{};
+  return {problem_to_json(problem), answer_to_json(answer),
+          certificate_to_json(certify(problem, answer, {}, limit).proof, limit)};
+}
+
+bool accepted(const Files& files) {
+  try {
+    const StatedProblem problem = stated_problem_from_json(files.problem, "problem.json");
+    const Answer answer = answer_from_json(files.answer, "answer.json");
+    if (why_unfit(problem, answer)) return false;
+    if (files.certificate.empty()) return certify(problem, answer).reasons.empty();
+    const Certificate given = certificate_from_json(files.certificate, "certificate.json", problem);
+    const Certified certified = certify(problem, answer, {}, given.evidence);
+    return certified.reasons.empty() && false_claims(given, certified.proof).empty();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace shapeid::test
