@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace shapeid::app {
 namespace {
@@ -17,6 +18,12 @@ std::string bodies_text(const Proof& p) {
   return fmt::format(
       "bodies of the free links: {} exist with volume, {} on the edge, {} cannot exist\n",
       count(Existence::definite), count(Existence::semidefinite), count(Existence::impossible));
+}
+
+std::string mass_bound_text(const Proof& p) {
+  if (!std::isfinite(p.mass_bound)) return "none declared, none proved";
+  return fmt::format("{:.6g} kg, {}", p.mass_bound,
+                     p.mass_bound_declared ? "declared by the problem" : "proved from the rows");
 }
 
 std::string where_from(const Proof& p) {
@@ -37,11 +44,10 @@ std::string certified_text(const certificate::Certified& certified) {
       "optimum: in [{:.17g}, {:.17g}], {}\n"
       "gap: at most {:.3g}; no mass is farther than {:.3g} kg from the optimum's; parameters: "
       "{:.3g} kg, {:.3g} kg m, {:.3g} kg m^2\n"
-      "mass bound: {:.6g} kg, {}\n",
+      "mass bound: {}\n",
       certified.reasons.empty() ? "accepted" : "rejected", p.objective_above, p.lower, p.upper,
       where_from(p), p.gap, p.mass_distance, p.parameter_distance[0], p.parameter_distance[1],
-      p.parameter_distance[2], p.mass_bound,
-      p.mass_bound_declared ? "declared by the problem" : "proved from the rows");
+      p.parameter_distance[2], mass_bound_text(p));
   text += bodies_text(p);
   if (!p.made_of_shapes) {
     text += p.plane.size() > 0

@@ -70,7 +70,7 @@ void add_certify(CLI::App& app) {
                    "certificate.json: every claim in it must be what is proved");
   verb->add_option("--gap", options->tolerance.gap,
                    "accepted excess of the objective, relative to the objective of no mass")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   verb->add_option("--out", options->out, "file for a certificate of what is proved");
   verb->add_flag("--json", options->json, "print the proof as JSON");

@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   shapeid::app::add_load(app);
   shapeid::app::add_diagnose(app);
   shapeid::app::add_certify(app);
+  shapeid::app::add_vectors(app);
   shapeid::app::add_simulate(app);
   shapeid::app::add_inspect(app);
   shapeid::app::add_convert(app);

@@ -11,6 +11,7 @@ void add_diagnose(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_certify(CLI::App& app);
+void add_vectors(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_demo(CLI::App& app);
 

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "shapeid/proofs/certificate/linear.hpp"
@@ -31,10 +32,12 @@ Rational water_filled(const Vector& a, const Vector& V, const Rational& lambda,
 
 /// The combination of rows nearest to weighing the free links, found in doubles: what is proved
 /// with it does not depend on how it was found.
-Vector weighing_rows(const MassProblem& p) {
+std::optional<Vector> weighing_rows(const MassProblem& p) {
   Eigen::VectorXd total = Eigen::VectorXd::Zero(p.Y.cols());
   for (Eigen::Index i = 0; i < total.size(); i += 10) total[i] = 1.0;
-  return exact(Eigen::VectorXd(p.Y.transpose().completeOrthogonalDecomposition().solve(total)));
+  const Eigen::VectorXd d = p.Y.transpose().completeOrthogonalDecomposition().solve(total);
+  if (!d.allFinite()) return std::nullopt;  // entries near the largest double overflow on the way
+  return exact(d);
 }
 
 }  // namespace
@@ -113,7 +116,9 @@ MassBound mass_bound(const StatedProblem& stated, const ExactProblem& p, const R
   if (p.mass_bound) return {p.mass_bound, true};
   // Other columns could compensate any mass; their problems declare a bound.
   if (p.others() > 0 || p.shapes() == 0 || p.F.empty()) return {};
-  const Vector d = weighing_rows(stated.masses);
+  const auto found = weighing_rows(stated.masses);
+  if (!found) return {};
+  const Vector& d = *found;
   const Vector weighs = p.U.transposed_times(p.Y.transposed_times(d));
   const Rational share = *std::min_element(weighs.begin(), weighs.end());
   if (sgn(share) <= 0) return {};
@@ -121,7 +126,7 @@ MassBound mass_bound(const StatedProblem& stated, const ExactProblem& p, const R
   // upper.
   Vector squares;
   for (std::size_t i = 0; i < d.size(); ++i) squares.emplace_back(d[i] * d[i] / p.W[i]);
-  const Rational most = dot(d, p.F) + exact(root_rounded_up(upper * sum(squares)));
+  const Rational most = dot(d, p.F) + root_above(upper * sum(squares));
   // No mass at all has an objective above `upper` if this is negative: then nothing does not.
   return {std::max<Rational>(0, most) / share, false};
 }

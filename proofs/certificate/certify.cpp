@@ -121,8 +121,8 @@ class Certifier {
           Phi_[i].get_d());
     }
     // A residual that is off by rounding times |W^(1/2) F| changes its square by no more than this.
-    const Rational root = exact(root_rounded_up(zero_objective_)) * rounding;
-    const Rational allowed = 2 * exact(root_rounded_up(f_)) * root + root * root;
+    const Rational root = root_above(zero_objective_) * rounding;
+    const Rational allowed = 2 * root_above(f_) * root + root * root;
     if (abs(exact(answer_.objective) - f_) > allowed) {
       reject("the objective is said to be {:g}, the answer's is {:g}", answer_.objective,
              f_.get_d());
@@ -174,7 +174,7 @@ class Certifier {
       const Vector a = slopes(p_, p_.residual(exact(answer_.parameters), x_)).a;
       for (std::size_t j = 0; j < m_.size(); ++j) {
         const double slope_says = sgn(a[j]) < 0 ? 1.0 : 0.0;
-        m[static_cast<Eigen::Index>(j)] = sgn(p_.lambda) > 0 ? slope_says : m_[j].get_d();
+        m[static_cast<Eigen::Index>(j)] = sgn(p_.lambda) > 0 ? slope_says : rounded_down(m_[j]);
       }
     }
     return {m, answer_.others};
@@ -197,12 +197,12 @@ class Certifier {
       const Rational by_volume = gap / p_.lambda;
       if (!p_.V.empty()) {
         const Rational largest = *std::max_element(p_.V.begin(), p_.V.end());
-        proof.mass_distance = root_rounded_up(by_volume * largest);
+        proof.mass_distance = rounded_up(root_above(by_volume * largest));
       }
       // Cauchy: (sum_j U_ij d_j)^2 <= (sum_j U_ij^2 V_j) (sum_j d_j^2 / V_j).
       const Vector squares = p_.U.squared().times(p_.V);
       for (std::size_t i = 0; i < squares.size(); ++i) {
-        widen(group_of(i), root_rounded_up(by_volume * squares[i]));
+        widen(group_of(i), rounded_up(root_above(by_volume * squares[i])));
       }
       return;
     }
@@ -243,6 +243,9 @@ Violation why_unfit(const StatedProblem& p, const Answer& answer) {
     return fmt::format("{} columns, the problem has {}", answer.others.size(),
                        p.others.values.cols());
   }
+  const bool finite = answer.masses.allFinite() && answer.parameters.allFinite() &&
+                      answer.others.allFinite() && std::isfinite(answer.objective);
+  if (!finite) return "a number of the answer is not finite";
   return std::nullopt;
 }
 

@@ -48,7 +48,8 @@ struct Certified {
   std::vector<std::string> reasons;  ///< why the answer is rejected; empty: accepted
 };
 
-/// Empty if the answer has the sizes of the problem: then certify() can be called.
+/// Empty if the answer has the sizes of the problem and finite numbers: then certify() can be
+/// called.
 [[nodiscard]] Violation why_unfit(const StatedProblem& problem, const Answer& answer);
 
 /// `limit`: parameters (10 free links) near the limit of infinitely many divisions, with other

@@ -316,6 +316,7 @@ Lowest lowest_in_ball(const Quadric& q, const Rational& radius) {
   }
   std::optional<Lowest> best;
   for (const double mu : {low, high, 2.0 * high, std::numeric_limits<double>::min()}) {
+    if (!std::isfinite(mu)) continue;
     auto lowest = with_multiplier(mu);
     if (lowest && (!best || lowest->value > best->value)) best = std::move(lowest);
   }

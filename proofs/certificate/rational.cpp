@@ -55,15 +55,16 @@ double rounded_down(const Rational& x) {
 
 double rounded_up(const Rational& x) { return -rounded_down(-x); }
 
-double root_rounded_up(const Rational& x) {
-  if (sgn(x) == 0) return 0.0;
-  // The root of a number that fits no double may fit one: halve the exponent outside.
-  const long half = exponent_of(x) / 2;
-  const double root = std::sqrt(scaled(x, -2 * half).get_d());
-  double above = std::ldexp(root, static_cast<int>(half));
-  while (above < infinity && exact(above) * exact(above) < x)
-    above = std::nextafter(above, infinity);
-  return above;
+Rational root_above(const Rational& x) {
+  if (sgn(x) == 0) return 0;
+  constexpr long bits = 64;  // of the root
+  const long half = bits - exponent_of(x) / 2;
+  const Rational square = scaled(x, 2 * half);
+  Integer whole, root, rest;
+  mpz_cdiv_q(whole.get_mpz_t(), square.get_num_mpz_t(), square.get_den_mpz_t());
+  mpz_sqrtrem(root.get_mpz_t(), rest.get_mpz_t(), whole.get_mpz_t());
+  if (rest != 0) ++root;
+  return scaled(Rational(root), -half);
 }
 
 Rational sum(const Vector& terms) { return sum_of(terms, 0, terms.size()); }

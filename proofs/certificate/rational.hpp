@@ -22,8 +22,8 @@ using Vector = std::vector<Rational>;
 [[nodiscard]] double rounded_down(const Rational& x);
 [[nodiscard]] double rounded_up(const Rational& x);
 
-/// A double that is not below the root of x >= 0, and the smallest such but for a few roundings.
-[[nodiscard]] double root_rounded_up(const Rational& x);
+/// A number that is not below the root of x >= 0, nor above it by more than 2^-60 of it.
+[[nodiscard]] Rational root_above(const Rational& x);
 
 /// By halves: sums of many fractions with different denominators stay cheap.
 [[nodiscard]] Rational sum(const Vector& terms);

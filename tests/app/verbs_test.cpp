@@ -78,11 +78,23 @@ TEST(Verbs, FromSimulationToAnIdentifiedUrdf) {
 
   // problem.json and answer.json are what the library's own readers accept, and they agree.
   const std::string folder = scratch() + "/found/";
-  const MassProblem problem = problem_from_json(read_file(folder + "problem.json"), "problem.json");
+  const StatedProblem stated =
+      stated_problem_from_json(read_file(folder + "problem.json"), "problem.json");
+  const MassProblem& problem = stated.masses;
   const Answer answer = answer_from_json(read_file(folder + "answer.json"), "answer.json");
-  EXPECT_EQ(answer.problem_digest, problem_digest(problem));
+  EXPECT_EQ(answer.problem_digest, problem_digest(stated));
+  EXPECT_EQ(result["problem_digest"], answer.problem_digest);
   EXPECT_EQ(objective(problem, answer.masses).total(), answer.objective);
   EXPECT_GE(answer.masses.minCoeff(), 0.0);
+
+  // The certificate beside them holds, and its floor is below the answer and not far.
+  const CommandRun judged = shapeid(fmt::format(
+      "certify {0}problem.json {0}answer.json --certificate {0}certificate.json --json", folder));
+  ASSERT_EQ(judged.status, 0) << judged.err;
+  const auto proof = nlohmann::json::parse(judged.out)["proof"];
+  EXPECT_TRUE(proof["optimum_known"].get<bool>());
+  EXPECT_LT(proof["floor"].get<double>(), answer.objective);
+  EXPECT_GT(proof["floor"].get<double>(), 0.9 * answer.objective);
 }
 
 TEST(Verbs, OnlinePrintsALinePerWindow) {

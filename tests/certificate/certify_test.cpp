@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <string>
 
 #include "shapeid/fast/solve_masses.hpp"
@@ -173,6 +174,32 @@ TEST(Certify, EmptyProblems) {
       certify(zero, honest_answer(zero, Eigen::VectorXd::Zero(zero.masses.shapes())));
   EXPECT_EQ(first_reason(none), "accepted");
   EXPECT_EQ(none.proof.upper, 0.0);
+}
+
+/// Doubles from the smallest to the largest: slow perhaps, never wrong, never a crash.
+TEST(Certify, ExtremeNumbers) {
+  StatedProblem p = test::load_problem();
+  p.masses.mass_bound = 0.0;
+  p.masses.Y *= 1e300;
+  p.masses.F.setConstant(-5e-324);
+  p.masses.W.setConstant(1e-300);
+  p.masses.W[0] = 1e308;
+  p.masses.V[0] = 5e-324;
+  p.masses.U(0, 1) = 1e308;
+  const Answer none = honest_answer(p, Eigen::VectorXd::Zero(p.masses.shapes()));
+  const Certified best = certify(p, none, {}, {none.parameters, {}});
+  EXPECT_TRUE(best.proof.feasible);
+  EXPECT_LE(best.proof.lower, best.proof.upper);
+  const Answer heavy{none.problem_digest, Eigen::VectorXd::Constant(p.masses.shapes(), 1e308),
+                     none.parameters, 0.0};
+  EXPECT_FALSE(certify(p, heavy).reasons.empty());
+  Answer alone = none;
+  alone.masses.resize(0);
+  alone.parameters.setConstant(1e308);
+  EXPECT_FALSE(certify(p, alone).reasons.empty());
+  Answer not_finite = none;
+  not_finite.objective = std::nan("");
+  EXPECT_EQ(*why_unfit(p, not_finite), "a number of the answer is not finite");
 }
 
 /// 130 rows and a thousand shapes, all of it.

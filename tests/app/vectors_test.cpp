@@ -1,0 +1,90 @@
+// The vectors: what the tool writes, what a right program passes, and what every seeded bug fails.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "shapeid/tests/app/command.hpp"
+
+namespace shapeid::test {
+namespace {
+
+const std::string folder = SHAPEID_SOURCE_DIR "/tests/vectors";
+const std::string example = "python3 " SHAPEID_SOURCE_DIR "/docs/examples/vectors.py";
+
+bool has_python() { return std::system("python3 -c pass") == 0; }
+
+CommandRun check(const std::string& program, const std::string& options = "") {
+  return shapeid(fmt::format("vectors --check '{}' --json {}", program, options));
+}
+
+TEST(Vectors, AreWhatTheToolWrites) {
+  const std::string made = scratch() + "/vectors";
+  std::filesystem::create_directories(made);
+  ASSERT_EQ(std::system((SHAPEID_MAKE_VECTORS " " + made).c_str()), 0);
+  int files = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    if (file.path().extension() != ".json") continue;
+    ++files;
+    EXPECT_EQ(read_file(file.path().string()),
+              read_file(made + "/" + file.path().filename().string()))
+        << file.path();
+  }
+  EXPECT_EQ(files, 8);
+}
+
+TEST(Vectors, TheExamplePasses) {
+  if (!has_python()) GTEST_SKIP() << "python3 is not installed";
+  const CommandRun run = check(example);
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+}
+
+/// Prints which kinds of vectors catch which bug; none may catch nothing.
+TEST(Vectors, EverySeededBugIsCaught) {
+  if (!has_python()) GTEST_SKIP() << "python3 is not installed";
+  const std::string bugs = "python3 " + folder + "/bugs.py";
+  const std::string list = scratch() + "/bugs.txt";
+  ASSERT_EQ(std::system(fmt::format("{} --list > {}", bugs, list).c_str()), 0);
+  std::istringstream names(read_file(list));
+  int count = 0;
+  for (std::string name; std::getline(names, name); ++count) {
+    const CommandRun run =
+        shapeid(fmt::format("vectors --check \"{} \\\"{}\\\"\" --json", bugs, name));
+    EXPECT_EQ(run.status, 1) << name << ": " << run.err;
+    const auto kinds = nlohmann::json::parse(run.out)["kinds"];
+    std::string caught;
+    for (const auto& [kind, tally] : kinds.items()) {
+      const int failed = tally["failed"].get<int>();
+      if (failed > 0) caught += fmt::format(" {} {}/{}", kind, failed, tally["cases"].get<int>());
+    }
+    EXPECT_FALSE(caught.empty()) << name;
+    fmt::print("{:<52}{}\n", name, caught);
+  }
+  EXPECT_GT(count, 30);
+}
+
+TEST(Vectors, ProgramsThatDoNotAnswerAreSaid) {
+  EXPECT_EQ(check("true").status, 2);
+  EXPECT_EQ(check("no_such_program_anywhere").status, 2);
+  EXPECT_EQ(check("cat", "--kind nonsense").status, 2);
+  const CommandRun echo = check("cat", "--kind moments");  // answers, but not the question
+  EXPECT_EQ(echo.status, 1);
+  EXPECT_EQ(check("yes nonsense", "--kind moments").status, 1);
+}
+
+TEST(Vectors, ChangedFilesAreRefused) {
+  const std::string copy = scratch() + "/changed";
+  std::filesystem::remove_all(copy);
+  std::filesystem::copy(folder, copy, std::filesystem::copy_options::recursive);
+  const std::string text = read_file(copy + "/moments.json");
+  scratch_file("changed/moments.json", text + " ");
+  const CommandRun run = check("cat", "--vectors " + copy);
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("digest"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace shapeid::test
