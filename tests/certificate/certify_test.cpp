@@ -95,6 +95,21 @@ TEST(Certify, RejectsNoMassAtAll) {
   }
 }
 
+/// The bound on the mass is part of the problem: what lies beyond it is no optimum.
+TEST(Certify, OptimumAtTheMassBound) {
+  const StatedProblem p = test::one_point_problem();
+  constexpr double best = 0.125, optimum = 0.78125;  // (7/8)^2 + (1/8)^2
+  const Proof none = certify(p, honest_answer(p, Eigen::VectorXd::Zero(1))).proof;
+  EXPECT_FALSE(none.optimum_known);
+  EXPECT_LE(none.lower, optimum);
+  EXPECT_GE(none.upper, optimum);
+  EXPECT_GE(none.mass_distance, best);
+  const Certified at_bound = certify(p, honest_answer(p, Eigen::VectorXd::Constant(1, best)));
+  EXPECT_EQ(first_reason(at_bound), "accepted");
+  EXPECT_EQ(at_bound.proof.lower, optimum);
+  EXPECT_EQ(at_bound.proof.upper, optimum);
+}
+
 /// Where even the exact steps do not find the free set, duality alone says how far it is.
 TEST(Certify, DualityAloneIsTight) {
   StatedProblem p = test::load_problem();

@@ -81,6 +81,18 @@ StatedProblem body_problem(int per_link) {
   return p;
 }
 
+StatedProblem one_point_problem() {
+  StatedProblem p;
+  p.masses.Y = Eigen::RowVectorXd::Unit(10, 0);
+  p.masses.U = Eigen::VectorXd::Unit(10, 0);
+  p.masses.F = p.masses.W = Eigen::VectorXd::Ones(1);
+  p.masses.V = Eigen::VectorXd::Constant(1, 64.0);
+  p.masses.lambda = 64.0;
+  p.masses.mass_bound = 0.125;
+  p.regions = {{0, make_point(Eigen::Vector3d::Zero(), 64.0)}};
+  return p;
+}
+
 rc::Gen<StatedProblem> small_problem(bool zero_lambda) {
   PlantedStyle style;
   style.most_shapes = 4;

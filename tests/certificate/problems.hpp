@@ -15,6 +15,10 @@ namespace shapeid::test {
 /// Thirteen coupled links, 130 rows, `per_link` cuboids on each.
 [[nodiscard]] StatedProblem body_problem(int per_link);
 
+/// One row, one point mass t: (t - 1)^2 + t^2, and t at most 1/8. Without that bound t = 1/2 is
+/// best.
+[[nodiscard]] StatedProblem one_point_problem();
+
 /// Small problems with up to three other columns: free, bounded on one side or on both.
 [[nodiscard]] rc::Gen<StatedProblem> small_problem(bool zero_lambda);
 

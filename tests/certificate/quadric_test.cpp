@@ -104,6 +104,13 @@ TEST(Floor, ClosesInOnTheLimitFromBelow) {
   EXPECT_GT(floor, 0.99 * reached);
 }
 
+/// With one point and a bound on its mass the floor is the optimum of the data term: (1/8 - 1)^2.
+TEST(Floor, IsTheOptimumOfOnePoint) {
+  const auto floor = floor_of_divisions(test::one_point_problem(), Eigen::VectorXd::Zero(10), {});
+  ASSERT_TRUE(floor);
+  EXPECT_EQ(floor->value, exact(0.765625));
+}
+
 TEST(Floor, NeedsRegionsAndABound) {
   StatedProblem p = test::load_problem();
   const Eigen::VectorXd Phi = p.masses.U.rowwise().mean();
