@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "shapeid/diagnosis/effects.hpp"
 
@@ -68,8 +69,15 @@ Eigen::VectorXd HypothesisColumns::difference(const AppliedEffect& hypothesis, c
     // What changes rows alone needs no new regressor.
     const bool same_view = hypothesis.effect->transform.sample == nullptr &&
                            hypothesis.effect->transform.robot == nullptr;
+    if (same_view) {
+      const Prediction changed = predict(viewer, view, model_, predicted.load);
+      return changed.force - changed.J.transpose() * predicted.load.force;
+    }
+    // The contacts whose forces are held fixed, also where a delay looks across a touchdown.
+    Sample moved = viewer.moved(recording, index);
+    moved.in_contact = view.sample.in_contact;
     const Prediction changed =
-        predict(viewer, same_view ? view : viewer.view(recording, index), model_, predicted.load);
+        predict(viewer, viewer.view(std::move(moved), view.elapsed), model_, predicted.load);
     return changed.force - changed.J.transpose() * predicted.load.force;
   };
   return (force(d.plus) - force(d.minus)) / d.step;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/hypotheses.hpp"
 #include "shapeid/reference/contact.hpp"
 #include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/support/generators.hpp"
@@ -218,6 +219,34 @@ RC_GTEST_PROP(Transformations, ZeroChangesNothing, ()) {
 
 /// On a floating base the predicted load contains no measured torque, and with the base carried
 /// exactly it is the torque that the contact forces ask for.
+// A robot that stays as it is while its contact flags flip: looking a little earlier or later
+// changes nothing, though other feet are in contact there.
+RC_GTEST_PROP(Transformations, ContactsAreHeldWhereADelayLooksAcrossATouchdown, ()) {
+  const Scene scene = any_scene(Root::floating);
+  RC_PRE(scene.sample.in_contact.size() > 0);
+  constexpr double rate = 100.0;
+  constexpr std::size_t count = 40, middle = count / 2;
+  std::vector<Sample> samples(count, scene.sample);
+  for (std::size_t i = 0; i < count; ++i) {
+    samples[i].time = static_cast<double>(i) / rate;
+    if (i % 2 == 1) samples[i].in_contact.flip();
+  }
+  const Recording recording(std::move(samples), rate);
+  AppliedEffect delay = at_start(*find_effect("torque_delay"), 0);
+  delay.value[0] = 0.5 / rate;  // where the nearest sample changes
+  const RichModel model{scene.Phi, {delay}};
+  const HypothesisColumns columns(scene.robot, reference::ContactTreatment::project, model,
+                                  {delay});
+  const View view = columns.viewer().view(recording, middle);
+  const Prediction predicted = predict(columns.viewer(), view, model);
+  const Eigen::MatrixXd change = columns.at(recording, middle, view, predicted);
+  // A difference of equal forces, over its step of two hundredths of a usual size.
+  const double step = 0.02 * delay.effect->parameters[0].size;
+  const double terms = (view.Y.cwiseAbs() * scene.Phi.cwiseAbs()).norm() +
+                       view.J.norm() * predicted.load.force.norm();
+  RC_ASSERT(test::scaled(change.norm(), terms / step, scene.robot.dof()) < few_hundred_eps);
+}
+
 RC_GTEST_PROP(PredictedLoads, ContainNoMeasuredTorque, ()) {
   const Scene scene = any_scene(Root::floating);
   Sample other = scene.sample;
