@@ -106,7 +106,7 @@ class Loop {
   void choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
     std::vector<double> priors;
     std::vector<Eigen::VectorXd> errors;
-    constexpr double strongest = 10.0;  // a third of its natural size, for each parameter
+    constexpr double strongest = 1000.0;  // a thirtieth of its natural size, for each parameter
     for (double prior = 1e-4; prior <= 1.5 * strongest; prior *= 10.0) {
       fits.set_prior(prior);
       priors.push_back(prior);
