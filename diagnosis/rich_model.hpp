@@ -85,7 +85,7 @@ struct Prediction {
 /// Which of the dof rows count, in fits and in errors. Dry friction holds a joint that stands still
 /// against any torque up to where it breaks away, and no model of motion says which: on a fixed
 /// base without contacts these joints' rows are left out. With contacts the projection mixes all
-/// rows, and all count.
+/// rows, and all count. Claim C17.
 [[nodiscard]] Eigen::Array<bool, Eigen::Dynamic, 1> counted_rows(const Viewer& viewer,
                                                                  const Recording& recording,
                                                                  std::size_t index,
