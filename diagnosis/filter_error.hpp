@@ -1,4 +1,5 @@
-// Claim C16. What a filter makes of products: the dynamics of filtered signals are not the filtered dynamics.
+// Claim C16. What a filter makes of products: the dynamics of filtered signals are not the filtered
+// dynamics.
 #pragma once
 
 #include <Eigen/Core>
