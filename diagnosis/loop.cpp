@@ -101,8 +101,8 @@ class Loop {
   }
 
   /// The strongest prior that predicts held-out blocks as well as any, as far as their scatter
-  /// tells: what the data say nothing about stays as given. None is so strong that it pulls on what
-  /// the data do say: effects would be found that undo it.
+  /// tells: what the data say nothing about stays as given. Bounded, because a prior that froze the
+  /// given inertias would have effects found that make up for their errors.
   void choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
     std::vector<double> priors;
     std::vector<Eigen::VectorXd> errors;
