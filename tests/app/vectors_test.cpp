@@ -36,9 +36,14 @@ TEST(Vectors, AreWhatTheToolWrites) {
   EXPECT_EQ(files, 8);
 }
 
-TEST(Vectors, TheExamplePasses) {
+TEST(Vectors, TheExampleInPythonPasses) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
   const CommandRun run = check(example);
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+}
+
+TEST(Vectors, TheExampleInCppPasses) {
+  const CommandRun run = check(SHAPEID_EXAMPLE_VECTORS);
   EXPECT_EQ(run.status, 0) << run.out << run.err;
 }
 
