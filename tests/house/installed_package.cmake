@@ -13,5 +13,6 @@ must(${CMAKE_COMMAND} -S ${SOURCE}/tests/house/consumer -B ${work}/build -G Ninj
      -DCMAKE_PREFIX_PATH=${work}/prefix -DCMAKE_BUILD_TYPE=Release)
 must(${CMAKE_COMMAND} --build ${work}/build)
 must(${work}/build/consumer)
+must(${work}/build/consumer_of_certificates)
 set(quadruped ${SOURCE}/models/robots/quadruped)
 must(${work}/build/consumer_in_c ${quadruped}.urdf ${quadruped}.robot.yaml ${quadruped}.shapes.yaml)
