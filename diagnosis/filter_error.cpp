@@ -1,9 +1,13 @@
 #include "shapeid/diagnosis/filter_error.hpp"
 
+#include <Eigen/QR>
+
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "shapeid/models/segment_filter.hpp"
+#include "shapeid/reference/contact.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -25,10 +29,59 @@ void set_channels(const Eigen::VectorXd& all, Sample& s) {
   s.base_specific_force = all.segment<3>(3 * n + 6);
 }
 
-/// What joints alone must provide, and the base nothing.
-Eigen::VectorXd asked(const Viewer& viewer, const View& view, const RichModel& model) {
-  const Prediction p = predict(viewer, view, model);
-  return p.force - p.J.transpose() * p.load.force;
+/// Where the numbers of every contact's force stand in one vector, whichever of them touch.
+class ForceSlots {
+ public:
+  explicit ForceSlots(const Robot& robot) {
+    for (const Contact& contact : robot.contacts) {
+      first_.push_back(size_);
+      size_ += reference::force_numbers(contact.kind);
+    }
+    first_.push_back(size_);
+  }
+
+  [[nodiscard]] Eigen::Index size() const { return size_; }
+
+  /// Numbers of the contacts that touch, in their order, to all; zero for the others.
+  [[nodiscard]] Eigen::VectorXd spread(const Sample& sample, const Eigen::VectorXd& force) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(size_);
+    Eigen::Index row = 0;
+    for_each(sample, force.size(), [&](Eigen::Index first, Eigen::Index count) {
+      all.segment(first, count) = force.segment(row, count);
+      row += count;
+    });
+    return all;
+  }
+
+  [[nodiscard]] Eigen::VectorXd gather(const Sample& sample, const Eigen::VectorXd& all,
+                                       Eigen::Index rows) const {
+    Eigen::VectorXd force(rows);
+    Eigen::Index row = 0;
+    for_each(sample, rows, [&](Eigen::Index first, Eigen::Index count) {
+      force.segment(row, count) = all.segment(first, count);
+      row += count;
+    });
+    return force;
+  }
+
+ private:
+  /// `rows` is zero where contacts are not projected away, whatever the flags say.
+  template <typename Visit>
+  void for_each(const Sample& sample, Eigen::Index rows, Visit visit) const {
+    for (std::size_t c = 0; rows > 0 && c < sample.in_contact.size(); ++c) {
+      if (sample.in_contact[c]) visit(first_[c], first_[c + 1] - first_[c]);
+    }
+  }
+
+  std::vector<Eigen::Index> first_;
+  Eigen::Index size_ = 0;
+};
+
+/// The contact forces with which the model comes closest to what was logged.
+Eigen::VectorXd contact_force(const Viewer& viewer, const View& view, const Prediction& p) {
+  if (p.J.rows() == 0) return Eigen::VectorXd(0);
+  return p.J.transpose().completeOrthogonalDecomposition().solve(p.force -
+                                                                 logged_force(viewer, view));
 }
 
 }  // namespace
@@ -38,6 +91,7 @@ std::vector<Eigen::VectorXd> filter_error(const Viewer& viewer, const RichModel&
                                           double cutoff) {
   constexpr int order = 2;
   const Butterworth design(order, cutoff, rough.rate());
+  const ForceSlots slots(viewer.robot());
   const Eigen::Index dof = viewer.robot().dof();
   std::vector<Eigen::VectorXd> errors(smooth.samples().size(), Eigen::VectorXd::Zero(dof));
   const double near = 0.25 / rough.rate();
@@ -53,9 +107,12 @@ std::vector<Eigen::VectorXd> filter_error(const Viewer& viewer, const RichModel&
     std::vector<View> views;
     for (std::size_t i = begin; i < end; ++i) {
       views.push_back(viewer.view(rough, usable[i]));
-      const Eigen::VectorXd motion = channels(views.back().sample);
-      Eigen::VectorXd row(motion.size() + dof);
-      row << motion, asked(viewer, views.back(), model);
+      const View& view = views.back();
+      const Prediction p = predict(viewer, view, model);
+      const Eigen::VectorXd f = contact_force(viewer, view, p);
+      const Eigen::VectorXd motion = channels(view.sample);
+      Eigen::VectorXd row(motion.size() + slots.size() + dof);
+      row << motion, slots.spread(view.sample, f), p.force - p.J.transpose() * f;
       if (!filter) filter.emplace(Smoothing::zero_phase, design, row.size());
       filter->push(row);
     }
@@ -67,9 +124,13 @@ std::vector<Eigen::VectorXd> filter_error(const Viewer& viewer, const RichModel&
       while (at < errors.size() && smooth[at].time < time - near) ++at;
       if (at == errors.size() || std::abs(smooth[at].time - time) > near) continue;
       Sample filtered = views[i - begin].sample;
-      set_channels(row->head(row->size() - dof), filtered);
+      set_channels(row->head(row->size() - slots.size() - dof), filtered);
+      filtered.in_contact = smooth[at].in_contact;
       const View view = viewer.view(std::move(filtered), views[i - begin].elapsed);
-      errors[at] = asked(viewer, view, model) - row->tail(dof);
+      const Prediction p = predict(viewer, view, model);
+      const Eigen::VectorXd f = slots.gather(
+          view.sample, row->segment(row->size() - slots.size() - dof, slots.size()), p.J.rows());
+      errors[at] = p.force - p.J.transpose() * f - row->tail(dof);
     }
     begin = end;
   }

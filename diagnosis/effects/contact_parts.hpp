@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "shapeid/diagnosis/effect.hpp"
+#include "shapeid/reference/contact.hpp"
 
 namespace shapeid::diagnosis {
 
@@ -29,9 +30,7 @@ inline std::optional<Eigen::Index> stance_row(const Robot& robot, const Sample& 
   if (wanted >= sample.in_contact.size() || !sample.in_contact[wanted]) return std::nullopt;
   Eigen::Index row = 0;
   for (std::size_t c = 0; c < wanted; ++c) {
-    const ContactKind kind = robot.contacts[c].kind;
-    if (!sample.in_contact[c]) continue;
-    row += kind == ContactKind::point ? 3 : kind == ContactKind::line ? 5 : 6;
+    if (sample.in_contact[c]) row += reference::force_numbers(robot.contacts[c].kind);
   }
   return row;
 }
