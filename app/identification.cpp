@@ -7,13 +7,11 @@
 #include <vector>
 
 #include "shapeid/app/certificate_text.hpp"
-#include "shapeid/app/limit.hpp"
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
-#include "shapeid/models/problem_json.hpp"
 #include "shapeid/proofs/certificate/certificate_json.hpp"
 #include "shapeid/reference/residual.hpp"
 
@@ -148,7 +146,8 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
 }
 
 void deliver(const Delivery& delivery, const nlohmann::json& document, const std::string& text,
-             const Result& result, const RobotInputs& robot, const MotionInputs& inputs) {
+             const Result& result, const Judgement& judged, const RobotInputs& robot,
+             const MotionInputs& inputs) {
   const std::string json = document.dump(2) + "\n";
   fmt::print("{}", delivery.json ? json : text);
   if (delivery.folder.empty()) return;
@@ -162,17 +161,11 @@ void deliver(const Delivery& delivery, const nlohmann::json& document, const std
     write_file(path, content);
     fmt::print(stderr, "wrote {}\n", path);
   };
-  const reference::DivisionRun& run = result.found.run;
-  const StatedProblem problem = stated_problem(result);
-  const Answer answer{problem_digest(problem), run.solution.m, run.solution.Phi,
-                      run.solution.value.total()};
-  const certificate::Limit limit = limit_of_divisions(problem);
-  const certificate::Certified certified = certificate::certify(problem, answer, {}, limit);
   write("result.json", json);
-  write("problem.json", problem_to_json(problem));
-  write("answer.json", answer_to_json(answer));
-  write("certificate.json", certificate_to_json(certified.proof, limit));
-  fmt::print(stderr, "{}", certified_text(certified));
+  write("problem.json", problem_to_json(judged.problem));
+  write("answer.json", answer_to_json(judged.answer));
+  write("certificate.json", certificate_to_json(judged.certified.proof, judged.evidence));
+  fmt::print(stderr, "{}", certified_text(judged.certified));
   write("identified.urdf", write_urdf(inputs.robot, robot.robot, result.written));
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "shapeid/app/inputs.hpp"
+#include "shapeid/app/judgement.hpp"
 #include "shapeid/app/result.hpp"
 
 namespace shapeid::app {
@@ -32,7 +33,8 @@ struct Delivery {
 /// Prints the result; writes result.json (the document), problem.json, answer.json, their
 /// certificate.json and identified.urdf into the folder, made if it is not there.
 void deliver(const Delivery& delivery, const nlohmann::json& document, const std::string& text,
-             const Result& result, const RobotInputs& robot, const MotionInputs& inputs);
+             const Result& result, const Judgement& judged, const RobotInputs& robot,
+             const MotionInputs& inputs);
 
 void add_delivery_options(CLI::App& verb, Delivery& delivery);
 

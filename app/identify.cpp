@@ -107,8 +107,10 @@ void identify(Options& options) {
 
   options.run.settings.expected_mass = mass;
   const Result result = run_identification(robot, model, options.inputs, options.run);
-  deliver(options.delivery, result_json(result, robot.robot), result_text(result, robot.robot),
-          result, robot, options.inputs);
+  const Judgement judged = judge(result);
+  const std::optional<double>& floor = judged.certified.proof.floor;
+  deliver(options.delivery, result_json(result, floor, robot.robot),
+          result_text(result, floor, robot.robot), result, judged, robot, options.inputs);
 }
 
 }  // namespace

@@ -53,11 +53,13 @@ void load(Options& options) {
   const BodyModel model = region(options, robot.robot);
   options.run.settings.expected_mass = options.expected_mass;
   const Result result = run_identification(robot, model, options.inputs, options.run);
-  nlohmann::json document = result_json(result, robot.robot);
+  const Judgement judged = judge(result);
+  const std::optional<double>& floor = judged.certified.proof.floor;
+  nlohmann::json document = result_json(result, floor, robot.robot);
   document["load"] = load_json(result, robot.robot);
   deliver(options.delivery, document,
-          result_text(result, robot.robot) + load_text(result, robot.robot), result, robot,
-          options.inputs);
+          result_text(result, floor, robot.robot) + load_text(result, robot.robot), result, judged,
+          robot, options.inputs);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "shapeid/app/division_history.hpp"
 #include "shapeid/models/problem_json.hpp"
 #include "shapeid/models/version.hpp"
 
@@ -63,21 +64,6 @@ json masses_json(const reference::DivisionRun& run, const Robot& robot) {
                       {"mass", run.solution.m[static_cast<Eigen::Index>(j)]}});
   }
   return masses;
-}
-
-json history_json(const reference::DivisionRun& run) {
-  json steps = json::array();
-  for (const DivisionStep& step : run.history) {
-    steps.push_back({{"divided", step.divided},
-                     {"criterion", step.criterion},
-                     {"objective_before", step.objective_before},
-                     {"objective_at_split", step.objective_at_split},
-                     {"objective_after", step.objective_after},
-                     {"step", numbers(step.step)},
-                     {"iterations", step.iterations},
-                     {"shapes", step.shapes}});
-  }
-  return steps;
 }
 
 /// A link that weighs this many times what it should is not believed without a word.
@@ -181,7 +167,7 @@ void choose_written_links(Result& result, const Robot& robot, double least_mass)
   }
 }
 
-json result_json(const Result& result, const Robot& robot) {
+json result_json(const Result& result, const std::optional<double>& floor, const Robot& robot) {
   const reference::DivisionRun& run = result.found.run;
   return {{"format", "shapeid-result-1"},
           {"software", fmt::format("shapeid {}", version)},
@@ -198,10 +184,11 @@ json result_json(const Result& result, const Robot& robot) {
           {"objective",
            {{"undivided", result.found.undivided_objective},
             {"data", run.solution.value.data},
-            {"density", run.solution.value.density}}},
+            {"density", run.solution.value.density},
+            {"floor", floor ? json(*floor) : json()}}},
           {"masses", masses_json(run, robot)},
           {"links", links_json(result, robot)},
-          {"divisions", history_json(run)},
+          {"divisions", history_json(run, floor)},
           {"stopped_by", run.stopped_by},
           {"heldout",
            {{"samples", result.heldout.samples},
@@ -213,7 +200,8 @@ json result_json(const Result& result, const Robot& robot) {
           {"notes", result.notes}};
 }
 
-std::string result_text(const Result& result, const Robot& robot) {
+std::string result_text(const Result& result, const std::optional<double>& floor,
+                        const Robot& robot) {
   const reference::DivisionRun& run = result.found.run;
   std::string text = fmt::format(
       "robot {}: {} links, {} joints, {} base\n"
@@ -225,6 +213,7 @@ std::string result_text(const Result& result, const Robot& robot) {
       fitted_seconds(result), result.motion.rate, result.motion.gaps, run.model.shapes.size(),
       run.history.size(), run.stopped_by, result.found.undivided_objective,
       run.solution.value.total(), run.solution.value.density / run.solution.value.total());
+  text += history_text(result.found, floor);
   text += links_text(result, robot);
   text += comparison_text(result.heldout, robot);
   for (const std::string& note : result.notes) text += fmt::format("note: {}\n", note);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,11 @@ struct Result {
 /// ours included, accepts. Adds a note for each link that keeps the given one.
 void choose_written_links(Result& result, const Robot& robot, double least_mass);
 
-[[nodiscard]] nlohmann::json result_json(const Result& result, const Robot& robot);
-[[nodiscard]] std::string result_text(const Result& result, const Robot& robot);
+/// `floor`: of infinitely many divisions, proved; empty: none was.
+[[nodiscard]] nlohmann::json result_json(const Result& result, const std::optional<double>& floor,
+                                         const Robot& robot);
+[[nodiscard]] std::string result_text(const Result& result, const std::optional<double>& floor,
+                                      const Robot& robot);
 
 /// "base force x", ..., then the joints' names: the generalised rows.
 [[nodiscard]] std::vector<std::string> row_names(const Robot& robot);

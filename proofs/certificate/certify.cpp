@@ -47,7 +47,7 @@ class Certifier {
     }
     if (limit.parameters.size() > 0) {
       const auto floor = floor_of_divisions(stated_, limit.parameters, limit.others);
-      if (floor) result_.proof.floor = rounded_down(floor->value);
+      if (floor) result_.proof.floor = rounded_down(*floor);
     }
     return result_;
   }

@@ -15,52 +15,68 @@ bool every_link_has_a_region(const StatedProblem& p) {
   return std::find(has.begin(), has.end(), false) == has.end();
 }
 
-struct LowestPlaces {
-  Rational value;  ///< of all of them; zero: mass nowhere lowers the objective
-  std::vector<Place> places;
+/// What a unit point mass on this link costs, half the slope.
+Quadric cost_on_link(const Vector& g, std::size_t link) {
+  const auto at = g.begin() + static_cast<std::ptrdiff_t>(10 * link);
+  return cost_of_point(Vector(at, at + 10));
+}
+
+/// Half the slope that a kilogram has at least, if places cost `low` at least: zero, or less.
+Rational lowest_of(const Slopes& s, Rational low) {
+  for (const Rational& a : s.a) low = std::min(low, a);
+  return low;
+}
+
+struct Residual {
+  Vector r;
+  Slopes slopes;
 };
 
-LowestPlaces lowest_places(const StatedProblem& p, const Vector& g) {
-  std::vector<std::optional<Lowest>> of_link(g.size() / 10);
-  for (const Region& region : p.regions) {
-    const auto at = static_cast<std::ptrdiff_t>(10 * region.link);
-    const Quadric q = cost_of_point(Vector(g.begin() + at, g.begin() + at + 10));
-    Lowest here = lowest_in(q, region.shape);
-    std::optional<Lowest>& best = of_link[static_cast<std::size_t>(region.link)];
-    if (sgn(here.value) < 0 && (!best || here.value < best->value)) best = std::move(here);
-  }
-  LowestPlaces lowest;
-  for (std::size_t l = 0; l < of_link.size(); ++l) {
-    if (!of_link[l]) continue;
-    const Vector& x = of_link[l]->point;
-    lowest.value = std::min(lowest.value, of_link[l]->value);
-    lowest.places.push_back(
-        {static_cast<Eigen::Index>(l), {x[0].get_d(), x[1].get_d(), x[2].get_d()}});
-  }
-  return lowest;
+Residual residual_at(const ExactProblem& p, const Eigen::VectorXd& Phi, const Eigen::VectorXd& x) {
+  const Vector exact_Phi = exact(Phi);
+  Vector r = p.residual(exact_Phi, settled_columns(p, exact_Phi, exact(x)));
+  Slopes s = slopes(p, r);
+  return {std::move(r), std::move(s)};
+}
+
+/// The bound of the residual t r, t >= 0, is -t^2 rWr + t h: its best t costs nothing to find.
+std::optional<Rational> best_multiple(const ExactProblem& p, const Residual& at,
+                                      const Rational& low) {
+  if (sgn(low) < 0 && !p.mass_bound) return std::nullopt;
+  const auto others = least_of_others(p, at.slopes.c);
+  if (!others) return std::nullopt;
+  Rational h = *others - 2 * dot(products(p.W, at.r), p.F);
+  if (sgn(low) < 0) h += 2 * *p.mass_bound * low;
+  const Rational square = p.data_term(at.r);
+  return sgn(h) > 0 && sgn(square) > 0 ? Rational(h * h / (4 * square)) : Rational(0);
 }
 
 }  // namespace
 
-std::optional<Floor> floor_of_divisions(const StatedProblem& stated, const Eigen::VectorXd& Phi,
-                                        const Eigen::VectorXd& x) {
+std::optional<Rational> floor_of_divisions(const StatedProblem& stated, const Eigen::VectorXd& Phi,
+                                           const Eigen::VectorXd& x) {
   if (!every_link_has_a_region(stated)) return std::nullopt;
   const ExactProblem p(stated);
-  const Vector exact_Phi = exact(Phi);
-  const Vector r = p.residual(exact_Phi, settled_columns(p, exact_Phi, exact(x)));
-  const Slopes s = slopes(p, r);
-  const LowestPlaces lowest = lowest_places(stated, s.g);
-  if (sgn(lowest.value) < 0 && !p.mass_bound) return std::nullopt;
-  const auto others = least_of_others(p, s.c);
-  if (!others) return std::nullopt;
+  const Residual at = residual_at(p, Phi, x);
+  Rational low;
+  for (const Region& region : stated.regions) {
+    const Quadric cost = cost_on_link(at.slopes.g, static_cast<std::size_t>(region.link));
+    low = std::min(low, lowest_in(cost, region.shape).value);
+  }
+  return best_multiple(p, at, lowest_of(at.slopes, low));
+}
 
-  // The bound of the residual t r, t >= 0, is -t^2 rWr + t h: its best t costs nothing to find.
-  Rational h = *others - 2 * dot(products(p.W, r), p.F);
-  if (sgn(lowest.value) < 0) h += 2 * *p.mass_bound * lowest.value;
-  const Rational square = p.data_term(r);
-  Floor floor{0, lowest.places};
-  if (sgn(h) > 0 && sgn(square) > 0) floor.value = h * h / (4 * square);
-  return floor;
+std::optional<Rational> floor_of_bodies(const StatedProblem& stated, const Eigen::VectorXd& Phi,
+                                        const Eigen::VectorXd& x) {
+  const ExactProblem p(stated);
+  const Residual at = residual_at(p, Phi, x);
+  Rational low;
+  for (std::size_t link = 0; link < at.slopes.g.size() / 10; ++link) {
+    const auto here = lowest_in_space(cost_on_link(at.slopes.g, link));
+    if (!here) return std::nullopt;
+    low = std::min(low, *here);
+  }
+  return best_multiple(p, at, lowest_of(at.slopes, low));
 }
 
 }  // namespace shapeid::certificate

@@ -34,4 +34,23 @@ Vector solve(std::vector<Vector> A, Vector b) {
   return x;
 }
 
+Sign sign_of_form(std::vector<Vector> A) {
+  Sign found = Sign::positive;
+  for (std::size_t k = 0; k < A.size(); ++k) {
+    if (sgn(A[k][k]) < 0) return Sign::indefinite;
+    if (sgn(A[k][k]) == 0) {  // then the rest of its row must be zero
+      for (std::size_t j = k + 1; j < A.size(); ++j) {
+        if (sgn(A[k][j]) != 0) return Sign::indefinite;
+      }
+      found = Sign::nonnegative;
+      continue;
+    }
+    for (std::size_t i = k + 1; i < A.size(); ++i) {
+      const Rational factor = A[i][k] / A[k][k];
+      for (std::size_t j = k; j < A.size(); ++j) A[i][j] -= factor * A[k][j];
+    }
+  }
+  return found;
+}
+
 }  // namespace shapeid::certificate

@@ -3,10 +3,12 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "shapeid/proofs/certificate/linear.hpp"
@@ -15,6 +17,12 @@ namespace shapeid::certificate {
 namespace {
 
 using Corners = std::vector<Vector>;
+
+/// Triangles over corners that they share, counter-clockwise seen from outside.
+struct Surface {
+  Corners corners;
+  std::vector<std::array<std::size_t, 3>> triangles;
+};
 
 /// x = origin + sum_k y_k directions_k.
 struct Map {
@@ -50,21 +58,10 @@ Quadric seen_through(const Quadric& q, const Map& map) {
   return p;
 }
 
-bool positive_definite(std::vector<Vector> A) {
-  for (std::size_t k = 0; k < A.size(); ++k) {
-    if (sgn(A[k][k]) <= 0) return false;
-    for (std::size_t i = k + 1; i < A.size(); ++i) {
-      const Rational factor = A[i][k] / A[k][k];
-      for (std::size_t j = k; j < A.size(); ++j) A[i][j] -= factor * A[k][j];
-    }
-  }
-  return true;
-}
-
 /// The minimum over all of space, if A is positive definite. Where it is not, a minimum over a
 /// compact solid is also taken on its boundary.
 std::optional<Lowest> lowest_anywhere(const Quadric& q) {
-  if (!positive_definite(q.A)) return std::nullopt;
+  if (sign_of_form(q.A) != Sign::positive) return std::nullopt;
   Vector right;
   for (const Rational& b : q.b) right.emplace_back(-b / 2);
   const Vector x = solve(q.A, right);
@@ -128,38 +125,76 @@ std::vector<Vector> polygon_around(const Rational& radius) {
   return corners;
 }
 
-Corners prism_face(const std::vector<Vector>& polygon, std::size_t a, std::size_t b,
-                   const Rational& z) {
-  return {{0, 0, z}, {polygon[a][0], polygon[a][1], z}, {polygon[b][0], polygon[b][1], z}};
-}
-
-/// All triangles of the prism's surface.
-std::vector<Corners> prism(const Rational& radius, const Rational& lower, const Rational& upper) {
-  const std::vector<Vector> polygon = polygon_around(radius);
-  std::vector<Corners> triangles;
-  for (std::size_t a = 0; a < polygon.size(); ++a) {
-    const std::size_t b = (a + 1) % polygon.size();
-    const Corners low = prism_face(polygon, a, b, lower), high = prism_face(polygon, a, b, upper);
-    triangles.push_back(low);
-    triangles.push_back(high);
-    triangles.push_back({low[1], low[2], high[1]});
-    triangles.push_back({low[2], high[1], high[2]});
+/// The surface of the prism over such a polygon.
+Surface prism(const Rational& radius, const Rational& lower, const Rational& upper) {
+  const Corners polygon = polygon_around(radius);
+  const std::size_t n = polygon.size();
+  Surface surface;
+  for (const Rational& z : {lower, upper}) {
+    for (const Vector& corner : polygon) surface.corners.push_back({corner[0], corner[1], z});
   }
-  return triangles;
+  for (std::size_t k = 1; k + 1 < n; ++k) {
+    surface.triangles.push_back({0, k + 1, k});
+    surface.triangles.push_back({n, n + k, n + k + 1});
+  }
+  for (std::size_t a = 0; a < n; ++a) {
+    const std::size_t b = (a + 1) % n;
+    surface.triangles.push_back({a, b, n + b});
+    surface.triangles.push_back({a, n + b, n + a});
+  }
+  return surface;
 }
 
-/// Over the solid that the triangles enclose, or below: a minimum in the inside is not asked
-/// whether it lies there.
-Lowest lowest_within(const Quadric& q, const std::vector<Corners>& surface) {
-  std::optional<Lowest> best = lowest_anywhere(q);
-  if (best) return *best;
-  for (const Corners& triangle : surface) keep_lower(best, lowest_on_simplex(q, triangle));
+Surface surface_of(const Polyhedron& s) {
+  Surface surface;
+  for (const Eigen::Vector3d& vertex : s.vertices) surface.corners.push_back(exact3(vertex));
+  for (const auto& f : s.faces) {
+    surface.triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      surface.triangles.back()[i] = static_cast<std::size_t>(f[i]);
+    }
+  }
+  return surface;
+}
+
+/// Where q is stationary on the flat that the corners span, if it has its minimum of the flat there
+/// and that lies between the corners.
+std::optional<Lowest> lowest_between(const Quadric& q, const Corners& corners) {
+  Map map{corners[0], {}};
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    map.directions.push_back(corners[k]);
+    for (std::size_t i = 0; i < corners[0].size(); ++i) map.directions.back()[i] -= corners[0][i];
+  }
+  const auto lowest = lowest_anywhere(seen_through(q, map));
+  if (!lowest || sum(lowest->point) > 1) return std::nullopt;
+  for (const Rational& y : lowest->point) {
+    if (sgn(y) < 0) return std::nullopt;
+  }
+  return moved(*lowest, map);
+}
+
+/// Every corner, edge and triangle once.
+Lowest lowest_on(const Quadric& q, const Surface& surface) {
+  std::optional<Lowest> best;
+  for (const Vector& corner : surface.corners) keep_lower(best, {q.at(corner), corner});
+  std::set<std::pair<std::size_t, std::size_t>> edges;
+  for (const auto& t : surface.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) edges.insert(std::minmax(t[i], t[(i + 1) % 3]));
+    auto lowest =
+        lowest_between(q, {surface.corners[t[0]], surface.corners[t[1]], surface.corners[t[2]]});
+    if (lowest) keep_lower(best, std::move(*lowest));
+  }
+  for (const auto& [a, b] : edges) {
+    auto lowest = lowest_between(q, {surface.corners[a], surface.corners[b]});
+    if (lowest) keep_lower(best, std::move(*lowest));
+  }
   return *best;
 }
 
-bool inside(const std::vector<Corners>& surface, const Vector& x) {
-  for (const Corners& t : surface) {
-    const Vector &a = t[0], &b = t[1], &c = t[2];
+/// Whether x lies inside a convex surface, or on it.
+bool inside(const Surface& surface, const Vector& x) {
+  for (const auto& t : surface.triangles) {
+    const Vector &a = surface.corners[t[0]], &b = surface.corners[t[1]], &c = surface.corners[t[2]];
     Vector u(3), v(3), w(3);
     for (std::size_t i = 0; i < 3; ++i) {
       u[i] = b[i] - a[i];
@@ -173,6 +208,13 @@ bool inside(const std::vector<Corners>& surface, const Vector& x) {
   return true;
 }
 
+/// Of the solid inside a convex surface. Inside any other the minimum over all of space counts
+/// wherever it lies: nothing in the solid is lower.
+Lowest lowest_within(const Quadric& q, const Surface& surface, bool convex) {
+  const auto middle = lowest_anywhere(q);
+  return middle && (!convex || inside(surface, middle->point)) ? *middle : lowest_on(q, surface);
+}
+
 struct LowestInShape {
   const Quadric& q;
 
@@ -183,43 +225,18 @@ struct LowestInShape {
   }
   Lowest operator()(const Cylinder& s) const {
     const Map map = map_of(s.frame);
-    const Quadric p = seen_through(q, map);
-    const Rational radius = exact(s.cell.upper.x());
-    const auto middle = lowest_anywhere(p);
-    if (middle && contains_in_prism(s.cell, radius, middle->point)) return moved(*middle, map);
-    std::optional<Lowest> best;
-    for (const Corners& t : prism(radius, exact(s.cell.lower.z()), exact(s.cell.upper.z()))) {
-      keep_lower(best, lowest_on_simplex(p, t));
-    }
-    return moved(*best, map);
+    const Surface around =
+        prism(exact(s.cell.upper.x()), exact(s.cell.lower.z()), exact(s.cell.upper.z()));
+    return moved(lowest_within(seen_through(q, map), around, true), map);
   }
   Lowest operator()(const Ellipsoid& s) const {
     const Map map = map_of(s.frame);
     return moved(lowest_in_ball(seen_through(q, map), exact(s.cell.upper.x())), map);
   }
-  Lowest operator()(const Polyhedron& s) const {
-    std::vector<Corners> surface;
-    for (const auto& f : s.faces) {
-      Corners corners;
-      for (const int i : f) corners.push_back(exact3(s.vertices[static_cast<std::size_t>(i)]));
-      surface.push_back(corners);
-    }
-    if (!s.convex) return lowest_within(q, surface);
-    const auto middle = lowest_anywhere(q);
-    if (middle && inside(surface, middle->point)) return *middle;
-    std::optional<Lowest> best;
-    for (const Corners& t : surface) keep_lower(best, lowest_on_simplex(q, t));
-    return *best;
-  }
+  Lowest operator()(const Polyhedron& s) const { return lowest_within(q, surface_of(s), s.convex); }
   Lowest operator()(const Point& s) const {
     const Vector x = exact3(s.position);
     return {q.at(x), x};
-  }
-
-  static bool contains_in_prism(const Cell& cell, const Rational& radius, const Vector& x) {
-    const Rational corner = radius * exact(1.01);  // beyond the prism's corners
-    return x[0] * x[0] + x[1] * x[1] <= corner * corner && x[2] >= exact(cell.lower.z()) &&
-           x[2] <= exact(cell.upper.z());
   }
 };
 
@@ -232,6 +249,18 @@ Quadric cost_of_point(const Vector& g) {
   return {{{g[7] + g[9], xy, xz}, {xy, g[4] + g[9], yz}, {xz, yz, g[4] + g[7]}},
           {g[1], g[2], g[3]},
           g[0]};
+}
+
+std::optional<Rational> lowest_in_space(const Quadric& q) {
+  // Homogeneous: (x, 1)^T [A, b/2; b^T/2, c] (x, 1).
+  std::vector<Vector> form = q.A;
+  for (std::size_t i = 0; i < q.size(); ++i) form[i].emplace_back(q.b[i] / 2);
+  form.emplace_back();
+  for (const Rational& b : q.b) form.back().emplace_back(b / 2);
+  form.back().push_back(q.c);
+  if (sign_of_form(std::move(form)) != Sign::indefinite) return Rational(0);
+  const auto lowest = lowest_anywhere(q);
+  return lowest ? std::optional(lowest->value) : std::nullopt;
 }
 
 Lowest lowest_in_box(const Quadric& q, const Vector& lower, const Vector& upper) {
@@ -253,27 +282,6 @@ Lowest lowest_in_box(const Quadric& q, const Vector& lower, const Vector& upper)
           best,
           moved(lowest_in_box(seen_through(q, map), without(lower, i), without(upper, i)), map));
     }
-  }
-  return *best;
-}
-
-Lowest lowest_on_simplex(const Quadric& q, const std::vector<Vector>& corners) {
-  if (corners.size() == 1) return {q.at(corners[0]), corners[0]};
-  Map map{corners[0], {}};
-  for (std::size_t k = 1; k < corners.size(); ++k) {
-    map.directions.push_back(corners[k]);
-    for (std::size_t i = 0; i < corners[0].size(); ++i) map.directions.back()[i] -= corners[0][i];
-  }
-  if (const auto lowest = lowest_anywhere(seen_through(q, map))) {
-    bool is_inside = sum(lowest->point) <= 1;
-    for (const Rational& y : lowest->point) is_inside = is_inside && sgn(y) >= 0;
-    if (is_inside) return moved(*lowest, map);
-  }
-  std::optional<Lowest> best;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    std::vector<Vector> others = corners;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    keep_lower(best, lowest_on_simplex(q, others));
   }
   return *best;
 }

@@ -1,6 +1,7 @@
 // A quadratic polynomial of three coordinates, and the lowest it gets on solids.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "shapeid/models/shape.hpp"
@@ -28,11 +29,12 @@ struct Lowest {
   Vector point;
 };
 
+/// A value of at most zero that the polynomial goes below nowhere in space: zero, or its minimum if
+/// A is positive definite. Empty if neither holds.
+[[nodiscard]] std::optional<Rational> lowest_in_space(const Quadric& q);
+
 /// Exactly, by the stationary points of all faces of the box.
 [[nodiscard]] Lowest lowest_in_box(const Quadric& q, const Vector& lower, const Vector& upper);
-
-/// Exactly, on the simplex with these corners (two: an edge, three: a triangle).
-[[nodiscard]] Lowest lowest_on_simplex(const Quadric& q, const std::vector<Vector>& corners);
 
 /// Below the polynomial on the ball of this radius about the origin, by the S-lemma: with the best
 /// multiplier (found in doubles, evaluated exactly) it is the minimum.

@@ -95,6 +95,47 @@ TEST(Verbs, FromSimulationToAnIdentifiedUrdf) {
   EXPECT_TRUE(proof["optimum_known"].get<bool>());
   EXPECT_LT(proof["floor"].get<double>(), answer.objective);
   EXPECT_GT(proof["floor"].get<double>(), 0.9 * answer.objective);
+
+  // Every division says how far above that floor it is: less and less, and never below.
+  EXPECT_EQ(result["objective"]["floor"], proof["floor"]);
+  double above = result["objective"]["undivided"].get<double>() - proof["floor"].get<double>();
+  for (const auto& division : result["divisions"]) {
+    const double now = division["above_floor"].get<double>();
+    EXPECT_EQ(now, division["objective_after"].get<double>() - proof["floor"].get<double>());
+    EXPECT_LE(now, above);
+    above = now;
+  }
+  EXPECT_GT(above, 0.0);
+}
+
+// Without --json the same stands in a table, a line a division.
+TEST(Verbs, EveryDivisionOfALoadShowsItsDistanceFromTheFloor) {
+  ASSERT_EQ(shapeid("simulate --seconds 4 --out loaded.csv.gz --load 1.5 0.1 -0.04 0.08").status,
+            0);
+  const CommandRun found = shapeid(fmt::format(
+      "load --robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml --log loaded.csv.gz "
+      "--area base -0.2 0.2 -0.1 0.1 0.06 0.1 --divisions 4 --eps 0",
+      robots));
+  ASSERT_EQ(found.status, 0) << found.err;
+  std::istringstream lines(found.out);
+  std::string line;
+  while (std::getline(lines, line) && line.find("goes below") == std::string::npos) {
+  }
+  ASSERT_TRUE(lines) << found.out;
+  std::getline(lines, line);
+  EXPECT_NE(line.find("above floor"), std::string::npos) << line;
+  double before = std::numeric_limits<double>::infinity();
+  for (int division = 0; division <= 4; ++division) {
+    int number = 0, shapes = 0;
+    double objective = 0.0, above = 0.0;
+    std::getline(lines, line);
+    std::istringstream(line) >> number >> shapes >> objective >> above;
+    EXPECT_EQ(number, division) << line;
+    EXPECT_EQ(shapes, division + 1) << line;
+    EXPECT_GT(above, 0.0) << line;
+    EXPECT_LE(above, before) << line;
+    before = above;
+  }
 }
 
 TEST(Verbs, OnlinePrintsALinePerWindow) {
