@@ -40,7 +40,8 @@ void compare_numbers(const std::string& name, const json& expected, const json& 
     return;
   }
   for (std::size_t i = 0; i < observed->size(); ++i) {
-    const double wanted = expected[i].get<double>(), allowed = within[i].get<double>();
+    const double wanted = expected[i].get<double>(),
+                 allowed = (within.is_array() ? within[i] : within).get<double>();
     if (std::abs((*observed)[i] - wanted) <= allowed) continue;
     found.push_back(fmt::format("{}[{}]: observed {:.17g}, expected {:.17g} within {:.1e}", name, i,
                                 (*observed)[i], wanted, allowed));

@@ -5,14 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include <array>
-#include <cmath>
 #include <map>
 #include <string>
-#include <utility>
-#include <vector>
-
-#include "json.hpp"
 
 namespace example {
 
@@ -125,54 +119,5 @@ inline Eigen::VectorXd write_body(const std::string& name, const Sigma& given) {
 }
 
 inline Eigen::VectorXd parameters(const Sigma& given) { return write_body("shapeid", given); }
-
-/// A uniform solid of unit mass.
-struct Solid {
-  double volume;
-  Sigma moments;
-};
-
-/// Signed tetrahedra between the triangles and the origin.
-inline Solid closed_surface(const std::vector<Eigen::Vector3d>& p,
-                            const std::vector<std::array<std::size_t, 3>>& faces) {
-  double volume = 0.0;
-  Sigma sum = Sigma::Zero();
-  for (const auto& face : faces) {
-    const Eigen::Vector3d &a = p[face[0]], &b = p[face[1]], &c = p[face[2]], g = a + b + c;
-    const double V = a.dot(b.cross(c)) / 6.0;
-    const Eigen::Matrix3d S =
-        g * g.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose();
-    volume += V;
-    sum += V * body(1.0, g / 4.0, S / 20.0);
-  }
-  return {std::abs(volume), sum / volume};
-}
-
-inline Solid solid(const Json& shape) {
-  const std::string& kind = shape["kind"].text;
-  const Eigen::Matrix4d T = pose(shape["xyz"].numbers(), shape["rpy"].numbers());
-  const auto stretched = [&](const Eigen::Vector3d& sides, const Eigen::Vector3d& squares,
-                             double volume) {
-    const Eigen::Vector3d S = squares.cwiseProduct(sides.cwiseAbs2());
-    return Solid{volume * sides.prod(),
-                 mapped(T, body(1.0, Eigen::Vector3d::Zero(), S.asDiagonal()))};
-  };
-  constexpr double pi = 3.14159265358979323846;
-  if (kind == "cuboid") {
-    return stretched(shape["size"].numbers(), Eigen::Vector3d::Constant(1.0 / 12.0), 1.0);
-  }
-  if (kind == "cylinder") {
-    const double r = shape["radius"].number();
-    return stretched({r, r, shape["length"].number()}, {0.25, 0.25, 1.0 / 12.0}, pi);
-  }
-  if (kind == "ellipsoid") {
-    return stretched(shape["semi_axes"].numbers(), Eigen::Vector3d::Constant(0.2), 4.0 / 3.0 * pi);
-  }
-  std::vector<Eigen::Vector3d> corners;
-  for (const Json& corner : shape["vertices"].items) corners.emplace_back(corner.numbers());
-  Solid made = closed_surface(corners, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
-  made.moments = mapped(T, made.moments);
-  return made;
-}
 
 }  // namespace example

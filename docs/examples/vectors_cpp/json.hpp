@@ -88,6 +88,10 @@ inline std::string list_text(const Eigen::VectorXd& v) {
 inline std::string member_text(const std::string& name, const Eigen::VectorXd& v) {
   return '"' + name + "\":" + list_text(v);
 }
+inline std::string member_text(const std::string& name, const std::vector<double>& list) {
+  const auto size = static_cast<Eigen::Index>(list.size());
+  return member_text(name, Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(list.data(), size)));
+}
 
 /// Row by row.
 inline Eigen::VectorXd by_rows(const Eigen::MatrixXd& M) { return M.reshaped<Eigen::RowMajor>(); }

@@ -1,10 +1,12 @@
 // An implementation of its own, small and plain, for `shapeid vectors --check`: Eigen for the
 // mathematics and nothing else. A line of JSON comes in, {"id", "kind", "input"}; a line goes out.
 // Build: g++ -std=c++20 -O2 -I /usr/include/eigen3 main.cpp
+#include <Eigen/Eigenvalues>
+
 #include <iostream>
 
-#include "bodies.hpp"
-#include "masses.hpp"
+#include "divisions.hpp"
+#include "robots.hpp"
 
 namespace example {
 namespace {
@@ -12,6 +14,21 @@ namespace {
 std::string convert(const Json& given) {
   const Sigma read = read_body(given["from"].text, given["numbers"].numbers());
   return member_text("numbers", write_body(given["to"].text, read));
+}
+
+/// The pseudo-inertia, in units of the body's own mass and size, has no negative eigenvalue.
+std::string existence(const Json& given) {
+  const Sigma made = read_body("shapeid", given["parameters"].numbers());
+  const double mass = made(3, 3), squares = made.topLeftCorner<3, 3>().trace();
+  bool exists = made.isZero();
+  if (mass > 0.0 && squares > 0.0) {
+    Eigen::Vector4d units = Eigen::Vector4d::Constant(1.0 / std::sqrt(squares));
+    units[3] = 1.0 / std::sqrt(mass);
+    const Sigma scaled = units.asDiagonal() * made * units.asDiagonal();
+    constexpr double rounding = 1e-12;
+    exists = scaled.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() >= -rounding;
+  }
+  return std::string("\"exists\":") + (exists ? "true" : "false");
 }
 
 std::string moments(const Json& given) {
@@ -23,36 +40,13 @@ std::string moments(const Json& given) {
 
 /// Both parts keep the density: volume, mass, unit parameters.
 std::string division(const Json& given) {
-  const int axis = given["axis"].integer();
   const double fraction = given["fraction"].number(), mass = given["mass"].number();
-  const Eigen::Vector3d size = given["size"].numbers();
-  const Eigen::Matrix4d T = pose(given["xyz"].numbers(), given["rpy"].numbers());
+  const auto [below, above] = cut(cell(given["shape"]), given["axis"].integer(), fraction);
+  const Solid first = solid(below), second = solid(above);
   Eigen::VectorXd parts(24);
-  for (int i = 0; i < 2; ++i) {
-    const double share = i == 0 ? fraction : 1.0 - fraction;
-    Eigen::Vector3d part = size, centre = Eigen::Vector3d::Zero();
-    part[axis] *= share;
-    centre[axis] = (i == 0 ? -0.5 : 0.5) * (size[axis] - part[axis]);
-    const Eigen::Matrix3d S = (part.cwiseAbs2() / 12.0).asDiagonal();
-    const Sigma own = body(1.0, Eigen::Vector3d::Zero(), S);
-    const Sigma placed = mapped(T * pose(centre, Eigen::Vector3d::Zero()), own);
-    parts.segment(12 * i, 12) << part.prod(), mass * share, parameters(placed);
-  }
+  parts << first.volume, mass * fraction, parameters(first.moments), second.volume,
+      mass * (1.0 - fraction), parameters(second.moments);
   return member_text("parts", parts);
-}
-
-/// Force and moment about the moving origin, one column a parameter.
-Eigen::MatrixXd body_rows(const Eigen::Vector3d& omega, const Eigen::Vector3d& alpha,
-                          const Eigen::Vector3d& a) {
-  Eigen::MatrixXd Y(6, 10);
-  for (int j = 0; j < 10; ++j) {
-    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(10, j);
-    const Eigen::Vector3d h = unit.segment<3>(1);
-    const Eigen::Matrix3d I = read_tensor(order_named("shapeid"), unit.tail(6));
-    Y.col(j).head<3>() = unit[0] * a + alpha.cross(h) + omega.cross(omega.cross(h));
-    Y.col(j).tail<3>() = I * alpha + omega.cross(I * omega) + h.cross(a);
-  }
-  return Y;
 }
 
 std::string regressor(const Json& given) {
@@ -61,23 +55,63 @@ std::string regressor(const Json& given) {
                                                given["specific_force"].numbers())));
 }
 
-/// [Y F]^T W^(1/2) Q2 Q2^T W^(1/2) [Y F], with Q2 from the QR of W^(1/2) J^T.
+std::string robot(const Json& given) {
+  const auto motions = link_motions(given["robot"], given["sample"]);
+  return member_text("rows", by_rows(robot_rows(motions))) + "," +
+         member_text("jacobian", by_rows(contact_rows(given["robot"], motions)));
+}
+
+/// [Y F]^T W^(1/2) Q2 Q2^T W^(1/2) [Y F]: no basis has to be agreed upon.
 std::string projection(const Json& given) {
-  const Eigen::VectorXd roots = given["weight"].numbers().cwiseSqrt();
   const Eigen::MatrixXd Y = given["Y"].matrix();
   Eigen::MatrixXd YF(Y.rows(), Y.cols() + 1);
   YF << Y, given["F"].numbers();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(roots.asDiagonal() *
-                                                 given["J"].matrix().transpose());
-  qr.setThreshold(1e-12);
-  const Eigen::MatrixXd turned = qr.householderQ().adjoint() * (roots.asDiagonal() * YF);
-  const Eigen::MatrixXd rest = turned.bottomRows(Y.rows() - qr.rank());
-  const Eigen::VectorXd rank = Eigen::VectorXd::Constant(1, static_cast<double>(qr.rank()));
-  return member_text("gram", by_rows(rest.transpose() * rest)) + "," + member_text("rank", rank);
+  const FreeRows rows = without_forces(YF, given["J"].matrix(), given["weight"].numbers());
+  return member_text("gram", by_rows(rows.YF.transpose() * rows.YF)) + "," +
+         member_text("rank", Eigen::VectorXd::Constant(1, static_cast<double>(rows.rank)));
 }
 
 std::string masses(const Json& given) {
   return member_text("masses", minimiser(mass_problem(given)));
+}
+
+std::string run(const Json& given) {
+  std::vector<SoughtShape> shapes;
+  for (const Json& shape : given["shapes"].items) {
+    shapes.push_back({shape["link"].integer(), cell(shape)});
+  }
+  const Run found =
+      divided(given["Y"].matrix(), given["F"].numbers(), given["W"].numbers(), shapes, given);
+  return member_text("divided", found.places) + "," + member_text("masses", found.masses) + "," +
+         member_text("objectives", found.objectives) + "," + member_text("parameters", found.Phi);
+}
+
+/// Every link is known; one carries a load somewhere in a box.
+std::string load(const Json& given) {
+  const Json &machine = given["robot"], &area = given["area"];
+  const Eigen::Index at = 10 * area["link"].integer();
+  const Eigen::VectorXd known = given["parameters"].numbers();
+  Eigen::MatrixXd YF(0, 11);
+  for (const Json& sample : given["samples"].items) {
+    const auto motions = link_motions(machine, sample);
+    const Eigen::MatrixXd Y = robot_rows(motions);
+    const Eigen::VectorXd tau = sample["tau"].numbers();
+    Eigen::MatrixXd both(Y.rows(), 11);
+    both << Y.middleCols<10>(at), -Y * known;
+    both.col(10).tail(tau.size()) += tau;
+    const FreeRows rows =
+        without_forces(both, contact_rows(machine, motions), given["weight"].numbers());
+    YF.conservativeResize(YF.rows() + rows.YF.rows(), Eigen::NoChange);
+    YF.bottomRows(rows.YF.rows()) = rows.YF;
+  }
+  const Cell box{"cuboid", area["lower"].numbers(), area["upper"].numbers(),
+                 Eigen::Vector3d::Ones(), pose(area["xyz"].numbers(), area["rpy"].numbers())};
+  const Run found =
+      divided(YF.leftCols<10>(), YF.col(10), Eigen::VectorXd::Ones(YF.rows()), {{0, box}}, given);
+  Eigen::Vector4d place = found.Phi.head<4>();
+  if (place[0] > 0.0) place.tail<3>() /= place[0];
+  return member_text("divided", found.places) + "," + member_text("mass_and_centre", place) + "," +
+         member_text("objective", {found.objectives.back()});
 }
 
 /// Feasible, honest about itself, and no farther above the optimum than `gap` allows.
@@ -103,9 +137,12 @@ std::string certify(const Json& given) {
 std::string answer(const std::string& kind, const Json& input) {
   using Answer = std::string (*)(const Json&);
   static const std::map<std::string, Answer> answers = {
-      {"convert", convert},      {"moments", moments}, {"division", division},
-      {"regressor", regressor},  {"masses", masses},   {"certify", certify},
-      {"projection", projection}};
+      {"convert", convert},     {"existence", existence},
+      {"moments", moments},     {"division", division},
+      {"regressor", regressor}, {"robot", robot},
+      {"masses", masses},       {"run", run},
+      {"load", load},           {"projection", projection},
+      {"certify", certify}};
   const auto found = answers.find(kind);
   return found == answers.end() ? "" : found->second(input);
 }

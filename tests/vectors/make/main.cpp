@@ -19,10 +19,17 @@ int main(int argc, char** argv) {
   const std::string folder = argv[1];
   using Maker = std::function<nlohmann::json(test::Draw&)>;
   const std::vector<std::pair<std::string, Maker>> kinds = {
-      {"convert", vectors::convert_cases},     {"moments", vectors::moments_cases},
-      {"regressor", vectors::regressor_cases}, {"projection", vectors::projection_cases},
-      {"masses", vectors::masses_cases},       {"division", vectors::division_cases},
-      {"certify", vectors::certify_cases}};
+      {"convert", vectors::convert_cases},
+      {"moments", vectors::moments_cases},
+      {"regressor", vectors::regressor_cases},
+      {"projection", vectors::projection_cases},
+      {"masses", vectors::masses_cases},
+      {"division", vectors::division_cases},
+      {"certify", vectors::certify_cases},
+      {"existence", vectors::existence_cases},
+      {"robot", vectors::robot_cases},
+      {"run", vectors::run_cases},
+      {"load", vectors::load_cases}};
   nlohmann::json index = {{"format", "shapeid-vectors-1"},
                           {"made_by", "tests/vectors/make"},
                           {"flags", vectors::flags()},

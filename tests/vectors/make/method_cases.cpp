@@ -1,8 +1,10 @@
-// Cases of the method: projection, masses, divisions, and answers to be judged.
+// Cases of the method: projection, masses, and answers to be judged.
+#include <Eigen/LU>
+
+#include <cmath>
 #include <string>
 
 #include "shapeid/models/problem_json.hpp"
-#include "shapeid/models/shape.hpp"
 #include "shapeid/models/strict_json.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 #include "shapeid/reference/projection.hpp"
@@ -13,11 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-Eigen::MatrixXd drawn_matrix(test::Draw& draw, Eigen::Index rows, Eigen::Index columns) {
-  Eigen::MatrixXd M(rows, columns);
-  for (double& x : M.reshaped()) x = draw.sign();
-  return M;
-}
+/// Above the optimum, relative to the objective of no mass.
+constexpr double accepted_gap = 1e-9;
 
 /// A trunk's load of 1 kg in a few cuboids.
 StatedProblem drawn_problem(test::Draw& draw, const Eigen::Vector3i& counts, double noise) {
@@ -32,10 +31,32 @@ StatedProblem drawn_problem(test::Draw& draw, const Eigen::Vector3i& counts, dou
   return p;
 }
 
+/// Forces upward, as of something lighter than nothing: any mass makes it worse.
+StatedProblem drawn_without_mass(test::Draw& draw) {
+  while (true) {
+    StatedProblem p = drawn_problem(draw, {2, 2, 1}, 0.05);
+    p.masses.F *= -1.0;
+    if (gradient(p.masses, Eigen::VectorXd::Zero(4)).minCoeff() > 0.0) return p;
+  }
+}
+
+/// Another link whose body moves its own way in the same rows.
+void append_link(MassProblem& p, const MassProblem& other) {
+  const Eigen::Index rows = p.Y.rows(), shapes = p.shapes(), added = other.shapes();
+  p.Y.conservativeResize(rows, p.Y.cols() + 10);
+  p.Y.rightCols<10>() = other.Y;
+  p.F += other.F;
+  p.U.conservativeResizeLike(Eigen::MatrixXd::Zero(p.U.rows() + 10, shapes + added));
+  p.U.bottomRightCorner(10, added) = other.U;
+  p.V.conservativeResize(shapes + added);
+  p.V.tail(added) = other.V;
+  p.mass_bound += other.mass_bound;
+}
+
 json masses_case(const StatedProblem& p, const json& flags) {
   return {{"flags", flags},
           {"input", json::parse(problem_to_json(p))},
-          {"expected", {{"certified_gap", 1e-9}}}};
+          {"expected", {{"certified_gap", accepted_gap}}}};
 }
 
 Answer answer_of(const StatedProblem& p, const Eigen::VectorXd& m) {
@@ -48,7 +69,7 @@ json certify_case(const StatedProblem& p, const Answer& answer, bool accepted,
           {"input",
            {{"problem", json::parse(problem_to_json(p))},
             {"answer", json::parse(answer_to_json(answer))},
-            {"gap", 1e-9}}},
+            {"gap", accepted_gap}}},
           {"expected", {{"accepted", accepted}}}};
 }
 
@@ -56,14 +77,21 @@ json certify_case(const StatedProblem& p, const Answer& answer, bool accepted,
 
 json projection_cases(test::Draw& draw) {
   json cases = json::array();
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < 11; ++i) {
     const Eigen::Index rows = 8, contacts = 3;
     const Eigen::MatrixXd Y = drawn_matrix(draw, rows, 10);
     Eigen::MatrixXd J = drawn_matrix(draw, contacts, rows);
     json flags = json::array();
-    if (i % 3 == 1) {
+    if (i < 9 && i % 3 == 1) {
       J.row(2) = 2.0 * J.row(0);  // a contact named twice, in other units
       flags.push_back("RankDeficientJacobian");
+    }
+    // Of J, over the smallest singular value: what roundings of the basis grow by.
+    double condition = 100.0;
+    if (i >= 9) {
+      J.row(2) = J.row(0) + 1e-6 * J.row(2);
+      condition = 1e8;
+      flags.push_back("NearlySingular");
     }
     Eigen::VectorXd weight = Eigen::VectorXd::Ones(rows);
     if (i >= 3) {
@@ -75,18 +103,16 @@ json projection_cases(test::Draw& draw) {
     YF << free.Y, free.F;
     const Eigen::MatrixXd gram = YF.transpose() * YF;
     const Eigen::VectorXd expected = gram.reshaped<Eigen::RowMajor>();
-    const double size = weight.maxCoeff() * static_cast<double>(rows);
-    cases.push_back(
-        {{"flags", flags},
-         {"input",
-          {{"Y", matrix_json(Y)},
-           {"F", vector_json(F)},
-           {"J", matrix_json(J)},
-           {"weight", vector_json(weight)}}},
-         {"expected", {{"gram", vector_json(expected)}, {"rank", {free.rank}}}},
-         {"within",
-          {{"gram", vector_json(Eigen::VectorXd::Constant(121, forgiven * size * 100.0))},
-           {"rank", {0.0}}}}});
+    const double size = condition * weight.maxCoeff() * static_cast<double>(rows);
+    json made = number_case({{"Y", matrix_json(Y)},
+                             {"F", vector_json(F)},
+                             {"J", matrix_json(J)},
+                             {"weight", vector_json(weight)}},
+                            "gram", expected, size);
+    made["flags"] = flags;
+    made["expected"]["rank"] = {free.rank};
+    made["within"]["rank"] = 0.0;
+    cases.push_back(made);
   }
   return cases;
 }
@@ -109,41 +135,14 @@ json masses_cases(test::Draw& draw) {
   few.masses.F.conservativeResize(2);
   few.masses.W.conservativeResize(2);
   cases.push_back(masses_case(few, {"RankDeficientExcitation"}));
-  StatedProblem away = drawn_problem(draw, {2, 2, 1}, 0.05);
-  away.masses.F *= -1.0;  // a force upward: nothing helps but no mass
-  cases.push_back(masses_case(away, {"MassAtBound"}));
-  return cases;
-}
-
-json division_cases(test::Draw& draw) {
-  json cases = json::array();
-  for (int i = 0; i < 9; ++i) {
-    const Eigen::Vector3d xyz = draw.vector(0.3), rpy = draw.vector(3.0),
-                          size(draw.between(0.1, 0.5), draw.between(0.1, 0.5),
-                               draw.between(0.1, 0.5));
-    const Eigen::Isometry3d pose = pose_of(xyz, rpy);
-    const double mass = draw.between(0.1, 5.0), fraction = i < 3 ? 0.5 : draw.between(0.1, 0.9);
-    const int axis = i % 3;
-    const auto [first, second] = divide(make_cuboid(size, pose), axis, fraction);
-    Eigen::VectorXd expected(24), sizes(24);
-    const double reach = xyz.norm() + size.norm();
-    for (const auto& [part, share, at] :
-         {std::tuple{&first, fraction, 0}, std::tuple{&second, 1.0 - fraction, 12}}) {
-      expected.segment<12>(at) << volume(*part), mass * share, unit_parameters(*part).values;
-      sizes.segment<12>(at) << size.prod(), mass, 1.0, Eigen::Vector3d::Constant(reach),
-          Eigen::VectorXd::Constant(6, reach * reach);
-    }
-    cases.push_back({{"flags", json::array()},
-                     {"input",
-                      {{"size", vector_json(size)},
-                       {"xyz", vector_json(xyz)},
-                       {"rpy", vector_json(rpy)},
-                       {"mass", mass},
-                       {"axis", axis},
-                       {"fraction", fraction}}},
-                     {"expected", {{"parts", vector_json(expected)}}},
-                     {"within", {{"parts", vector_json(forgiven * sizes)}}}});
-  }
+  cases.push_back(masses_case(drawn_without_mass(draw), {"MassAtBound"}));
+  StatedProblem twins = drawn_problem(draw, {3, 2, 1}, 0.05);
+  twins.masses.U.col(1) = twins.masses.U.col(0) + 1e-7 * twins.masses.U.col(1);
+  cases.push_back(masses_case(twins, {"NearlySingular"}));
+  StatedProblem two = drawn_problem(draw, {2, 2, 1}, 0.05);
+  const StatedProblem other = drawn_problem(draw, {2, 1, 1}, 0.05);
+  append_link(two.masses, other.masses);
+  cases.push_back(masses_case(two, {"TwoLinks"}));
   return cases;
 }
 
@@ -176,31 +175,32 @@ json certify_cases(test::Draw& draw) {
     StatedProblem bounded = p;
     bounded.masses.mass_bound = 0.5 * m.sum();
     cases.push_back(certify_case(bounded, answer_of(bounded, m), false, "BeyondTheMassBound"));
-  }
-  return cases;
-}
 
-json flags() {
-  return {
-      {"NoRotation", "the body does not turn: terms in the angular velocity are not asked for"},
-      {"RankDeficientJacobian",
-       "a force acts through two rows of J: the rank is less than their number. What is projected "
-       "away is the same; forces are not unique, and none are compared"},
-      {"WithoutNoise", "the optimum is zero up to rounding: only the gap counts"},
-      {"ManyShapes",
-       "more shapes than parameters: the density term alone says where the mass is. "
-       "Judged by the gap, so other masses of nearly the same objective pass"},
-      {"NonUniqueMinimiser", "lambda = 0 and more shapes than parameters: any minimiser passes"},
-      {"RankDeficientExcitation", "two rows: the data alone leave the masses undetermined"},
-      {"MassAtBound", "the optimum is no mass at all"},
-      {"Optimum", "must be accepted"},
-      {"MassPerturbed", "one mass is one percent too large"},
-      {"WrongActiveSet", "the heaviest shape is left out"},
-      {"NoMass", "m = 0, which certifies itself where the mass bound is taken from the answer"},
-      {"NegativeMass", "a mass is negative"},
-      {"ParametersOfAnotherBody", "the parameters written beside the masses are not theirs"},
-      {"ObjectiveUnderstated", "the objective is said to be half of what it is"},
-      {"BeyondTheMassBound", "the masses add up to more than the problem declares"}};
+    // f rises by curvature * step^2 from the optimum along a mass that is free to move.
+    const Eigen::VectorXd column = p.masses.Y * p.masses.U.col(heaviest);
+    const double none = p.masses.F.dot(p.masses.W.cwiseProduct(p.masses.F)),
+                 curvature = column.dot(p.masses.W.cwiseProduct(column)) +
+                             p.masses.lambda / p.masses.V[heaviest];
+    for (const double share : {0.5, 2.0}) {
+      const double step = std::sqrt(share * accepted_gap * none / curvature);
+      cases.push_back(
+          certify_case(p, with(1.0 + step / m[heaviest]), share < 1.0, "NearTheAcceptedGap"));
+    }
+  }
+  const StatedProblem away = drawn_without_mass(draw);
+  cases.push_back(
+      certify_case(away, answer_of(away, Eigen::VectorXd::Zero(4)), true, "MassAtBound"));
+
+  // Twelve shapes that all have mass, and a step that changes no parameter.
+  StatedProblem many = drawn_problem(draw, {4, 3, 1}, 0.0);
+  many.masses.lambda = 0.0;
+  Eigen::VectorXd m(12);
+  for (double& mass : m) mass = draw.between(0.05, 0.1);
+  many.masses.F = many.masses.Y * (many.masses.U * m);
+  const Eigen::VectorXd nothing = many.masses.U.fullPivLu().kernel().col(0);
+  m += 0.04 / nothing.cwiseAbs().maxCoeff() * nothing;
+  cases.push_back(certify_case(many, answer_of(many, m), true, "NonUniqueMinimiser"));
+  return cases;
 }
 
 }  // namespace shapeid::vectors
