@@ -46,8 +46,8 @@ std::vector<std::string> matches(const std::string& text, const std::string& pat
 /// integrals are none.
 Letters letters(const std::string& text) {
   static const std::set<std::string> greek = {
-      "alpha", "beta", "gamma", "delta", "varepsilon", "theta", "kappa", "lambda", "mu",   "nu",
-      "pi",    "rho",  "sigma", "tau",   "phi",        "omega", "Phi",   "Sigma",  "Delta"};
+      "alpha", "beta", "gamma", "delta", "varepsilon", "theta", "kappa", "lambda", "mu",
+      "nu",    "rho",  "sigma", "tau",   "phi",        "omega", "Phi",   "Sigma",  "Delta"};
   const std::string prose = std::regex_replace(text, std::regex("```[^`]*```|`[^`]*`"), "");
   Letters found;
   for (std::string formula : matches(prose, R"(\$\$?([^$]+)\$\$?)")) {
