@@ -12,7 +12,7 @@ namespace shapeid::fast {
 
 /// A QR decomposition of the passive columns a_j = R u_j, of which those of the first links are
 /// short: R is a triangle, so a column ends with the ten rows of its link.
-class ManyLinks final : public PassiveSet {
+class ManyLinks final : public ColumnSet {
  public:
   /// `columns` must outlive the object.
   explicit ManyLinks(const ShapeColumns& columns);
@@ -22,6 +22,7 @@ class ManyLinks final : public PassiveSet {
   void dependence(Eigen::VectorXd& coefficients) noexcept override;
   void leave(int place) noexcept override;
   void refine(const Eigen::VectorXd& slopes) noexcept override;
+  void solve_normal(Eigen::VectorXd& x) noexcept override { qr_.solve_normal(x); }
   [[nodiscard]] bool sound() const noexcept override { return sound_; }
   [[nodiscard]] const Eigen::VectorXd& target() noexcept override;
   [[nodiscard]] const Eigen::VectorXd& slopes(

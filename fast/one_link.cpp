@@ -8,7 +8,10 @@
 namespace shapeid::fast {
 
 OneLink::OneLink(const ShapeColumns& columns)
-    : columns_(&columns), target_(Eigen::VectorXd::Zero(10)), slopes_(Eigen::VectorXd::Zero(10)) {
+    : columns_(&columns),
+      target_(Eigen::VectorXd::Zero(10)),
+      slopes_(Eigen::VectorXd::Zero(10)),
+      correction_(Eigen::VectorXd::Zero(10)) {
   rows_.setZero();
   inverse_.setZero();
 }
@@ -100,15 +103,21 @@ void OneLink::leave(int place) noexcept {
   target[k] = 0.0;
 }
 
-// The normal equations of the correction, T^T T x = A^T r, by the inverse of T.
+// T^T T z = x by the inverse of T.
+void OneLink::solve_normal(Eigen::VectorXd& x) noexcept {
+  Vector10 y = Vector10::Zero();
+  for (int i = 0; i < size_; ++i) y += x[i] * inverse_.row(i).transpose();  // becomes T^-T x
+  const Vector10 z = inverse_ * y;
+  x.head(size_) = z.head(size_);
+}
+
+// The normal equations of the correction, A^T A x = A^T r.
 void OneLink::refine(const Eigen::VectorXd& slopes) noexcept {
-  Vector10 x = Vector10::Zero();
   for (int i = 0; i < size_; ++i) {
-    const double slope = columns_->column(passive_[static_cast<std::size_t>(i)]).dot(slopes);
-    x += slope * inverse_.row(i).transpose();  // becomes T^-T A^T r
+    correction_[i] = columns_->column(passive_[static_cast<std::size_t>(i)]).dot(slopes);
   }
-  const Vector10 correction = inverse_ * x;
-  target_ += correction;
+  solve_normal(correction_);
+  target_.head(size_) += correction_.head(size_);
 }
 
 }  // namespace shapeid::fast

@@ -13,7 +13,7 @@ namespace shapeid::fast {
 /// Keeps Q^T [R c] whole, with Q^T A = [T; 0] for the passive columns A: at ten rows that is
 /// cheaper than keeping reflections. Of T only the inverse is kept: the target is then a sum of its
 /// columns, which grows by one term when a shape enters, and nothing waits for a back substitution.
-class OneLink final : public PassiveSet {
+class OneLink final : public ColumnSet {
  public:
   /// `columns` must outlive the object.
   explicit OneLink(const ShapeColumns& columns);
@@ -23,6 +23,7 @@ class OneLink final : public PassiveSet {
   void dependence(Eigen::VectorXd& coefficients) noexcept override;
   void leave(int place) noexcept override;
   void refine(const Eigen::VectorXd& slopes) noexcept override;
+  void solve_normal(Eigen::VectorXd& x) noexcept override;
   [[nodiscard]] const Eigen::VectorXd& target() noexcept override { return target_; }
   [[nodiscard]] bool keeps_slopes() const noexcept override { return true; }
   [[nodiscard]] const Eigen::VectorXd& slopes(
@@ -40,7 +41,7 @@ class OneLink final : public PassiveSet {
   Eigen::Matrix<double, 10, 12, Eigen::RowMajor> rows_;  ///< Q^T [R c 0]
   Eigen::Matrix<double, 10, 10> inverse_;                ///< of T, upper triangle
   Vector10 refused_;                                     ///< Q^T of the column refused last
-  Eigen::VectorXd target_, slopes_;
+  Eigen::VectorXd target_, slopes_, correction_;
 };
 
 }  // namespace shapeid::fast

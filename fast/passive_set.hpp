@@ -47,4 +47,12 @@ class PassiveSet {
       const Eigen::VectorXd& of_residual) noexcept = 0;
 };
 
+/// A passive set whose columns are those of the shapes: for lambda = 0.
+class ColumnSet : public PassiveSet {
+ public:
+  /// Replaces x, an entry a passive shape, by the solution z of A^T A z = x with A = R U of the
+  /// passive shapes. The target stays as it is.
+  virtual void solve_normal(Eigen::VectorXd& x) noexcept = 0;
+};
+
 }  // namespace shapeid::fast

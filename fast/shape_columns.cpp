@@ -131,7 +131,8 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
   const double unit = unit_ > 0.0 ? 1.0 / unit_ : 1.0;
   steepest_ = -1;
   best_.clear();
-  if (g.isZero(0.0)) return -1;  // as many passive shapes as rows: nothing is left to gain
+  // As many passive shapes as rows: nothing is left to gain.
+  if (threshold >= 0.0 && g.isZero(0.0)) return -1;
   float most = uncertain;
   uncertain_.clear();
   for (int c = 0; c < used_chunks_; ++c) {

@@ -203,5 +203,22 @@ TEST(ShapeColumns, UnfeltShapesHaveNoPrice) {
   EXPECT_EQ(stored.steepest(VectorXd::Zero(20), 0.0), -1);
 }
 
+// A threshold below zero asks whether all shapes are certainly held: none at all, or only where
+// even the closest to entering is further away.
+TEST(ShapeColumns, ThresholdsBelowZeroFindWhatIsNotCertainlyHeld) {
+  ShapeColumns stored(1, 3);
+  for (int j = 0; j < 3; ++j) {
+    ASSERT_TRUE(stored.append(0, ShapeColumns::Column::Unit(j)));
+  }
+  stored.set_scale(VectorXd::Ones(10), 1.0);
+  VectorXd g = VectorXd::Constant(10, -0.5);
+  EXPECT_EQ(stored.steepest(g, -1e-13), -1);
+  g[1] = -1e-12;
+  EXPECT_EQ(stored.steepest(g, -1e-13), -1);
+  g[1] = -1e-14;
+  EXPECT_EQ(stored.steepest(g, -1e-13), 1);
+  EXPECT_NE(stored.steepest(VectorXd::Zero(10), -1e-13), -1);
+}
+
 }  // namespace
 }  // namespace shapeid::fast

@@ -1,0 +1,138 @@
+// Claim C3. The active-set method of the mass problem, on whatever holds the passive shapes.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "shapeid/fast/passive_set.hpp"
+#include "shapeid/fast/shape_columns.hpp"
+#include "shapeid/models/mass_problem.hpp"
+
+namespace shapeid::fast {
+
+/// How a call ended. Anything but solved means that it declined: masses and everything else are as
+/// before the call, and the reference may be asked instead.
+enum class Outcome {
+  solved,
+  not_finite,       ///< a number of the rows is not finite
+  ill_conditioned,  ///< the answer does not pass its own check: its gradient is not small enough
+  too_many_steps  ///< the bound on the steps of one call is reached, and shapes should still enter
+};
+
+/// Minimises  || R U m - c ||^2 + lambda sum_j m_j^2 / V_j  over m >= 0: from given masses toward
+/// the minimum of the passive shapes until one of them has no mass left, which is then held at
+/// zero; and where nothing is in the way, the shape whose slope is steepest enters. The objective
+/// falls with every step that changes the passive shapes. Derivation and the reasons for the
+/// tolerances: docs/derivations/fast-masses.md.
+///
+/// After construction nothing allocates or throws; the steps of a run are bounded.
+class ActiveSet {
+ public:
+  /// `columns` and `V` (m^3, an entry a shape) must outlive the object; `columns` has no shapes
+  /// yet.
+  ActiveSet(ShapeColumns& columns, const Eigen::VectorXd& V);
+
+  /// The passive shapes are kept in `set`, made for this lambda.
+  void use(PassiveSet& set, double lambda) noexcept;
+  [[nodiscard]] bool uses(const PassiveSet& set) const noexcept { return set_ == &set; }
+
+  /// From now on for this triangle [R c], which must stay as it is. False if a number of it is not
+  /// finite: then nothing changes.
+  [[nodiscard]] bool take(const Eigen::MatrixXd& R) noexcept;
+  /// Back to the triangle before the last take().
+  void take_back() noexcept;
+  [[nodiscard]] bool has_rows() const noexcept { return rows_.R != nullptr; }
+
+  /// No passive shapes.
+  void clear() noexcept;
+  /// Shape `j` has this mass (kg, > 0) where the next run starts.
+  void start_at(int j, double mass) noexcept;
+
+  /// Shape `j`, passive, gives up its mass.
+  void drop(int j) noexcept;
+  /// Shape `j` becomes passive with this mass. If its column depends on the passive ones, mass
+  /// moves among them with R U m as it is.
+  void enter_with_mass(int j, double mass) noexcept;
+  /// Likewise; but if its column depends on them, nothing changes, and the answer is false.
+  [[nodiscard]] bool enter_beside(int j, double mass) noexcept;
+
+  /// To the minimum from the present masses; checked.
+  Outcome run() noexcept;
+  /// After run() with lambda = 0 on `set`: on to the minimum for this lambda, if that has the same
+  /// passive shapes. False if that is not certain; then the masses stay.
+  [[nodiscard]] bool damp(ColumnSet& set, double lambda) noexcept;
+  /// Whether every shape that is not passive would certainly raise the objective, and there are no
+  /// more passive ones than independent columns.
+  [[nodiscard]] bool is_at_a_vertex() noexcept;
+
+  /// Remembers masses and what belongs to them, and goes back to it.
+  void save() noexcept;
+  void restore() noexcept;
+
+  [[nodiscard]] const std::vector<int>& passive() const noexcept { return passive_; }
+  [[nodiscard]] const std::vector<double>& masses() const noexcept { return masses_; }
+  [[nodiscard]] const Eigen::VectorXd& Phi() const noexcept { return Phi_; }
+  /// R^T (c - R Phi), 10 links.
+  [[nodiscard]] const Eigen::VectorXd& slopes() const noexcept { return slopes_; }
+  [[nodiscard]] const Objective& value() const noexcept { return value_; }
+  /// Steps since save().
+  [[nodiscard]] int iterations() const noexcept { return iterations_; }
+  [[nodiscard]] const Eigen::MatrixXd& R() const noexcept { return *rows_.R; }
+  /// Upper bounds of the lengths of the columns of R.
+  [[nodiscard]] const Eigen::VectorXd& lengths() const noexcept { return rows_.lengths; }
+
+ private:
+  struct ShapeMass {
+    int place;
+    double mass;
+  };
+  struct Rows {
+    const Eigen::MatrixXd* R = nullptr;
+    Eigen::VectorXd lengths;  ///< of the columns of R, from above
+    double length = 0.0;      ///< of c
+  };
+
+  [[nodiscard]] Outcome iterate() noexcept;
+  void start() noexcept;
+  void factorise() noexcept;
+  void add(int j, double mass) noexcept;
+  void leave(int place) noexcept;
+  [[nodiscard]] bool step_is_blocked() noexcept;
+  [[nodiscard]] bool may_cut_off(const Eigen::VectorXd& target) noexcept;
+  void leave_without_mass() noexcept;
+  [[nodiscard]] const std::vector<int>& entering_shapes() noexcept;
+  [[nodiscard]] bool some_enter() noexcept;
+  [[nodiscard]] bool refine() noexcept;
+  [[nodiscard]] bool some_are_refused(std::size_t first) noexcept;
+  void refuse_without_mass(std::size_t first) noexcept;
+  void refuse(int j) noexcept;
+  void admit_refused() noexcept;
+  void evaluate() noexcept;
+  /// Whether the rows determine the passive masses.
+  [[nodiscard]] bool tells_apart(ColumnSet& set) noexcept;
+  [[nodiscard]] bool correct(ColumnSet& set) noexcept;
+  [[nodiscard]] double slope_of(std::size_t place) const noexcept;
+  [[nodiscard]] double largest_slope() const noexcept;
+  [[nodiscard]] bool passes_check() noexcept;
+
+  ShapeColumns* columns_;
+  const Eigen::VectorXd* V_;
+  PassiveSet* set_ = nullptr;
+  double lambda_ = 0.0;
+  bool started_ = false;  ///< set_ holds the passive shapes
+  Rows rows_, other_rows_;
+  std::vector<int> passive_;
+  std::vector<double> masses_;       ///< of the passive shapes
+  std::vector<double> tried_;        ///< masses to come back to
+  std::vector<int> refused_;         ///< barred until the next step that is taken
+  std::vector<ShapeMass> entering_;  ///< on their way into a fresh factorisation
+  Eigen::VectorXd coefficients_, Phi_, r_, slopes_, sizes_;
+  Objective value_;
+  int iterations_ = 0;
+  std::vector<ShapeMass> saved_;
+  Eigen::VectorXd saved_Phi_, saved_slopes_;
+  Objective saved_value_;
+};
+
+}  // namespace shapeid::fast
