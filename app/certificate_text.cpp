@@ -34,6 +34,23 @@ std::string where_from(const Proof& p) {
   return "by duality";
 }
 
+/// Larger sets have smaller optima; what the numbers add is how far they are apart.
+std::string relaxations_text(const Proof& p) {
+  const certificate::Ordered& of = p.relaxations;
+  if (!std::isfinite(of.bodies.upper)) return "";
+  const auto line = [](const char* set, double lower, double upper, const char* next) {
+    return fmt::format("  {:<44}[{:.9g}, {:.9g}]{}\n", set, lower, upper, next);
+  };
+  const auto relation = [&](std::size_t k) {
+    return of.apart[k] ? "  less, proved by the numbers, than" : "  at most, as it asks less than";
+  };
+  return "least data terms, in the proved order of their sets:\n" +
+         line("parameters with no negative mass", of.masses.lower, of.masses.upper, relation(0)) +
+         line("bodies that can exist", of.bodies.lower, of.bodies.upper, relation(1)) +
+         line("mass anywhere in the regions", of.divisions.lower, of.divisions.upper, relation(2)) +
+         line("the shapes, with the density term", p.lower, p.upper, "");
+}
+
 }  // namespace
 
 std::string certified_text(const certificate::Certified& certified) {
@@ -59,6 +76,7 @@ std::string certified_text(const certificate::Certified& certified) {
         fmt::format("floor of infinitely many divisions: {:.17g}; the answer is {:.3g} above it\n",
                     *p.floor, p.objective_above - *p.floor);
   }
+  text += relaxations_text(p);
   for (const std::string& reason : certified.reasons) text += "reason: " + reason + "\n";
   return text;
 }

@@ -36,7 +36,7 @@ void certify(const Options& options) {
     given = certificate_from_json(read_small_file(options.certificate, largest_file),
                                   options.certificate, problem);
   }
-  const Limit evidence = given ? given->evidence : Limit{};
+  const Evidence evidence = given ? given->evidence : Evidence{};
   Certified certified = shapeid::certificate::certify(problem, answer, options.tolerance, evidence);
   if (given) {
     for (std::string& reason : false_claims(*given, certified.proof)) {

@@ -1,6 +1,7 @@
 #include "shapeid/app/judgement.hpp"
 
 #include "shapeid/app/limit.hpp"
+#include "shapeid/app/relaxed_optima.hpp"
 
 namespace shapeid::app {
 
@@ -9,7 +10,8 @@ Judgement judge(const Result& result) {
   Judgement judged{stated_problem(result), {}, {}, {}};
   judged.answer = {
       problem_digest(judged.problem), solution.m, solution.Phi, solution.value.total(), {}};
-  judged.evidence = limit_of_divisions(judged.problem);
+  judged.evidence = {limit_of_divisions(judged.problem), least_over_bodies(judged.problem),
+                     least_over_masses(judged.problem)};
   judged.certified = certificate::certify(judged.problem, judged.answer, {}, judged.evidence);
   return judged;
 }

@@ -10,11 +10,12 @@ namespace shapeid::app {
 struct Judgement {
   StatedProblem problem;
   Answer answer;
-  certificate::Limit evidence;
+  certificate::Evidence evidence;
   certificate::Certified certified;
 };
 
-/// Seeks the limit of infinitely many divisions, and certifies the answer with it.
+/// Seeks the limit of infinitely many divisions and the optima over larger sets, and certifies the
+/// answer with them.
 [[nodiscard]] Judgement judge(const Result& result);
 
 }  // namespace shapeid::app

@@ -86,12 +86,12 @@ Eigen::VectorXd with_mass_rewarded(const MassProblem& p, const MassSolution& sol
 
 }  // namespace
 
-certificate::Limit limit_of_divisions(const StatedProblem& stated, const LimitOptions& options) {
+certificate::Guess limit_of_divisions(const StatedProblem& stated, const LimitOptions& options) {
   if (stated.regions.empty() || stated.others.values.cols() > 0) return {};
   Columns now{stated.masses, {}};
   now.problem.lambda = 0.0;
   MassSolution solution = reference::solve_masses(now.problem);
-  certificate::Limit best{solution.Phi, {}};
+  certificate::Guess best{solution.Phi, {}};
   double least_loss = HUGE_VAL;
   for (int round = 0; round < options.most_rounds; ++round) {
     const Search found = search(stated, solution.Phi);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "shapeid/models/stated_problem.hpp"
-#include "shapeid/proofs/certificate/certify.hpp"
+#include "shapeid/proofs/certificate/relaxations.hpp"
 
 namespace shapeid::app {
 
@@ -12,10 +12,10 @@ struct LimitOptions {
   double gap = 1e-6;
 };
 
-/// Adds a point mass on each link where its polynomial is lowest, solves without the density term,
-/// drops the masses that became zero, and repeats (docs/derivations/certificate.md). Starts from
-/// the problem's own shapes. Empty for a problem without regions or other than masses.
-[[nodiscard]] certificate::Limit limit_of_divisions(const StatedProblem& problem,
+/// Adds a point mass in each region where its polynomial is lowest, solves without the density
+/// term, drops the masses that became zero, and repeats (docs/derivations/certificate.md). Starts
+/// from the problem's own shapes. Empty for a problem without regions or other than masses.
+[[nodiscard]] certificate::Guess limit_of_divisions(const StatedProblem& problem,
                                                     const LimitOptions& options = {});
 
 }  // namespace shapeid::app

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/strict_json.hpp"
@@ -13,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* certificate_format = "shapeid-certificate-1";
+constexpr const char* certificate_format = "shapeid-certificate-2";
 constexpr const char* manual = "docs/formats/certificate.md";
 
 json finite(double x) { return std::isfinite(x) ? json(x) : json(); }
@@ -30,9 +32,20 @@ const char* name_of(Existence body) {
   return "impossible";
 }
 
-json evidence_json(const Limit& evidence) {
-  return {{"limit_parameters", vector_json(evidence.parameters)},
-          {"limit_columns", vector_json(evidence.others)}};
+constexpr std::array<std::pair<const char*, Guess Evidence::*>, 3> guesses = {
+    {{"limit", &Evidence::limit}, {"bodies", &Evidence::bodies}, {"masses", &Evidence::masses}}};
+
+json evidence_json(const Evidence& evidence) {
+  json object = json::object();
+  for (const auto& [name, guess] : guesses) {
+    object[name] = {{"parameters", vector_json((evidence.*guess).parameters)},
+                    {"columns", vector_json((evidence.*guess).others)}};
+  }
+  return object;
+}
+
+json between_json(const Between& b) {
+  return {{"lower", finite(b.lower)}, {"upper", finite(b.upper)}};
 }
 
 Eigen::VectorXd sized(const json& object, const std::string& key, Eigen::Index size,
@@ -43,6 +56,17 @@ Eigen::VectorXd sized(const json& object, const std::string& key, Eigen::Index s
                      fmt::format("none, or {}", size));
   }
   return v;
+}
+
+Guess guess_from(const json& object, const std::string& key, const StatedProblem& problem,
+                 const JsonSource& source) {
+  check_keys(object, key, source, {"parameters", "columns"});
+  Guess guess{sized(object, "parameters", problem.masses.U.rows(), source),
+              sized(object, "columns", problem.others.values.cols(), source)};
+  if (guess.parameters.size() > 0 && guess.others.size() != problem.others.values.cols()) {
+    throw InputError({source.name, 0, key}, "has parameters without columns", "one a column");
+  }
+  return guess;
 }
 
 }  // namespace
@@ -65,14 +89,19 @@ json proof_json(const Proof& p) {
                 {"made_of_shapes", p.made_of_shapes},
                 {"plane", vector_json(p.plane)},
                 {"bodies", bodies},
-                {"floor", p.floor ? finite(*p.floor) : json()}};
+                {"floor", p.floor ? finite(*p.floor) : json()},
+                {"relaxations",
+                 {{"masses", between_json(p.relaxations.masses)},
+                  {"bodies", between_json(p.relaxations.bodies)},
+                  {"divisions", between_json(p.relaxations.divisions)},
+                  {"apart", p.relaxations.apart}}}};
   for (const double distance : p.parameter_distance) {
     claim["parameter_distance"].push_back(finite(distance));
   }
   return claim;
 }
 
-std::string certificate_to_json(const Proof& proof, const Limit& evidence) {
+std::string certificate_to_json(const Proof& proof, const Evidence& evidence) {
   json claim = proof_json(proof);
   claim["evidence_digest"] = digest(evidence_json(evidence).dump());
   const json document = {
@@ -92,12 +121,12 @@ Certificate certificate_from_json(const std::string& text, const std::string& na
   check_keys(certificate.claim, "claim", source, keys);
   for (const std::string& key : keys) (void)member(certificate.claim, key, source);
   const json& evidence = member(document, "evidence", source);
-  check_keys(evidence, "evidence", source, {"limit_parameters", "limit_columns"});
-  certificate.evidence = {sized(evidence, "limit_parameters", problem.masses.U.rows(), source),
-                          sized(evidence, "limit_columns", problem.others.values.cols(), source)};
-  if (certificate.evidence.parameters.size() > 0 &&
-      certificate.evidence.others.size() != problem.others.values.cols()) {
-    throw InputError({name, 0, "limit_columns"}, "missing beside limit_parameters", "one a column");
+  std::set<std::string> names;
+  for (const auto& [guess, place] : guesses) names.insert(guess);
+  check_keys(evidence, "evidence", source, names);
+  for (const auto& [guess, place] : guesses) {
+    certificate.evidence.*place =
+        guess_from(member(evidence, guess, source), guess, problem, source);
   }
   return certificate;
 }

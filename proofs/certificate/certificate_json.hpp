@@ -12,13 +12,13 @@ namespace shapeid::certificate {
 
 struct Certificate {
   nlohmann::json claim;  ///< of the proof, as proof_json() writes it
-  Limit evidence;
+  Evidence evidence;
 };
 
 /// Infinite numbers are null.
 [[nodiscard]] nlohmann::json proof_json(const Proof& proof);
 
-[[nodiscard]] std::string certificate_to_json(const Proof& proof, const Limit& evidence);
+[[nodiscard]] std::string certificate_to_json(const Proof& proof, const Evidence& evidence);
 
 /// Throws InputError for anything that is not a certificate of this problem's size.
 [[nodiscard]] Certificate certificate_from_json(const std::string& text, const std::string& name,

@@ -9,7 +9,6 @@
 #include "shapeid/models/strict_json.hpp"
 #include "shapeid/proofs/certificate/bound.hpp"
 #include "shapeid/proofs/certificate/cone.hpp"
-#include "shapeid/proofs/certificate/floor.hpp"
 #include "shapeid/proofs/certificate/optimum.hpp"
 
 namespace shapeid::certificate {
@@ -28,7 +27,7 @@ class Certifier {
   Certifier(const StatedProblem& stated, const Answer& answer, const Tolerance& tolerance)
       : stated_(stated), answer_(answer), tolerance_(tolerance), p_(stated) {}
 
-  Certified run(const Limit& limit) {
+  Certified run(const Evidence& evidence) {
     result_.proof.problem_digest = problem_digest(stated_);
     result_.proof.answer_digest = digest(answer_to_json(answer_));
     if (answer_.problem_digest != result_.proof.problem_digest) {
@@ -45,10 +44,7 @@ class Certifier {
       const auto at = Phi_.begin() + static_cast<std::ptrdiff_t>(i);
       result_.proof.bodies.push_back(existence(Vector(at, at + 10)));
     }
-    if (limit.parameters.size() > 0) {
-      const auto floor = floor_of_divisions(stated_, limit.parameters, limit.others);
-      if (floor) result_.proof.floor = rounded_down(*floor);
-    }
+    order_relaxations(evidence);
     return result_;
   }
 
@@ -148,12 +144,14 @@ class Certifier {
       proof.free_set_right = optimum->same;
       proof.lower = rounded_down(optimum->value);
       proof.upper = rounded_up(optimum->value);
+      shapes_ = {optimum->value, optimum->value};
       gap = f_ - optimum->value;
     } else {
       const auto lower = lower_bound(p_, p_.residual(Phi_, settled_columns(p_, Phi_, x_)), bound.M);
       const Rational floor = lower ? std::max<Rational>(0, *lower) : Rational(0);
       proof.lower = rounded_down(floor);
       proof.upper = rounded_up(f_);
+      shapes_ = {floor, f_};
       gap = f_ - floor;
     }
     proof.gap = rounded_up(gap);
@@ -163,6 +161,25 @@ class Certifier {
       reject("the objective is {}{:.3g} above the optimum, up to {:.3g} is accepted",
              optimum ? "" : "up to ", proof.gap, rounded_down(accepted));
     }
+  }
+
+  void order_relaxations(const Evidence& evidence) {
+    const Relaxations proved = relaxations(stated_, evidence, shapes_);
+    Ordered& of = result_.proof.relaxations;
+    of.masses = between(proved.masses);
+    of.bodies = between(proved.bodies);
+    of.divisions = between(proved.divisions);
+    of.apart = {apart(proved.masses, proved.bodies), apart(proved.bodies, proved.divisions),
+                apart(proved.divisions, proved.shapes)};
+    if (sgn(proved.divisions.lower) > 0) result_.proof.floor = of.divisions.lower;
+  }
+
+  static Between between(const Interval& interval) {
+    return {rounded_down(interval.lower), interval.upper ? rounded_up(*interval.upper) : infinity};
+  }
+
+  static bool apart(const Interval& below, const Interval& above) {
+    return below.upper && *below.upper < above.lower;
   }
 
   /// Where a search for the exact optimum starts: the answer. Of parameters alone their slopes say
@@ -226,6 +243,7 @@ class Certifier {
   ExactProblem p_;
   Vector m_, x_, Phi_, r_;
   Rational f_, zero_objective_;
+  Interval shapes_;  ///< of the optimum
   Certified result_;
 };
 
@@ -250,8 +268,8 @@ Violation why_unfit(const StatedProblem& p, const Answer& answer) {
 }
 
 Certified certify(const StatedProblem& problem, const Answer& answer, const Tolerance& tolerance,
-                  const Limit& limit) {
-  return Certifier(problem, answer, tolerance).run(limit);
+                  const Evidence& evidence) {
+  return Certifier(problem, answer, tolerance).run(evidence);
 }
 
 }  // namespace shapeid::certificate

@@ -3,12 +3,15 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "shapeid/models/problem_json.hpp"
 #include "shapeid/proofs/certificate/consistency.hpp"
+#include "shapeid/proofs/certificate/relaxations.hpp"
 
 namespace shapeid::certificate {
 
@@ -19,6 +22,23 @@ struct Tolerance {
   /// Of what an answer says beside its masses (parameters, objective), relative to the terms it is
   /// computed from; and, of parameters without masses, of their distance from the shapes' cone.
   double rounding = 1e-9;
+};
+
+/// A number is not below `lower`, nor above `upper`.
+struct Between {
+  double lower = 0.0;  ///< a sum of squares
+  double upper = std::numeric_limits<double>::infinity();
+};
+
+/// Claim C18. The least data terms (lambda = 0) over larger sets than the shapes make. Each set
+/// holds the next, and so the optima come in order (relaxations.hpp).
+struct Ordered {
+  Between masses;     ///< parameters with no negative mass
+  Between bodies;     ///< bodies that can exist
+  Between divisions;  ///< mass anywhere in the regions, however finely divided
+  /// Whether the numbers alone put each strictly below the next, in exact arithmetic: masses below
+  /// bodies, bodies below divisions, divisions below the answer's shapes.
+  std::array<bool, 3> apart = {};
 };
 
 /// Everything here is proved, in exact arithmetic, for the doubles of the problem; doubles of the
@@ -40,7 +60,8 @@ struct Proof {
   bool made_of_shapes = false;  ///< the parameters claimed are exactly U m for some m >= 0
   Eigen::VectorXd plane;        ///< if not: a separating plane, rounded (10 free links), else empty
   std::vector<Existence> bodies;  ///< of the free links, U m exactly
-  std::optional<double> floor;    ///< of infinitely many divisions, if asked for
+  std::optional<double> floor;    ///< of infinitely many divisions; empty: none above zero
+  Ordered relaxations;
 };
 
 struct Certified {
@@ -52,13 +73,8 @@ struct Certified {
 /// called.
 [[nodiscard]] Violation why_unfit(const StatedProblem& problem, const Answer& answer);
 
-/// `limit`: parameters (10 free links) near the limit of infinitely many divisions, with other
-/// unknowns, from which a floor is proved; empty: no floor.
-struct Limit {
-  Eigen::VectorXd parameters, others;
-};
-
+/// Without evidence of a relaxation next to nothing is said of it.
 [[nodiscard]] Certified certify(const StatedProblem& problem, const Answer& answer,
-                                const Tolerance& tolerance = {}, const Limit& limit = {});
+                                const Tolerance& tolerance = {}, const Evidence& evidence = {});
 
 }  // namespace shapeid::certificate

@@ -202,7 +202,8 @@ TEST(Certify, ExtremeNumbers) {
   p.masses.V[0] = 5e-324;
   p.masses.U(0, 1) = 1e308;
   const Answer none = honest_answer(p, Eigen::VectorXd::Zero(p.masses.shapes()));
-  const Certified best = certify(p, none, {}, {none.parameters, {}});
+  const Guess none_guess{none.parameters, {}};
+  const Certified best = certify(p, none, {}, {none_guess, none_guess, none_guess});
   EXPECT_TRUE(best.proof.feasible);
   EXPECT_LE(best.proof.lower, best.proof.upper);
   const Answer heavy{none.problem_digest, Eigen::VectorXd::Constant(p.masses.shapes(), 1e308),

@@ -7,9 +7,10 @@ namespace shapeid::test {
 using namespace certificate;
 
 Files honest_files(const StatedProblem& problem, const Answer& answer, bool floor) {
-  const Limit limit = floor ? Limit{answer.parameters, answer.others} : Limit{};
+  const Guess guess{answer.parameters, answer.others};
+  const Evidence evidence = floor ? Evidence{guess, guess, guess} : Evidence{};
   return {problem_to_json(problem), answer_to_json(answer),
-          certificate_to_json(certify(problem, answer, {}, limit).proof, limit)};
+          certificate_to_json(certify(problem, answer, {}, evidence).proof, evidence)};
 }
 
 bool accepted(const Files& files) {

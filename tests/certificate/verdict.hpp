@@ -11,7 +11,8 @@ struct Files {
   std::string problem, answer, certificate;  ///< certificate may be empty
 };
 
-/// The files of an honest answer. `floor`: with the answer's own parameters as evidence of a floor.
+/// The files of an honest answer. `floor`: with the answer's own parameters as evidence of
+/// a floor and of the relaxations.
 [[nodiscard]] Files honest_files(const StatedProblem& problem, const Answer& answer, bool floor);
 
 /// Whether the files are read, the answer accepted and every claim proved.

@@ -1,4 +1,4 @@
-#include "shapeid/tests/division/relaxations.hpp"
+#include "shapeid/tests/support/relaxations.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

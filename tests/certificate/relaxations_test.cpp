@@ -1,0 +1,208 @@
+// Least data terms over larger and larger sets: in order, near what other methods find, and not
+// to be forged.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "shapeid/app/limit.hpp"
+#include "shapeid/app/relaxed_optima.hpp"
+#include "shapeid/proofs/certificate/certificate_json.hpp"
+#include "shapeid/proofs/certificate/exact_problem.hpp"
+#include "shapeid/proofs/certificate/floor.hpp"
+#include "shapeid/proofs/certificate/quadric.hpp"
+#include "shapeid/reference/mass_solver.hpp"
+#include "shapeid/tests/certificate/problems.hpp"
+#include "shapeid/tests/certificate/verdict.hpp"
+#include "shapeid/tests/support/generators.hpp"
+#include "shapeid/tests/support/load_problem.hpp"
+#include "shapeid/tests/support/relaxations.hpp"
+
+namespace shapeid::certificate {
+namespace {
+
+constexpr double length = 0.1;  // m, about the size of everything here
+
+/// Of the optimum over bodies, left open between its bounds: the barrier aims at 1e-9 and stops
+/// where doubles do; 3e-6 was seen with thirteen links.
+constexpr double open_share = 1e-5;
+
+/// A small load in a flat box. With 5 % noise its unconstrained parameters are those of no body.
+StatedProblem noisy_load(std::uint64_t seed, double noise) {
+  test::Draw draw(seed);
+  const Eigen::Vector3d lower(-0.15, -0.08, 0.075), upper(0.25, 0.12, 0.125);
+  StatedProblem p{
+      test::load_window(draw, 15, test::cuboid_body(1.0, {0.1, 0.03, 0.1}, {0.02, 0.03, 0.04}),
+                        noise),
+      {},
+      {{0, make_cuboid(upper - lower, Eigen::Isometry3d(Eigen::Translation3d(0.05, 0.02, 0.1)))}}};
+  test::fill_with_cuboids(p.masses, lower, upper, {4, 2, 1});
+  p.masses.lambda = default_lambda(p.masses, 1.0);
+  p.masses.mass_bound = 10.0;
+  return p;
+}
+
+Evidence sought(const StatedProblem& p) {
+  return {app::limit_of_divisions(p), app::least_over_bodies(p), app::least_over_masses(p)};
+}
+
+Certified judged(const StatedProblem& p, const Evidence& evidence) {
+  return certify(p, test::honest_answer(p, reference::solve_masses(p.masses).m), {}, evidence);
+}
+
+Rational data_term(const StatedProblem& p, const Eigen::VectorXd& Phi) {
+  const ExactProblem exact_problem(p);
+  return exact_problem.data_term(exact_problem.residual(exact(Phi), {}));
+}
+
+/// Whatever the residual, no body of at most the mass bound is below what follows from it.
+RC_GTEST_PROP(BodiesFloor, NoBodyIsBelow, ()) {
+  const StatedProblem p = noisy_load(*rc::gen::arbitrary<std::uint64_t>(), 0.05);
+  const Evidence evidence{{}, app::least_over_bodies(p), {}};
+  Eigen::VectorXd Phi = evidence.bodies.parameters;
+  const double away = *test::magnitude(1e-9, 1.0);
+  Phi += away * Phi.norm() * *test::vector(10, 1.0);
+  const auto floor = floor_of_bodies(p, Phi, {});
+  RC_CLASSIFY(!floor, "no floor");
+  if (!floor) return;
+  const double mass = *test::magnitude(1e-3, 10.0);
+  const auto body = test::cuboid_body(mass, *test::vector3(0.3), {0.02, 0.05, 0.01});
+  RC_ASSERT(*floor <= data_term(p, body.values));
+  RC_ASSERT(*floor <= data_term(p, evidence.bodies.parameters));
+}
+
+/// The three numbers that exact arithmetic proves, next to what independent methods find in
+/// doubles.
+TEST(Relaxations, AreTightAndApartUnderNoise) {
+  const StatedProblem p = noisy_load(0, 0.05);
+  const Proof proof = judged(p, sought(p)).proof;
+  const Ordered& of = proof.relaxations;
+  fmt::print("masses {:.9g} {:.9g}, bodies {:.9g} {:.9g}, divisions {:.9g} {:.9g}, shapes {:.9g}\n",
+             of.masses.lower, of.masses.upper, of.bodies.lower, of.bodies.upper, of.divisions.lower,
+             of.divisions.upper, proof.lower);
+  constexpr double rounding = 1e-12;
+  const double masses = test::optimum_over_masses(p.masses);
+  EXPECT_NEAR(of.masses.lower, masses, rounding * masses);
+  EXPECT_EQ(of.masses.upper, std::nextafter(of.masses.lower, HUGE_VAL));
+  const test::ConsistentOptimum bodies = test::optimum_over_bodies(p.masses, length);
+  EXPECT_LT(of.bodies.upper - of.bodies.lower, open_share * of.bodies.upper);
+  EXPECT_LE(bodies.lower, of.bodies.upper * (1.0 + rounding));
+  EXPECT_LE(of.bodies.lower, bodies.upper * (1.0 + rounding));
+  EXPECT_TRUE(of.apart[0]);
+  EXPECT_TRUE(of.apart[1]);
+  EXPECT_EQ(proof.floor, of.divisions.lower);
+  EXPECT_LT(of.divisions.lower, proof.lower);
+  EXPECT_LE(of.divisions.upper, proof.upper);
+}
+
+/// Where the unconstrained parameters are those of a body, being one costs nothing: nothing is
+/// apart.
+TEST(Relaxations, MeetWithoutNoise) {
+  const StatedProblem p = noisy_load(1, 1e-4);
+  const Ordered of = judged(p, sought(p)).proof.relaxations;
+  EXPECT_FALSE(of.apart[0]);
+  EXPECT_LE(of.masses.lower, of.bodies.lower);
+  EXPECT_LE(of.masses.upper, of.bodies.upper);
+}
+
+/// Thirteen coupled links: the barrier's path and the exact elimination at the size of a robot.
+TEST(Relaxations, OfAWholeBody) {
+  const StatedProblem p = test::body_problem(3);
+  const Ordered of = judged(p, sought(p)).proof.relaxations;
+  EXPECT_GT(of.bodies.lower, 0.0);
+  EXPECT_LT(of.bodies.upper - of.bodies.lower, open_share * of.bodies.upper);
+  EXPECT_LE(of.masses.upper, of.bodies.upper);
+  EXPECT_GE(of.masses.upper, of.masses.lower);
+}
+
+/// Without evidence nothing is claimed that is not carried over from the shapes.
+TEST(Relaxations, NothingFromNothing) {
+  const StatedProblem p = noisy_load(0, 0.05);
+  const Proof proof = judged(p, {}).proof;
+  EXPECT_EQ(proof.relaxations.bodies.lower, 0.0);
+  EXPECT_EQ(proof.relaxations.bodies.upper, proof.upper);
+  EXPECT_EQ(proof.floor, std::nullopt);
+}
+
+/// What a body reaches is only claimed of bodies that exist and that the mass bound allows.
+TEST(Relaxations, ForgedBodiesReachNothing) {
+  const StatedProblem p = noisy_load(0, 0.05);
+  const Evidence honest = sought(p);
+  const double reached = judged(p, honest).proof.relaxations.bodies.upper;
+  const auto with_bodies = [&](const StatedProblem& problem, const Eigen::VectorXd& Phi) {
+    return judged(problem, {honest.limit, {Phi, {}}, honest.masses}).proof;
+  };
+  // The unconstrained minimum is below every body, and none.
+  const Eigen::VectorXd root = p.masses.W.cwiseSqrt();
+  const Eigen::VectorXd none =
+      (root.asDiagonal() * p.masses.Y).colPivHouseholderQr().solve(root.cwiseProduct(p.masses.F));
+  EXPECT_LT(data_term(p, none), exact(reached));
+  const Proof forged = with_bodies(p, none);
+  EXPECT_EQ(forged.relaxations.bodies.upper, forged.upper);  // the shapes' own
+  // A body that is heavier than the problem allows.
+  StatedProblem lighter = p;
+  lighter.masses.mass_bound = 0.5 * honest.bodies.parameters[0];
+  EXPECT_GT(with_bodies(lighter, honest.bodies.parameters).relaxations.bodies.upper, reached);
+  // Masses that are held although they should not be: the conditions see it.
+  Guess held = honest.masses;
+  held.parameters[0] = 0.0;
+  const Proof wrong = judged(p, {honest.limit, honest.bodies, held}).proof;
+  EXPECT_EQ(wrong.relaxations.masses.lower, 0.0);
+}
+
+/// A forger who changes evidence or claims and names the right digests meets the mathematics.
+TEST(Relaxations, DigestsMadeGoodDoNotHelp) {
+  const StatedProblem p = noisy_load(0, 0.05);
+  const Answer answer = test::honest_answer(p, reference::solve_masses(p.masses).m);
+  const Evidence evidence = sought(p);
+  const Proof proof = certify(p, answer, {}, evidence).proof;
+  const auto refused = [&](const nlohmann::json& certificate) {
+    const Certificate read = certificate_from_json(certificate.dump(), "certificate.json", p);
+    return !false_claims(read, certify(p, answer, {}, read.evidence).proof).empty();
+  };
+  const auto good = nlohmann::json::parse(certificate_to_json(proof, evidence));
+  EXPECT_FALSE(refused(good));
+  for (const char* set : {"limit", "bodies", "masses"}) {
+    for (Eigen::Index i = 0; i < 10; ++i) {
+      Evidence shaken = evidence;
+      Guess& guess = set == std::string("limit")    ? shaken.limit
+                     : set == std::string("bodies") ? shaken.bodies
+                                                    : shaken.masses;
+      guess.parameters[i] += 1e-3 * evidence.bodies.parameters.norm();
+      nlohmann::json forged = nlohmann::json::parse(certificate_to_json(proof, shaken));
+      // Where masses are sought exactly, the guess only says which are held.
+      const bool start_only = set == std::string("masses");
+      EXPECT_EQ(refused(forged), !start_only) << set << i;
+    }
+  }
+}
+
+RC_GTEST_PROP(Quadric, NoPointOfSpaceIsLower, ()) {
+  Eigen::VectorXd slope = *test::vector(10, 1.0);
+  const double upwards = *rc::gen::element(0.0, 2.0);
+  for (const int moment : {4, 7, 9}) slope[moment] += upwards;
+  const Quadric q = cost_of_point(exact(slope));
+  const auto lowest = lowest_in_space(q);
+  RC_CLASSIFY(!lowest, "without a floor");
+  for (int k = 0; k < 20 && lowest; ++k) {
+    const Vector x = exact(*test::vector(3, 100.0));
+    RC_ASSERT(*lowest <= q.at(x));
+  }
+}
+
+TEST(Quadric, FloorsInSpace) {
+  const auto lowest = [](Vector g) { return lowest_in_space(cost_of_point(g)); };
+  // |x|^2 - 2 x - 3 has its minimum -4 at (1, 0, 0); the inertias cost y^2 + z^2 and so on.
+  const Rational half(1, 2);
+  EXPECT_EQ(lowest({-3, -2, 0, 0, half, 0, 0, half, 0, half}), Rational(-4));
+  EXPECT_EQ(lowest({5, -2, 0, 0, half, 0, 0, half, 0, half}), Rational(0));
+  EXPECT_EQ(lowest({0, 0, 0, 0, 0, 0, 0, 0, 0, 1}), Rational(0));    // x^2 + y^2
+  EXPECT_EQ(lowest({0, 0, 0, 1, 0, 0, 0, 0, 0, 1}), std::nullopt);   // x^2 + y^2 + z
+  EXPECT_EQ(lowest({1, 0, 0, 0, 1, 0, 0, 1, 0, -2}), std::nullopt);  // falls along x and y
+  EXPECT_EQ(lowest({-1, 0, 0, 0, 0, 0, 0, 0, 0, 0}), std::nullopt);  // a constant below zero
+  EXPECT_EQ(lowest({1, 2, 0, 0, 0, 0, 0, 1, 0, 1}).has_value(), true);
+}
+
+}  // namespace
+}  // namespace shapeid::certificate
