@@ -21,6 +21,13 @@ using Eigen::Vector3d;
   return std::nullopt;
 }
 
+[[maybe_unused]] Violation why_other_size(const Eigen::Ref<Eigen::MatrixXd>& Y, Eigen::Index rows,
+                                          Eigen::Index columns) {
+  if (Y.rows() == rows && Y.cols() == columns) return std::nullopt;
+  return "a block of " + std::to_string(rows) + " x " + std::to_string(columns) +
+         " is to be written to " + std::to_string(Y.rows()) + " x " + std::to_string(Y.cols());
+}
+
 }  // namespace
 
 Eigen::Matrix<double, 10, 6> body_wrench(const LinkMotion& link) noexcept {
@@ -90,13 +97,26 @@ Regressor::Regressor(const Robot& robot, const std::vector<int>& links)
 }
 
 const Eigen::MatrixXd& Regressor::operator()(const Sample& sample) noexcept {
+  write(sample, Y_);
+  return Y_;
+}
+
+void Regressor::of_block(std::span<const Sample> samples, Eigen::Ref<Eigen::MatrixXd> Y) noexcept {
+  const Eigen::Index dof = Y_.rows();
+  SHAPEID_CONTRACT(why_other_size(Y, static_cast<Eigen::Index>(samples.size()) * dof, Y_.cols()));
+  Y.setZero();
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    write(samples[k], Y.middleRows(static_cast<Eigen::Index>(k) * dof, dof));
+  }
+}
+
+void Regressor::write(const Sample& sample, Eigen::Ref<Eigen::MatrixXd> Y) noexcept {
   kinematics_.start(sample);
   Eigen::Index column = 0;
   for (const int link : wanted_) {
-    write_columns(kinematics_, link, Y_.middleCols<10>(column));
+    write_columns(kinematics_, link, Y.middleCols<10>(column));
     column += 10;
   }
-  return Y_;
 }
 
 }  // namespace shapeid::fast

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <vector>
 
 #include "shapeid/fast/kinematics.hpp"
@@ -43,7 +44,14 @@ class Regressor {
   /// program where contracts are checked.
   const Eigen::MatrixXd& operator()(const Sample& sample) noexcept;
 
+  /// The same for a block of samples, one below the other in `Y`: dof rows a sample, ten columns a
+  /// wanted link. Whatever stood in Y is overwritten. Never allocates or throws; a Y of another
+  /// size is a defect of the caller.
+  void of_block(std::span<const Sample> samples, Eigen::Ref<Eigen::MatrixXd> Y) noexcept;
+
  private:
+  void write(const Sample& sample, Eigen::Ref<Eigen::MatrixXd> Y) noexcept;
+
   Kinematics kinematics_;
   std::vector<int> wanted_;
   Eigen::MatrixXd Y_;

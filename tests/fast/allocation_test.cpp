@@ -55,9 +55,13 @@ RC_GTEST_PROP(Allocations, RegressorMakesNoneAfterConstruction, ()) {
   const Robot robot = *test::robot({1, 20, *rc::gen::element(Root::fixed, Root::floating)});
   const std::vector<Sample> samples =
       *rc::gen::container<std::vector<Sample>>(3, test::sample(robot));
-  fast::Regressor regressor(robot, test::some_links(robot));
+  const std::vector<int> links = test::some_links(robot);
+  fast::Regressor regressor(robot, links);
+  Eigen::MatrixXd Y(static_cast<Eigen::Index>(samples.size()) * robot.dof(),
+                    10 * static_cast<Eigen::Index>(links.size()));
   RC_ASSERT(allocations_during([&] {
               for (const Sample& sample : samples) regressor(sample);
+              regressor.of_block(samples, Y);
             }) == 0U);
 }
 

@@ -89,6 +89,22 @@ RC_GTEST_PROP(FastRegressor, SamplesDoNotDisturbEachOther, ()) {
   RC_ASSERT(regressor(still).isZero(0.0));
 }
 
+// A block has the samples' rows one below the other, whatever stood there before.
+RC_GTEST_PROP(FastRegressor, BlocksStackTheirSamples, ()) {
+  const Robot robot = *test::robot({1, 10, *rc::gen::element(Root::fixed, Root::floating)});
+  const auto samples = *rc::gen::container<std::vector<Sample>>(
+      *rc::gen::element<std::size_t>(0, 1, 2, 7), test::sample(robot));
+  const std::vector<int> links = test::some_links(robot);
+  fast::Regressor regressor(robot, links), alone(robot, links);
+  const Eigen::Index dof = robot.dof();
+  Eigen::MatrixXd Y = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(samples.size()) * dof,
+                                                10 * static_cast<Eigen::Index>(links.size()), 7.0);
+  regressor.of_block(samples, Y);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    RC_ASSERT(Y.middleRows(static_cast<Eigen::Index>(k) * dof, dof) == alone(samples[k]));
+  }
+}
+
 // Each input alone: what only one term reads is not drowned by the others.
 RC_GTEST_PROP(FastRegressor, EachInputAlone, ()) {
   const Robot robot = *test::robot({1, 8, *rc::gen::element(Root::fixed, Root::floating)});
