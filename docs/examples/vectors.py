@@ -372,7 +372,13 @@ def contact_rows(robot, sample):
     for contact in robot["contacts"]:
         motion = found[contact["link"]]
         point = added(motion["p"], times(motion["R"], contact["xyz"]))
-        rows += point_jacobian(robot, motion, point)[:3]
+        J = point_jacobian(robot, motion, point)
+        rows += J[:3]
+        if contact["kind"] == "plane":
+            rows += J[3:]
+        if contact["kind"] == "line":  # no moment about itself: its turning is held about y and z
+            axes = transpose(product(motion["R"], rotation(contact["rpy"])))
+            rows += product(axes[1:], J[3:])
     return rows
 
 

@@ -58,7 +58,7 @@ Letters letters(const std::string& text) {
     for (const std::string& name : matches(formula, R"((\\?[a-zA-Z]+))")) {
       if (name[0] != '\\') {
         for (const char letter : name) found.insert(std::string(1, letter));
-      } else if (greek.count(name.substr(1)) > 0) {
+      } else if (greek.contains(name.substr(1))) {
         found.insert(name.substr(1));
       }
     }
@@ -142,7 +142,7 @@ TEST(Symbols, EveryChapterIsInTheReadingOrder) {
   for (const auto& file : fs::directory_iterator(chapters)) {
     const std::string name = file.path().filename().string();
     if (file.path().extension() != ".md" || name == "README.md") continue;
-    EXPECT_NE(order.find("| [" + name + "](" + name + ") |"), std::string::npos) << name;
+    EXPECT_NE(order.find("](" + name), std::string::npos) << name;
   }
 }
 

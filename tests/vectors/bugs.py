@@ -170,11 +170,13 @@ def joints_before_the_base(robot_rows):
     return wrong
 
 
-def contact_at_the_origin(contact_rows):
-    def wrong(robot, sample):
-        contacts = [dict(c, xyz=[0.0, 0.0, 0.0]) for c in robot["contacts"]]
-        return contact_rows(dict(robot, contacts=contacts), sample)
-    return wrong
+def other_contacts(change):
+    def make(contact_rows):
+        def wrong(robot, sample):
+            contacts = [dict(c, **change(c)) for c in robot["contacts"]]
+            return contact_rows(dict(robot, contacts=contacts), sample)
+        return wrong
+    return make
 
 
 def tube(cylinder_cell):
@@ -496,7 +498,12 @@ BUGS = {
                                             link["axis"])})),
     "joints that turn the other way": replaced(about=lambda about: lambda z, q: about(z, -q)),
     "joint rows before base rows": replaced(robot_rows=joints_before_the_base),
-    "contact at the origin of its link": replaced(contact_rows=contact_at_the_origin),
+    "contact at the origin of its link": replaced(contact_rows=other_contacts(
+        lambda contact: {"xyz": [0.0] * 3})),
+    "every contact taken for a point": replaced(contact_rows=other_contacts(
+        lambda contact: {"kind": "point"})),
+    "a line of contact in its link's axes": replaced(contact_rows=other_contacts(
+        lambda contact: {"rpy": [0.0] * 3})),
     # shapes
     "a tube for a solid cylinder": replaced(cylinder_cell=tube),
     "volume element of radii forgotten": replaced(powers=even_radius),

@@ -97,14 +97,20 @@ inline Eigen::MatrixXd robot_rows(const std::vector<LinkMotion>& motions) {
   return Y;
 }
 
-/// Three rows of J a contact: the velocity of its point.
+/// Rows of J: what a contact holds still. A point its velocity, a line also its turning about y and
+/// z of its frame, a plane all turning.
 inline Eigen::MatrixXd contact_rows(const Json& robot, const std::vector<LinkMotion>& motions) {
-  const std::vector<Json>& contacts = robot["contacts"].items;
-  Eigen::MatrixXd J(3 * static_cast<Eigen::Index>(contacts.size()), motions[0].J.cols());
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const LinkMotion& link = motions[static_cast<std::size_t>(contacts[c]["link"].integer())];
-    const Vector3d way = link.R * contacts[c]["xyz"].numbers();
-    J.middleRows<3>(3 * static_cast<Eigen::Index>(c)) = moved_to(link.J, way).topRows<3>();
+  Eigen::MatrixXd J(0, motions[0].J.cols());
+  for (const Json& contact : robot["contacts"].items) {
+    const LinkMotion& link = motions[static_cast<std::size_t>(contact["link"].integer())];
+    const Jacobian all = moved_to(link.J, link.R * contact["xyz"].numbers());
+    const std::string& kind = contact["kind"].text;
+    const Eigen::Index turning = kind == "plane" ? 3 : kind == "line" ? 2 : 0;
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    if (kind == "line") axes = link.R * rotation(contact["rpy"].numbers());
+    J.conservativeResize(J.rows() + 3 + turning, Eigen::NoChange);
+    J.bottomRows(3 + turning) << all.topRows<3>(),
+        axes.rightCols(turning).transpose() * all.bottomRows<3>();
   }
   return J;
 }

@@ -1,4 +1,6 @@
 // Cases of robots with several links: rows of the dynamics, and where contact forces enter them.
+#include <array>
+
 #include "shapeid/reference/contact.hpp"
 #include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/vectors/make/cases.hpp"
@@ -28,10 +30,15 @@ json robot_cases(test::Draw& draw) {
   const Plan tree{Root::floating, {0, 1, 0}, {revolute, revolute, prismatic}, {2, 3}},
       arm{Root::fixed, {0, 1, 2}, {revolute, prismatic, revolute}, {3}},
       chain{Root::floating, {0, 1}, {revolute, revolute}, {2}};
+  constexpr std::array kinds = {ContactKind::point, ContactKind::line, ContactKind::plane};
   json cases = json::array();
-  for (int i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 4; ++i) {
     for (const Plan& plan : {tree, arm, chain}) {
-      const Robot robot = drawn_robot(draw, plan);
+      Robot robot = drawn_robot(draw, plan);
+      for (Contact& contact : robot.contacts) {
+        contact.kind = kinds[i % 3];
+        contact.frame.linear() = pose_of(Eigen::Vector3d::Zero(), draw.vector(1.5)).linear();
+      }
       cases.push_back(robot_case(robot, drawn_sample(draw, robot)));
     }
   }

@@ -82,7 +82,12 @@ json robot_json(const Robot& robot) {
     links.push_back(said);
   }
   for (const Contact& contact : robot.contacts) {
-    contacts.push_back({{"link", contact.link}, {"xyz", vector_json(contact.frame.translation())}});
+    json said = pose_json(contact.frame);
+    said["link"] = contact.link;
+    said["kind"] = contact.kind == ContactKind::point  ? "point"
+                   : contact.kind == ContactKind::line ? "line"
+                                                       : "plane";
+    contacts.push_back(said);
   }
   return {{"root", robot.root == Root::floating ? "floating" : "fixed"},
           {"links", links},

@@ -99,7 +99,7 @@ json cuboid_json(const StatedCuboid& cuboid) {
 /// The case of a run, or nothing if some choice is so close that rounding could turn it.
 std::optional<json> run_case(MassProblem rows, const std::vector<StatedCuboid>& cuboids, int links,
                              const DivisionOptions& options, json flags) {
-  BodyModel model{Eigen::VectorXd::Zero(10 * links), {}, {}};
+  BodyModel model{Eigen::VectorXd::Zero(Eigen::Index{10} * links), {}, {}};
   json shapes = json::array();
   for (int link = 0; link < links; ++link) model.free_links.push_back(link);
   for (std::size_t i = 0; i < cuboids.size(); ++i) {
@@ -186,7 +186,7 @@ std::optional<json> load_case(test::Draw& draw, const LoadPlan& plan) {
   Eigen::VectorXd Phi = stacked_parameters(robot);
   const json known = vector_json(Phi);
   const Eigen::VectorXd given = Phi;
-  const Eigen::Index column = 10 * plan.link;
+  const Eigen::Index column = Eigen::Index{10} * plan.link;
   Phi.segment<10>(column) += moved(test::cuboid_body(mass, place, {0.05, 0.06, 0.04}), area).values;
 
   const Eigen::VectorXd weight =
