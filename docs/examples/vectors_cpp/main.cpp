@@ -89,7 +89,7 @@ std::string run(const Json& given) {
 /// Every link is known; one carries a load somewhere in a box.
 std::string load(const Json& given) {
   const Json &machine = given["robot"], &area = given["area"];
-  const Eigen::Index at = 10 * area["link"].integer();
+  const Eigen::Index at = Eigen::Index{10} * area["link"].integer();
   const Eigen::VectorXd known = given["parameters"].numbers();
   Eigen::MatrixXd YF(0, 11);
   for (const Json& sample : given["samples"].items) {

@@ -78,9 +78,9 @@ json certify_case(const StatedProblem& p, const Answer& answer, bool accepted,
 json projection_cases(test::Draw& draw) {
   json cases = json::array();
   for (int i = 0; i < 11; ++i) {
-    const Eigen::Index rows = 8, contacts = 3;
-    const Eigen::MatrixXd Y = drawn_matrix(draw, rows, 10);
-    Eigen::MatrixXd J = drawn_matrix(draw, contacts, rows);
+    const Eigen::Index dof = 8, contacts = 3;
+    const Eigen::MatrixXd Y = drawn_matrix(draw, dof, 10);
+    Eigen::MatrixXd J = drawn_matrix(draw, contacts, dof);
     json flags = json::array();
     if (i < 9 && i % 3 == 1) {
       J.row(2) = 2.0 * J.row(0);  // a contact named twice, in other units
@@ -93,17 +93,17 @@ json projection_cases(test::Draw& draw) {
       condition = 1e8;
       flags.push_back("NearlySingular");
     }
-    Eigen::VectorXd weight = Eigen::VectorXd::Ones(rows);
+    Eigen::VectorXd weight = Eigen::VectorXd::Ones(dof);
     if (i >= 3) {
       for (double& w : weight) w = draw.between(0.2, 5.0);
     }
-    const Eigen::VectorXd F = drawn_matrix(draw, rows, 1);
+    const Eigen::VectorXd F = drawn_matrix(draw, dof, 1);
     const auto free = reference::eliminate_contacts(Y, F, J, weight);
     Eigen::MatrixXd YF(free.Y.rows(), 11);
     YF << free.Y, free.F;
     const Eigen::MatrixXd gram = YF.transpose() * YF;
     const Eigen::VectorXd expected = gram.reshaped<Eigen::RowMajor>();
-    const double size = condition * weight.maxCoeff() * static_cast<double>(rows);
+    const double size = condition * weight.maxCoeff() * static_cast<double>(dof);
     json made = number_case({{"Y", matrix_json(Y)},
                              {"F", vector_json(F)},
                              {"J", matrix_json(J)},
