@@ -97,9 +97,6 @@ void add_diagnose(CLI::App& app) {
                    "standard errors by which an effect must lower the held-out error")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  verb->add_option("--least-gain", d.rule.least_gain, "share by which it must lower it")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
   verb->add_flag("--strict", options->strict, "exit status 1 if structure stays unexplained");
   verb->callback([options] { diagnose(*options); });
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "shapeid/app/diagnosis_plots.hpp"
+#include "shapeid/app/diagnosis_result.hpp"
 #include "shapeid/app/html.hpp"
 #include "shapeid/app/result.hpp"
 #include "shapeid/diagnosis/hypotheses.hpp"
@@ -37,8 +38,8 @@ Table errors_table(const DiagnosisRun& run, const Robot& robot) {
 }
 
 Table findings_table(const DiagnosisRun& run, const Robot& robot) {
-  Table table = {
-      {"effect", "value", "s.e.", "unit", "gain (%)", "gain / s.e.", "cannot be told from"}};
+  Table table = {{"effect", "value", "s.e.", "unit", "gain (%)", "gain / s.e.",
+                  "cannot be told from, or doubt"}};
   const auto& effects = run.consistent.model.effects;
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const auto& a = effects[k];
@@ -48,6 +49,7 @@ Table findings_table(const DiagnosisRun& run, const Robot& robot) {
       gain = short_number(100.0 * f.gain);
       t = short_number(f.t);
       for (const std::string& id : f.ambiguous_with) others += (others.empty() ? "" : ", ") + id;
+      if (!f.name_stands()) others = "a description, not the cause: " + doubt(run, f, robot);
     }
     for (std::size_t p = 0; p < a.effect->parameters.size(); ++p) {
       const auto at = static_cast<Eigen::Index>(p);
@@ -102,9 +104,12 @@ void add_undetermined(Page& page, const DiagnosisRun& run, const Robot& robot) {
   for (std::size_t i = 0; i < std::min(shown, run.structures.size()); ++i) {
     const diagnosis::Structure& s = run.structures[i];
     page.picture(structure_picture(s),
-                 fmt::format("Unexplained: {} over {}, {:.1f} % of its residual variance on blocks "
-                             "left out, {:.1f} standard errors",
-                             s.joint, s.variable, 100.0 * s.share, s.t));
+                 s.under_name.empty()
+                     ? fmt::format("Unexplained: {} over {}, {:.1f} % of its residual variance on "
+                                   "blocks left out, {:.1f} standard errors",
+                                   s.joint, s.variable, 100.0 * s.share, s.t)
+                     : fmt::format("Unexplained: {} over {}, which {} describes in part", s.joint,
+                                   s.variable, s.under_name));
   }
 }
 

@@ -33,6 +33,11 @@ const diagnosis::Found* found_for(const DiagnosisRun& run, const AppliedEffect& 
   return nullptr;
 }
 
+bool name_stands(const DiagnosisRun& run, const AppliedEffect& effect) {
+  const diagnosis::Found* f = found_for(run, effect);
+  return f == nullptr || f->name_stands();
+}
+
 json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
   const AppliedEffect& a = run.consistent.model.effects[k];
   const Eigen::VectorXd& error = run.consistent.effect_error[k];
@@ -60,6 +65,7 @@ json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
     entry["ambiguous_with"] = f->ambiguous_with;
     if (!f->ambiguous_with.empty()) entry["separate_by"] = a.effect->separate_by;
     entry["under_contact"] = a.effect->under_contact;
+    if (!f->name_stands()) entry["doubt"] = doubt(run, *f, robot);
   }
   return entry;
 }
@@ -108,9 +114,12 @@ std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
       "\nfound (gain: share of the held-out squared error that would come back "
       "without it, and over its standard error)\n";
   for (std::size_t k = 0; k < effects.size(); ++k) {
+    const diagnosis::Found* f = found_for(run, effects[k]);
     text += fmt::format("  {:<38}{}\n", hypothesis_id(robot, effects[k]),
                         values_text(effects[k], run.consistent.effect_error[k]));
-    const diagnosis::Found* f = found_for(run, effects[k]);
+    if (f != nullptr && !f->name_stands()) {
+      text += fmt::format("  {:<38}a description, not the cause: {}\n", "", doubt(run, *f, robot));
+    }
     if (f == nullptr) continue;
     text += fmt::format("  {:<38}gain {:.1f} %, {:.1f} standard errors{}\n", "", 100.0 * f->gain,
                         f->t, f->since_reference ? "; came since the reference log" : "");
@@ -153,6 +162,11 @@ std::string structures_text(const DiagnosisRun& run) {
   constexpr std::size_t shown = 12;
   for (std::size_t i = 0; i < std::min(shown, run.structures.size()); ++i) {
     const diagnosis::Structure& s = run.structures[i];
+    if (!s.under_name.empty()) {
+      text += fmt::format("  {:<24}over {:<28}what {} describes in part\n", s.joint, s.variable,
+                          s.under_name);
+      continue;
+    }
     text += fmt::format("  {:<24}over {:<28}{:>5.1f} %  ({:.1f} standard errors)\n", s.joint,
                         s.variable, 100.0 * s.share, s.t);
   }
@@ -191,10 +205,23 @@ std::string with_dynamics(const std::string& text, const std::string& joint, dou
 
 }  // namespace
 
+std::string doubt(const DiagnosisRun& run, const diagnosis::Found& f, const Robot& robot) {
+  if (f.varies) {
+    return fmt::format(
+        "its number follows {} by {:.1f} standard errors, worth {:.0f} % of what it "
+        "is itself: something else",
+        variable_of(*f.varies, robot), f.varies->z, 100.0 * f.varies->share);
+  }
+  if (f.beside_unknown) return "what else is at this joint is worth more and has no name";
+  return fmt::format("a law that no robot has explains {:.1f} % here, this one less",
+                     100.0 * run.loop.placebo);
+}
+
 json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseOptions& options) {
-  json findings = json::array();
+  json findings = json::array(), descriptions = json::array();
   for (std::size_t k = 0; k < run.consistent.model.effects.size(); ++k) {
-    findings.push_back(finding(run, robot, k));
+    const bool named = name_stands(run, run.consistent.model.effects[k]);
+    (named ? findings : descriptions).push_back(finding(run, robot, k));
   }
   json structures = json::array();
   for (const diagnosis::Structure& s : run.structures) {
@@ -202,6 +229,7 @@ json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseO
                           {"variable", s.variable},
                           {"share", s.share},
                           {"share_over_its_error", s.t},
+                          {"under_name", s.under_name},
                           {"curve", {{"at", s.at}, {"value", s.value}}}});
   }
   json wrong_signs = json::array();
@@ -223,6 +251,8 @@ json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseO
           {"screening_seconds", run.loop.screening_seconds},
           {"refit_seconds", run.loop.refit_seconds},
           {"findings", findings},
+          {"descriptions", descriptions},
+          {"placebo_gain", run.loop.placebo},
           {"unexplained", structures},
           {"hidden", run.loop.hidden},
           {"wrong_signs", wrong_signs},

@@ -17,4 +17,8 @@ namespace shapeid::app {
 [[nodiscard]] std::string diagnosed_urdf(DiagnosisRun& run, const Robot& robot,
                                          const std::string& original);
 
+/// Why an effect whose name does not stand is kept as a description alone: half a sentence.
+[[nodiscard]] std::string doubt(const DiagnosisRun& run, const diagnosis::Found& found,
+                                const Robot& robot);
+
 }  // namespace shapeid::app

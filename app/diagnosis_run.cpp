@@ -174,6 +174,27 @@ std::optional<RecordedLog> less_smooth(const RobotInputs& robot, const DiagnoseO
   return read_recordings(fitted_logs(options), robot, inputs, part, log.shifts);
 }
 
+/// What was accepted under a name that does not stand, with the curve that it leaves when it is
+/// taken out of the model.
+std::vector<diagnosis::Structure> unnamed(const Robot& robot, const Recording& log,
+                                          const DiagnosisRun& run) {
+  std::vector<diagnosis::Structure> list;
+  for (const diagnosis::Found& f : run.loop.found) {
+    if (!f.varies) continue;
+    diagnosis::RichModel model = run.consistent.model;
+    const auto removed = std::erase_if(model.effects, [&](const diagnosis::AppliedEffect& a) {
+      return a.effect == f.effect.effect && a.site == f.effect.site;
+    });
+    if (removed == 0) continue;
+    list.push_back(diagnosis::unnamed(
+        robot, log,
+        diagnosis::series(robot, run.settings.contacts, model, log, run.settings.stride),
+        *f.varies));
+    list.back().under_name = f.id;
+  }
+  return list;
+}
+
 void note_rests(const Robot& robot, DiagnosisRun& run) {
   for (int j = 0; j < robot.joint_count(); ++j) {
     const double share = run.errors.at_rest[robot.base_dof() + j];
@@ -246,6 +267,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
       robot.robot, log.recording,
       diagnosis::series(robot.robot, run.settings.contacts, run.consistent.model, log.recording,
                         run.settings.stride));
+  const auto unnamed_effects = unnamed(robot.robot, log.recording, run);
+  run.structures.insert(run.structures.begin(), unnamed_effects.begin(), unnamed_effects.end());
   note_rests(robot.robot, run);
   note_worse_joints(robot.robot, run);
   return run;

@@ -64,7 +64,7 @@ BlockFits::BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::Vec
   }
   // Effects have a prior too, so wide that it only matters where data say nothing.
   constexpr double wide = 30.0;
-  Eigen::VectorXd sizes(p);
+  Eigen::VectorXd sizes = Eigen::VectorXd::Constant(p, std::numeric_limits<double>::infinity());
   sizes.head(tally_.inertial) = size;
   for (std::size_t k = 0; k < tally_.hypotheses.size(); ++k) {
     Eigen::Index column = tally_.first[k];

@@ -8,6 +8,7 @@
 
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/filter_error.hpp"
+#include "shapeid/diagnosis/placebo.hpp"
 #include "shapeid/diagnosis/refine.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
@@ -62,6 +63,7 @@ class Loop {
       result_.refit_seconds += seconds_since(start);
       if (round_ > 0 && ids() == before) break;
     }
+    question_names();
     return std::move(result_);
   }
 
@@ -73,8 +75,9 @@ class Loop {
     return list;
   }
 
-  [[nodiscard]] BlockFits tallied(const std::vector<AppliedEffect>& hypotheses) {
-    Tally tally = empty_tally(robot_, hypotheses);
+  [[nodiscard]] BlockFits tallied(const std::vector<AppliedEffect>& hypotheses,
+                                  const std::vector<Modulation>& modulations = {}) {
+    Tally tally = empty_tally(robot_, hypotheses, modulations);
     tally_options_.weight = result_.weight;
     if (reference_ != nullptr) {
       RichModel earlier = result_.model;
@@ -328,7 +331,7 @@ class Loop {
       collect_effects();
       const Gain gain = gain_of(held_out_of_model(), with);
       constexpr double keep_t = 2.0;  // as for columns
-      if (gain.t > keep_t && gain.share > settings_.rule.least_gain) {
+      if (gain.t > keep_t && gain.share > 0.0) {
         result_.found = all;
         result_.found[i].gain = gain.share;
         result_.found[i].t = gain.t;
@@ -340,18 +343,53 @@ class Loop {
     }
   }
 
+  /// Whether the names of what was found stand: more than any law that no robot has, and constant.
+  void question_names() {
+    std::vector<AppliedEffect> all = result_.model.effects;
+    const std::size_t effects = all.size();
+    if (effects == 0) return;
+    for (const AppliedEffect& placebo : placebos(robot_)) all.push_back(placebo);
+    const BlockFits fits = tallied(all, modulations(robot_, result_.model.effects));
+    const std::vector<Term> terms = terms_of_model(fits, effects);
+    const double error = fits.held_out(terms).sum();
+    const double placebo = best_placebo(fits, terms, effects);
+    result_.placebo = placebo / error;
+    Eigen::VectorXd own_gain(static_cast<Eigen::Index>(effects));
+    for (std::size_t k = 0; k < effects; ++k) {
+      const double share = result_.found[k].gain;  // of the error without it
+      own_gain[static_cast<Eigen::Index>(k)] = error * share / (1.0 - share);
+    }
+    const auto varies = variations(fits, terms, own_gain);
+    for (std::size_t k = 0; k < effects; ++k) {
+      result_.found[k].varies = varies[k];
+      result_.found[k].drowned = own_gain[static_cast<Eigen::Index>(k)] < placebo;
+      const auto joint = joint_of(robot_, result_.model.effects[k]);
+      for (std::size_t other = 0; other < effects; ++other) {
+        if (!joint || joint_of(robot_, result_.model.effects[other]) != joint) continue;
+        if (varies[other] &&
+            own_gain[static_cast<Eigen::Index>(other)] > own_gain[static_cast<Eigen::Index>(k)]) {
+          result_.found[k].beside_unknown = true;
+        }
+      }
+    }
+  }
+
   /// Held-out error of the present effects, linear numbers refitted.
   [[nodiscard]] Eigen::VectorXd held_out_of_model() {
     const BlockFits fits = tallied(result_.model.effects);
-    Term fixed = always(fits.tally());
-    std::vector<Term> terms = {fixed};
-    for (std::size_t k = 0; k < fits.tally().hypotheses.size(); ++k) {
+    return fits.held_out(terms_of_model(fits, fits.tally().hypotheses.size()));
+  }
+
+  /// Masses and the first `effects` hypotheses of a tally: all present effects.
+  [[nodiscard]] std::vector<Term> terms_of_model(const BlockFits& fits, std::size_t effects) const {
+    std::vector<Term> terms = {always(fits.tally())};
+    for (std::size_t k = 0; k < effects; ++k) {
       const AppliedEffect& a = fits.tally().hypotheses[k];
       if (a.effect->transform.any()) continue;
       terms.push_back(term_of(fits.tally(), k));
       if (came_since(a)) terms.back().from_block = fits.first_block();
     }
-    return fits.held_out(terms);
+    return terms;
   }
 
   [[nodiscard]] bool is_banned(const AppliedEffect& h) const {
@@ -373,6 +411,7 @@ class Loop {
                   verdict.gain,
                   verdict.t,
                   candidate.since_reference,
+                  {},
                   {}};
       found.effect.value = selection.fit.value.segment(column, n);
       column += n;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/diagnosis/constancy.hpp"
 #include "shapeid/diagnosis/selection.hpp"
 #include "shapeid/models/body_model.hpp"
 
@@ -38,6 +39,15 @@ struct Found {
   double gain = 0.0, t = 0.0;    ///< of having it, all others in
   bool since_reference = false;  ///< not there in the reference log
   std::vector<std::string> ambiguous_with;
+  /// Its number follows a signal: something is there, but not what the name says.
+  std::optional<Variation> varies;
+  /// It is worth less than the best placebo: laws that no robot has explain as much.
+  bool drowned = false;
+  /// It is worth less than another at its joint whose number follows a signal, and may be a part of
+  /// the same unknown.
+  bool beside_unknown = false;
+  /// Else it only describes: it predicts, and says nothing about the cause.
+  [[nodiscard]] bool name_stands() const { return !varies && !drowned && !beside_unknown; }
 };
 
 /// A hypothesis that was looked at, for the ranking.
@@ -55,6 +65,7 @@ struct LoopResult {
   std::vector<std::pair<std::string, double>> wrong_signs;  ///< id, its parameter over its error
   Eigen::VectorXd weight;
   std::vector<Eigen::VectorXd> correction;  ///< of the log, by the last round's model; or none
+  double placebo = 0.0;  ///< share of the held-out error that the best law no robot has takes away
   double prior = 1.0;
   double error_given = 0.0, error_rigid = 0.0, error_end = 0.0;  ///< held-out, weighted, per sample
   std::size_t samples = 0, hypotheses = 0, blocks = 0;

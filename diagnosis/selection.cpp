@@ -107,15 +107,6 @@ class Search {
     return false;
   }
 
-  [[nodiscard]] bool large(std::size_t k, const Fit& fit) const {
-    const Effect& effect = *candidates_[k].effect.effect;
-    for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
-      const double least = rule_.least_size * effect.parameters[p].size;
-      if (std::abs(fit.value[static_cast<Eigen::Index>(p)]) > least) return true;
-    }
-    return false;
-  }
-
   /// Some parameter differs from zero, and none leaves the range in which it is believed.
   [[nodiscard]] bool credible(std::size_t k, const Fit& fit) const {
     const Effect& effect = *candidates_[k].effect.effect;
@@ -123,7 +114,6 @@ class Search {
     const Eigen::ArrayXd each = fit.value.array() / fit.standard_error.array();
     const double z = effect.is_payload ? each[0] : each.abs().maxCoeff();  // a load has mass
     if (!(z > least_z_)) return false;
-    if (!large(k, fit)) return false;
     for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
       const auto at = static_cast<Eigen::Index>(p);
       // The column of a transformation is that of a change.
@@ -195,9 +185,7 @@ class Search {
     accepted_.insert(accepted_.end(), members.begin(), members.end());
   }
 
-  [[nodiscard]] bool passes(const Scored& s) const {
-    return s.t > limit_ && s.gain > rule_.least_gain;
-  }
+  [[nodiscard]] bool passes(const Scored& s) const { return s.t > limit_ && s.gain > 0.0; }
 
   /// Parameters, those of shape and transformations counted on top.
   [[nodiscard]] std::size_t cost(std::size_t k) const {
@@ -231,8 +219,7 @@ class Search {
         std::vector<std::size_t> without = accepted_;
         without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
         const Gain gain = gain_of(fits_.held_out(terms(without)), with_all);
-        const bool not_believed =
-            wrong_sign(accepted_[i], own, 0.0) || !large(accepted_[i], own) || gain.share < 0.0;
+        const bool not_believed = wrong_sign(accepted_[i], own, 0.0) || gain.share < 0.0;
         const double t = not_believed ? -1.0 : gain.t;
         if (t < least) {
           least = t;

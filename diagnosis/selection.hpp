@@ -19,17 +19,15 @@ struct Candidate {
 };
 
 /// The rule of acceptance. The best hypothesis is accepted if the sum over held-out blocks of its
-/// gain exceeds `least_t` standard errors (enlarged for few blocks) and `least_gain` of the error
-/// that is left. A parameter of z standard errors has a held-out gain of z^2 - 2 in units of the
-/// noise, with a standard error of 2 |z|: `least_t` = 2.5 asks for z of about 5.4. With some
-/// hundred hypotheses tried, chance alone passes less often than once in ten thousand logs; what
-/// passes wrongly is structure that no hypothesis describes. Standard errors come from blocks, and
-/// are themselves uncertain: both limits are enlarged for few blocks.
+/// gain exceeds `least_t` standard errors (enlarged for few blocks). A parameter of z standard
+/// errors has a held-out gain of z^2 - 2 in units of the noise, with a standard error of 2 |z|:
+/// `least_t` = 2.5 asks for z of about 5.4. With some hundred hypotheses tried, chance alone passes
+/// less often than once in ten thousand logs; what passes wrongly is structure that no hypothesis
+/// describes. Standard errors come from blocks, and are themselves uncertain: the limit is enlarged
+/// for few blocks. There is no least gain and no least size: what a wrong law is worth in a log is
+/// asked of the log (placebo.hpp).
 struct SelectionRule {
   double least_t = 2.5;
-  double least_gain = 0.005;
-  /// Of its usual size that some parameter must have: what is smaller means nothing to a user.
-  double least_size = 0.02;
   /// Logs without any effect in which chance alone may make some parameter differ from zero by
   /// `least_z()` standard errors.
   double false_alarms = 0.01;

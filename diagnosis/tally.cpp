@@ -36,9 +36,49 @@ class RowSums {
   Eigen::Index used_ = 0;
 };
 
+double value_of(const Modulation& modulation, const View& view, const Prediction& predicted) {
+  const Eigen::Index j = modulation.joint;
+  switch (modulation.signal) {
+    case Signal::position:
+      return view.sample.q[j];
+    case Signal::speed:
+      return std::abs(view.sample.dq[j]);
+    case Signal::direction: {
+      constexpr double width = 0.05;  // rad/s or m/s: where it turns round
+      return std::tanh(view.sample.dq[j] / width);
+    }
+    case Signal::load:
+      return predicted.load.joint[j];
+    case Signal::time:
+      return view.elapsed;
+    case Signal::row:
+      break;
+  }
+  return 1.0;
+}
+
+/// Fills the columns of the modulations from those of the hypotheses.
+void modulate(const Tally& tally, const Robot& robot, const View& view, const Prediction& predicted,
+              Eigen::MatrixXd& M) {
+  for (std::size_t k = 0; k < tally.modulations.size(); ++k) {
+    const Modulation& modulation = tally.modulations[k];
+    const Eigen::Index n = tally.hypotheses[modulation.hypothesis].value.size();
+    const auto from = M.middleCols(tally.first[modulation.hypothesis], n);
+    auto to = M.middleCols(tally.first_modulated[k], n);
+    if (modulation.signal == Signal::row) {
+      const Eigen::Index row = robot.base_dof() + modulation.joint;
+      to.setZero();
+      to.row(row) = from.row(row);
+    } else {
+      to = value_of(modulation, view, predicted) * from;
+    }
+  }
+}
+
 }  // namespace
 
-Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses) {
+Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses,
+                  const std::vector<Modulation>& modulations) {
   Tally tally;
   tally.inertial = Eigen::Index{10} * robot.link_count();
   tally.hypotheses = hypotheses;
@@ -47,6 +87,12 @@ Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypothes
     tally.first.push_back(column);
     column += h.value.size();
   }
+  tally.modulations = modulations;
+  for (const Modulation& m : modulations) {
+    tally.first_modulated.push_back(column);
+    column += hypotheses[m.hypothesis].value.size();
+  }
+  tally.width = column + 1;
   return tally;
 }
 
@@ -55,7 +101,7 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
                   bool reference) {
   const HypothesisColumns hypotheses(robot, contacts, model, tally.hypotheses);
   const Viewer& viewer = hypotheses.viewer();
-  const Eigen::Index width = tally.inertial + hypotheses.count() + 1;
+  const Eigen::Index width = tally.width;
   const Eigen::VectorXd root = options.weight.cwiseSqrt();
   RowSums sums(width, robot.dof());
   Block block;
@@ -85,6 +131,7 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
     M.leftCols(tally.inertial) = rows.E;
     M.middleCols(tally.inertial, hypotheses.count()) =
         hypotheses.at(recording, index, view, predicted);
+    modulate(tally, robot, view, predicted, M);
     M.rightCols<1>() = logged_force(viewer, view);
     for (Eigen::Index row = 0; row < M.rows(); ++row) {
       if (!counted[row]) M.row(row).setZero();

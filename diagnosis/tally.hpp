@@ -24,12 +24,26 @@ struct Block {
   bool reference = false;  ///< of the reference log: never held out
 };
 
+/// What the size of an effect might follow.
+enum class Signal { position, speed, direction, load, time, row };
+
+/// A hypothesis whose size follows a signal of a joint: its columns times the signal. `row` keeps
+/// the joint's own row of the columns alone.
+struct Modulation {
+  std::size_t hypothesis = 0;
+  Signal signal = Signal::time;
+  int joint = 0;
+};
+
 struct Tally {
   std::vector<Block> blocks;  ///< in the order of time, those of a reference log first
   Eigen::Index inertial = 0;  ///< columns of Y: 10 links, all of the robot
   std::vector<AppliedEffect> hypotheses;
   std::vector<Eigen::Index> first;  ///< column of each hypothesis
-  [[nodiscard]] Eigen::Index columns() const { return blocks.front().sums.cols() - 1; }
+  std::vector<Modulation> modulations;
+  std::vector<Eigen::Index> first_modulated;  ///< column of each modulation
+  Eigen::Index width = 0;                     ///< of the sums: all columns, and F
+  [[nodiscard]] Eigen::Index columns() const { return width - 1; }
 };
 
 struct TallyOptions {
@@ -44,6 +58,7 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
                   const RichModel& model, const Recording& recording, const TallyOptions& options,
                   bool reference);
 
-[[nodiscard]] Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses);
+[[nodiscard]] Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses,
+                                const std::vector<Modulation>& modulations = {});
 
 }  // namespace shapeid::diagnosis

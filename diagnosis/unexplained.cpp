@@ -1,5 +1,7 @@
 #include "shapeid/diagnosis/unexplained.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -12,10 +14,9 @@ namespace {
 
 constexpr std::size_t bins = 10;
 constexpr std::size_t blocks = 30, folds = 6;
-// As for effects. By chance a curve of ten bins loses on other blocks, so that 2.5 standard errors
-// of gain are rarer than their number says, and a few hundred curves may be tried.
+// As for effects. By chance a curve loses on other blocks, so that 2.5 standard errors of gain are
+// rarer than their number says, and a few hundred curves may be tried.
 constexpr double least_gain_t = 2.5;
-constexpr double least_share = 0.005;
 
 /// Edges so that every bin holds as many samples.
 std::vector<double> quantiles(std::vector<double> x) {
@@ -44,38 +45,77 @@ struct Binned {
   }
 };
 
-/// The curve of y over x; empty if it does not hold on other blocks.
+void set_curve(const Binned& places, const Binned& values, Structure& structure) {
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    structure.at.push_back(places.mean(bin));
+    structure.value.push_back(values.mean(bin));
+  }
+}
+
+/// Places of x in its order, spread evenly over (-1, 1).
+std::vector<double> ranks(const std::vector<double>& x) {
+  std::vector<std::size_t> order(x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return x[a] < x[b]; });
+  std::vector<double> u(x.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    u[order[i]] = (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(x.size()) - 1.0;
+  }
+  return u;
+}
+
+/// Legendre's polynomials of order 0 to 4.
+constexpr int waves = 5;
+using Waves = Eigen::Matrix<double, waves, 1>;
+Waves waves_at(double u) {
+  Waves p;
+  p[0] = 1.0;
+  p[1] = u;
+  for (int k = 1; k + 1 < waves; ++k) {
+    p[k + 1] = ((2.0 * k + 1.0) * u * p[k] - k * p[k - 1]) / (k + 1.0);
+  }
+  return p;
+}
+
+/// The curve of y over x; empty if it does not hold on other blocks. It is judged as a smooth
+/// function of the rank of x with four numbers, because every number costs held-out error, and
+/// filtered samples are few independent ones; it is shown as means of ten bins.
 std::optional<Structure> curve(const std::vector<double>& x, const std::vector<double>& y,
                                double least_t) {
   const std::vector<double> edges = quantiles(x);
   if (!(edges.back() > edges.front())) return std::nullopt;  // a constant
-  const auto block_of = [&](std::size_t i) { return i * blocks / x.size(); };
-  std::vector<Binned> outside(folds);
+  const std::vector<double> u = ranks(x);
+  const auto fold_of = [&](std::size_t i) { return (i * blocks / x.size()) * folds / blocks; };
+  using Normal = Eigen::Matrix<double, waves, waves>;
+  std::vector<Normal> normal(folds, Normal::Zero());
+  std::vector<Waves> target(folds, Waves::Zero());
   Binned all, places;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const std::size_t bin = bin_of(x[i], edges), fold = block_of(i) * folds / blocks;
+    const Waves p = waves_at(u[i]);
     for (std::size_t f = 0; f < folds; ++f) {
-      if (f != fold) outside[f].add(bin, y[i]);
+      if (f == fold_of(i)) continue;
+      normal[f] += p * p.transpose();
+      target[f] += p * y[i];
     }
+    const std::size_t bin = bin_of(x[i], edges);
     all.add(bin, y[i]);
     places.add(bin, x[i]);
   }
+  std::vector<Waves> fitted;
+  for (std::size_t f = 0; f < folds; ++f) fitted.emplace_back(normal[f].ldlt().solve(target[f]));
   Eigen::VectorXd before = Eigen::VectorXd::Zero(blocks), after = before;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const Binned& train = outside[block_of(i) * folds / blocks];
-    const auto b = static_cast<Eigen::Index>(block_of(i));
-    before[b] += std::pow(y[i] - train.mean(), 2);
-    after[b] += std::pow(y[i] - train.mean(bin_of(x[i], edges)), 2);
+    const std::size_t f = fold_of(i);
+    const auto b = static_cast<Eigen::Index>(i * blocks / x.size());
+    before[b] += std::pow(y[i] - target[f][0] / normal[f](0, 0), 2);
+    after[b] += std::pow(y[i] - fitted[f].dot(waves_at(u[i])), 2);
   }
   const Gain gain = gain_of(before, after);
-  if (!(gain.t > least_t && gain.share > least_share)) return std::nullopt;
+  if (!(gain.t > least_t && gain.share > 0.0)) return std::nullopt;
   Structure found;
   found.share = gain.share;
   found.t = gain.t;
-  for (std::size_t bin = 0; bin < bins; ++bin) {
-    found.at.push_back(places.mean(bin));
-    found.value.push_back(all.mean(bin));
-  }
+  set_curve(places, all, found);
   return found;
 }
 
@@ -138,6 +178,47 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
   std::sort(found.begin(), found.end(),
             [](const Structure& a, const Structure& b) { return a.share > b.share; });
   return found;
+}
+
+Structure unnamed(const Robot& robot, const Recording& recording, const Series& without,
+                  const Variation& variation) {
+  const Eigen::Index row = robot.base_dof() + variation.joint;
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < without.index.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    if (!without.counted(row, column)) continue;
+    const Sample& s = recording[without.index[i]];
+    switch (variation.signal) {
+      case Signal::position:
+        x.push_back(s.q[variation.joint]);
+        break;
+      case Signal::speed:
+      case Signal::direction:
+        x.push_back(s.dq[variation.joint]);
+        break;
+      case Signal::load:
+      case Signal::row:
+        x.push_back(without.predicted(row, column));
+        break;
+      case Signal::time:
+        x.push_back(s.time);
+        break;
+    }
+    y.push_back(without.residual(row, column));
+  }
+  Structure structure;
+  structure.joint = robot.joint(variation.joint).name;
+  structure.variable = variable_of(variation, robot);
+  structure.share = variation.share;
+  structure.t = variation.z;
+  const std::vector<double> edges = quantiles(x);
+  Binned places, values;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    places.add(bin_of(x[i], edges), x[i]);
+    values.add(bin_of(x[i], edges), y[i]);
+  }
+  set_curve(places, values, structure);
+  return structure;
 }
 
 Autocorrelation autocorrelation(const Recording& recording, const Series& series, Eigen::Index row,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/diagnosis/constancy.hpp"
 #include "shapeid/diagnosis/series.hpp"
 
 namespace shapeid::diagnosis {
@@ -12,17 +13,25 @@ namespace shapeid::diagnosis {
 struct Structure {
   std::string joint;
   std::string variable;  ///< "q.knee", "dq.hip", "ddq.knee", "tau.knee", "time", or a log column
-  double share = 0.0;    ///< of the joint's residual variance, on blocks that were not used
-  double t = 0.0;        ///< over its standard error
+  /// Of the joint's residual variance, on blocks that were not used; of an effect whose number
+  /// follows the signal: of what that effect is worth.
+  double share = 0.0;
+  double t = 0.0;                 ///< over its standard error
   std::vector<double> at, value;  ///< the empirical curve: middle of each bin, mean residual
+  std::string under_name;         ///< the effect that was accepted and does not stay constant
 };
 
 /// Tests the residual of every joint against its own position, velocity, acceleration and torque,
-/// the other joints' positions and velocities, time, and every extra column: a curve of ten bins is
+/// the other joints' positions and velocities, time, and every extra column: a smooth curve is
 /// fitted on some blocks of time and judged on the others. What passes is returned, the strongest
 /// first, at most one variable for each joint and kind of signal.
 [[nodiscard]] std::vector<Structure> unexplained(const Robot& robot, const Recording& recording,
                                                  const Series& series);
+
+/// What followed a signal under the name of an effect: the curve of the residual without it over
+/// the signal that its number follows.
+[[nodiscard]] Structure unnamed(const Robot& robot, const Recording& recording,
+                                const Series& without, const Variation& variation);
 
 /// Autocorrelation of a row of the series at the first `lags` lags (samples apart), and the band
 /// in which that of white noise stays with 95 percent.

@@ -1,0 +1,123 @@
+// Names that do not stand: what was accepted is not what it is called, or no more than laws that no
+// robot has.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "shapeid/diagnosis/hypotheses.hpp"
+#include "shapeid/diagnosis/loop.hpp"
+#include "shapeid/diagnosis/placebo.hpp"
+#include "shapeid/diagnosis/unexplained.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::arm;
+using test::arm_settings;
+using test::ArmLog;
+using test::effect;
+using test::record;
+
+/// The log with something in its torques that no effect of the catalogue is.
+Recording with(const ArmLog& log, const std::function<void(Sample&)>& change) {
+  const Recording clean = record(log);
+  std::vector<Sample> samples = clean.samples();
+  for (Sample& s : samples) change(s);
+  return {std::move(samples), clean.rate()};
+}
+
+LoopResult loop_of(const Recording& recording) {
+  return close_loop(arm(), recording, nullptr, arm_settings());
+}
+
+const Found* found(const LoopResult& result, const std::string& id) {
+  for (const Found& f : result.found) {
+    if (f.id == id) return &f;
+  }
+  return nullptr;
+}
+
+TEST(Names, StandWhereTheLawIsTrue) {
+  const LoopResult result =
+      loop_of(record({{effect("viscous_friction", 1, {0.3}), effect("coulomb_friction", 2, {0.4}),
+                       effect("torque_offset", 0, {0.2})}}));
+  ASSERT_EQ(result.found.size(), 3U);
+  for (const Found& f : result.found) EXPECT_TRUE(f.name_stands()) << f.id;
+}
+
+/// The friction of a bent shaft, larger on one side of the turn.
+TEST(Names, DoNotStandWhereTheNumberFollowsPosition) {
+  const Recording log = with({}, [](Sample& s) {
+    s.tau[1] += 0.5 * (1.0 + 0.8 * std::sin(1.5 * s.q[1])) * std::tanh(s.dq[1] / 0.05);
+  });
+  const LoopResult result = loop_of(log);
+  ASSERT_EQ(result.found.size(), 1U);  // by the name of some friction
+  EXPECT_FALSE(result.found[0].name_stands());
+  ASSERT_TRUE(result.found[0].varies);
+  EXPECT_EQ(variable_of(*result.found[0].varies, arm()), "q.joint2");
+}
+
+/// An offset that grows all the time is a drift, and its curve says so.
+TEST(Names, DoNotStandWhereTheNumberFollowsTime) {
+  const Recording log = with({}, [](Sample& s) { s.tau[0] += 0.05 * s.time; });
+  const LoopResult result = loop_of(log);
+  const Found* offset = found(result, "torque_offset@joint1");
+  ASSERT_NE(offset, nullptr);
+  ASSERT_TRUE(offset->varies);
+  EXPECT_EQ(variable_of(*offset->varies, arm()), "time");
+
+  RichModel without = result.model;
+  std::erase_if(without.effects, [&](const AppliedEffect& a) {
+    return a.effect == offset->effect.effect && a.site == offset->effect.site;
+  });
+  const Structure curve =
+      unnamed(arm(), log, series(arm(), reference::ContactTreatment::ignore, without, log, 2),
+              *offset->varies);
+  ASSERT_GT(curve.at.size(), 2U);
+  // Predicted minus logged falls by what the torque grew.
+  const double slope =
+      (curve.value.back() - curve.value.front()) / (curve.at.back() - curve.at.front());
+  constexpr double a_fifth = 0.2;  // masses took a little of the drift
+  EXPECT_LT(std::abs(slope / -0.05 - 1.0), a_fifth);
+}
+
+/// A torque that follows another joint's velocity: nothing that is worth less is believed.
+TEST(Names, DoNotStandBelowWhatALawThatNoRobotHasIsWorth) {
+  const ArmLog small{{effect("viscous_friction", 2, {0.008})}};
+  const LoopResult alone = loop_of(record(small));
+  ASSERT_EQ(alone.found.size(), 1U);
+  EXPECT_TRUE(alone.found[0].name_stands());
+
+  const LoopResult coupled = loop_of(with(small, [](Sample& s) { s.tau[0] += 0.3 * s.dq[1]; }));
+  EXPECT_GT(coupled.placebo, alone.placebo);
+  const Found* friction = found(coupled, "viscous_friction@joint3");
+  EXPECT_TRUE(friction == nullptr || friction->drowned);
+}
+
+TEST(Placebos, AreLawsOfOtherJointsInTheRowOfOne) {
+  const Robot robot = arm();
+  const Recording log = record({});
+  const std::vector<AppliedEffect> list = placebos(robot);
+  EXPECT_EQ(list.size(), 4U * 2U * 3U) << "four laws, two donors, three joints";
+  const RichModel model{stacked_parameters(robot), {}};
+  const HypothesisColumns columns(robot, reference::ContactTreatment::ignore, model, list);
+  const std::size_t index = log.usable(1).front();
+  const View view = columns.viewer().view(log, index);
+  const Eigen::MatrixXd E = columns.at(log, index, view, predict(columns.viewer(), view, model));
+  for (Eigen::Index k = 0; k < E.cols(); ++k) {
+    EXPECT_EQ((E.col(k).array() != 0.0).count(), 1) << "one joint each";
+  }
+  // The first is a spring of joint 1 that follows joint 2.
+  EXPECT_EQ(E(0, 0), log[index].q[1]);
+}
+
+TEST(Placebos, NeedASecondJoint) {
+  Robot robot = arm();
+  robot.links.resize(2);
+  EXPECT_TRUE(placebos(robot).empty());
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
