@@ -26,6 +26,16 @@ std::string mass_bound_text(const Proof& p) {
                      p.mass_bound_declared ? "declared by the problem" : "proved from the rows");
 }
 
+std::string columns_text(const Proof& p) {
+  const certificate::Columns& c = p.columns;
+  if (c.declared == 0) {
+    return "no shapes are stated: that the columns are shapes in the regions is taken on trust\n";
+  }
+  return fmt::format(
+      "{} of {} columns are what their shapes make; {} shapes are shown to lie in the regions\n",
+      c.agree, c.declared, c.inside);
+}
+
 std::string where_from(const Proof& p) {
   if (p.optimum_known) {
     return p.free_set_right ? "solved exactly on the answer's own free set"
@@ -39,7 +49,7 @@ std::string relaxations_text(const Proof& p) {
   const certificate::Ordered& of = p.relaxations;
   if (!std::isfinite(of.bodies.upper)) return "";
   const auto line = [](const char* set, double lower, double upper, const char* next) {
-    return fmt::format("  {:<44}[{:.9g}, {:.9g}]{}\n", set, lower, upper, next);
+    return fmt::format("  {:<36}[{:.17g}, {:.17g}]{}\n", set, lower, upper, next);
   };
   const auto relation = [&](std::size_t k) {
     return of.apart[k] ? "  less, proved by the numbers, than" : "  at most, as it asks less than";
@@ -66,6 +76,7 @@ std::string certified_text(const certificate::Certified& certified) {
       where_from(p), p.gap, p.mass_distance, p.parameter_distance[0], p.parameter_distance[1],
       p.parameter_distance[2], mass_bound_text(p));
   text += bodies_text(p);
+  text += columns_text(p);
   if (!p.made_of_shapes) {
     text += p.plane.size() > 0
                 ? "the parameters as written are not made of the shapes: a plane separates them\n"

@@ -48,7 +48,7 @@ std::string history_text(const reference::Identification& found,
   const std::vector<DivisionStep>& history = found.run.history;
   if (history.empty() && !floor) return "";
   std::string text =
-      floor ? fmt::format("\nno division, however fine, goes below {:.8g} (proved)\n", *floor)
+      floor ? fmt::format("\nno division, however fine, goes below {:.17g} (proved)\n", *floor)
             : "\nno floor of infinitely many divisions was proved\n";
   text += fmt::format("  {:>8}{:>8}{:>16}{:>16}  {}\n", "division", "shapes", "objective",
                       "above floor", "of shape");

@@ -132,13 +132,15 @@ double overall(const Eigen::VectorXd& rms, const Robot& robot) {
 }
 
 StatedProblem stated_problem(const Result& result) {
-  StatedProblem stated{result.found.run.problem, {}, {}};
-  const std::vector<int>& free_links = result.sought.free_links;
-  for (const SoughtShape& sought : result.sought.shapes) {
-    const auto place = std::lower_bound(free_links.begin(), free_links.end(), sought.link);
-    stated.regions.push_back({place - free_links.begin(), sought.shape});
-  }
-  return stated;
+  const auto placed = [](const BodyModel& model) {
+    std::vector<Region> shapes;
+    for (const SoughtShape& s : model.shapes) {
+      const auto place = std::lower_bound(model.free_links.begin(), model.free_links.end(), s.link);
+      shapes.push_back({place - model.free_links.begin(), s.shape});
+    }
+    return shapes;
+  };
+  return {result.found.run.problem, {}, placed(result.sought), placed(result.found.run.model)};
 }
 
 void choose_written_links(Result& result, const Robot& robot, double least_mass) {

@@ -33,7 +33,8 @@ struct Result {
   std::vector<std::string> notes;
 };
 
-/// The problem of the last division, with the undivided shapes as its regions: problem.json.
+/// The problem of the last division with its shapes, the undivided ones as its regions:
+/// problem.json.
 [[nodiscard]] StatedProblem stated_problem(const Result& result);
 
 /// Which free links get a new inertia: those with more than `least_mass` (kg) that a URDF reader,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/shape_json.hpp"
@@ -48,11 +49,21 @@ OtherColumns others_from(const json& object, const JsonSource& source) {
   return C;
 }
 
-std::vector<Region> regions_from(const json& list, const JsonSource& source) {
-  if (!list.is_array()) throw InputError({source.name, 0, "regions"}, "not a list", "of shapes");
+json regions_json(const std::vector<Region>& regions) {
+  json list = json::array();
+  for (const Region& region : regions) {
+    list.push_back(shape_json(region.shape));
+    list.back()["link"] = region.link;
+  }
+  return list;
+}
+
+std::vector<Region> regions_from(const json& list, const std::string& key,
+                                 const JsonSource& source) {
+  if (!list.is_array()) throw InputError({source.name, 0, key}, "not a list", "of shapes");
   std::vector<Region> regions;
   for (const json& item : list) {
-    Shape shape = shape_from_json(item, "regions", source);
+    Shape shape = shape_from_json(item, key, source);
     regions.push_back(
         {count(member(item, "link", source), most_links, "link", source), std::move(shape)});
   }
@@ -73,11 +84,8 @@ std::string problem_to_json(const StatedProblem& stated) {
                            {"lower", bounds_json(stated.others.lower)},
                            {"upper", bounds_json(stated.others.upper)}};
   }
-  for (const Region& region : stated.regions) {
-    json shape = shape_json(region.shape);
-    shape["link"] = region.link;
-    document["regions"].push_back(shape);
-  }
+  if (!stated.regions.empty()) document["regions"] = regions_json(stated.regions);
+  if (!stated.shapes.empty()) document["shapes"] = regions_json(stated.shapes);
   return document.dump() + "\n";
 }
 
@@ -87,9 +95,9 @@ std::string problem_to_json(const MassProblem& problem) {
 
 StatedProblem stated_problem_from_json(const std::string& text, const std::string& name) {
   const JsonSource source{name, manual};
-  const json document = parse_document(
-      text, source, problem_format,
-      {"free_links", "Y", "F", "W", "U", "V", "lambda", "mass_bound", "columns", "regions"});
+  const json document = parse_document(text, source, problem_format,
+                                       {"free_links", "Y", "F", "W", "U", "V", "lambda",
+                                        "mass_bound", "columns", "regions", "shapes"});
   StatedProblem stated;
   MassProblem& p = stated.masses;
   p.F = numbers(member(document, "F", source), "F", source);
@@ -102,7 +110,10 @@ StatedProblem stated_problem_from_json(const std::string& text, const std::strin
   p.lambda = number(member(document, "lambda", source), "lambda", source);
   p.mass_bound = number(member(document, "mass_bound", source), "mass_bound", source);
   if (document.contains("columns")) stated.others = others_from(document["columns"], source);
-  if (document.contains("regions")) stated.regions = regions_from(document["regions"], source);
+  for (const auto& [key, place] : {std::pair("regions", &StatedProblem::regions),
+                                   std::pair("shapes", &StatedProblem::shapes)}) {
+    if (document.contains(key)) stated.*place = regions_from(document[key], key, source);
+  }
   if (const Violation why = why_malformed(stated)) {
     throw InputError({name}, *why, fmt::format("see {}", manual));
   }

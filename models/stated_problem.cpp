@@ -5,6 +5,17 @@
 #include <cmath>
 
 namespace shapeid {
+namespace {
+
+Violation why_misplaced(const Region& region, const char* what, const StatedProblem& p) {
+  if (region.link < 0 || 10 * region.link >= p.masses.U.rows()) {
+    return fmt::format("{} is on free link {}, there are {}", what, region.link,
+                       p.masses.U.rows() / 10);
+  }
+  return why_malformed(region.shape);
+}
+
+}  // namespace
 
 Violation why_malformed(const StatedProblem& p) {
   if (const Violation why = why_malformed(p.masses)) return why;
@@ -24,11 +35,14 @@ Violation why_malformed(const StatedProblem& p) {
     }
   }
   for (const Region& region : p.regions) {
-    if (region.link < 0 || 10 * region.link >= p.masses.U.rows()) {
-      return fmt::format("a region is on free link {}, there are {}", region.link,
-                         p.masses.U.rows() / 10);
-    }
-    if (const Violation why = why_malformed(region.shape)) return why;
+    if (const Violation why = why_misplaced(region, "a region", p)) return why;
+  }
+  for (const Region& shape : p.shapes) {
+    if (const Violation why = why_misplaced(shape, "a shape", p)) return why;
+  }
+  if (!p.shapes.empty() && static_cast<Eigen::Index>(p.shapes.size()) != p.masses.shapes()) {
+    return fmt::format("{} shapes are stated, U has {} columns", p.shapes.size(),
+                       p.masses.shapes());
   }
   return std::nullopt;
 }

@@ -18,7 +18,7 @@ struct OtherColumns {
   Eigen::VectorXd lower, upper;  ///< infinite where there is none
 };
 
-/// Where a free link may have mass, however finely it is divided.
+/// Where a free link may have mass, however finely it is divided; or a shape that it is made of.
 struct Region {
   Eigen::Index link = 0;  ///< place among the free links
   Shape shape;
@@ -30,10 +30,14 @@ struct StatedProblem {
   MassProblem masses;
   OtherColumns others;  ///< may have no columns
   std::vector<Region> regions;
+  /// What the columns of U are said to be, one each; or empty. Nothing is computed from them but
+  /// whether that is so.
+  std::vector<Region> shapes = {};
 };
 
 /// Empty if the mass problem is well-formed, the other columns have its rows and finite numbers,
-/// lower bounds are not above upper ones, and regions are well-formed shapes on free links.
+/// lower bounds are not above upper ones, regions are well-formed shapes on free links, and so are
+/// the shapes of all columns, if any is stated.
 [[nodiscard]] Violation why_malformed(const StatedProblem& problem);
 
 }  // namespace shapeid

@@ -94,7 +94,11 @@ json proof_json(const Proof& p) {
                  {{"masses", between_json(p.relaxations.masses)},
                   {"bodies", between_json(p.relaxations.bodies)},
                   {"divisions", between_json(p.relaxations.divisions)},
-                  {"apart", p.relaxations.apart}}}};
+                  {"apart", p.relaxations.apart}}},
+                {"columns",
+                 {{"declared", p.columns.declared},
+                  {"agree", p.columns.agree},
+                  {"inside", p.columns.inside}}}};
   for (const double distance : p.parameter_distance) {
     claim["parameter_distance"].push_back(finite(distance));
   }

@@ -9,6 +9,7 @@
 #include "shapeid/models/strict_json.hpp"
 #include "shapeid/proofs/certificate/bound.hpp"
 #include "shapeid/proofs/certificate/cone.hpp"
+#include "shapeid/proofs/certificate/geometry.hpp"
 #include "shapeid/proofs/certificate/optimum.hpp"
 
 namespace shapeid::certificate {
@@ -45,6 +46,7 @@ class Certifier {
       result_.proof.bodies.push_back(existence(Vector(at, at + 10)));
     }
     order_relaxations(evidence);
+    check_columns();
     return result_;
   }
 
@@ -172,6 +174,14 @@ class Certifier {
     of.apart = {apart(proved.masses, proved.bodies), apart(proved.bodies, proved.divisions),
                 apart(proved.divisions, proved.shapes)};
     if (sgn(proved.divisions.lower) > 0) result_.proof.floor = of.divisions.lower;
+  }
+
+  void check_columns() {
+    const Geometry found = check_geometry(stated_, exact(tolerance_.rounding));
+    result_.proof.columns = {found.declared, found.agree, found.inside};
+    if (!found.first_disagreement.empty()) {
+      reject("the problem contradicts itself: {}", found.first_disagreement);
+    }
   }
 
   static Between between(const Interval& interval) {

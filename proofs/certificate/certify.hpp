@@ -41,6 +41,12 @@ struct Ordered {
   std::array<bool, 3> apart = {};
 };
 
+/// Of the columns of U, how many shapes are stated, how many columns are what their shape makes
+/// (to Tolerance::rounding), and how many shapes are shown to lie in the regions (geometry.hpp).
+struct Columns {
+  Eigen::Index declared = 0, agree = 0, inside = 0;
+};
+
 /// Everything here is proved, in exact arithmetic, for the doubles of the problem; doubles of the
 /// report are rounded outward. Infinite where nothing is proved.
 struct Proof {
@@ -62,6 +68,7 @@ struct Proof {
   std::vector<Existence> bodies;  ///< of the free links, U m exactly
   std::optional<double> floor;    ///< of infinitely many divisions; empty: none above zero
   Ordered relaxations;
+  Columns columns;
 };
 
 struct Certified {

@@ -96,6 +96,17 @@ TEST(Verbs, FromSimulationToAnIdentifiedUrdf) {
   EXPECT_LT(proof["floor"].get<double>(), answer.objective);
   EXPECT_GT(proof["floor"].get<double>(), 0.9 * answer.objective);
 
+  // Its columns are what the shapes beside them make, and those lie in the undivided ones; the
+  // optima of larger sets come in order.
+  const nlohmann::json all = {{"declared", 14}, {"agree", 14}, {"inside", 14}};
+  EXPECT_EQ(proof["columns"], all);
+  const auto& sets = proof["relaxations"];
+  EXPECT_GT(sets["masses"]["lower"].get<double>(), 0.0);
+  EXPECT_LE(sets["masses"]["upper"].get<double>(), sets["bodies"]["upper"].get<double>());
+  EXPECT_LE(sets["bodies"]["upper"].get<double>(), answer.objective);
+  EXPECT_GT(sets["bodies"]["lower"].get<double>(),
+            (1.0 - 1e-6) * sets["bodies"]["upper"].get<double>());
+
   // Every division says how far above that floor it is: less and less, and never below.
   EXPECT_EQ(result["objective"]["floor"], proof["floor"]);
   double above = result["objective"]["undivided"].get<double>() - proof["floor"].get<double>();

@@ -1,0 +1,195 @@
+#include "shapeid/proofs/certificate/geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "shapeid/proofs/certificate/exact_moments.hpp"
+#include "shapeid/proofs/certificate/linear.hpp"
+
+namespace shapeid::certificate {
+namespace {
+
+Vector exact3(const Eigen::Vector3d& x) { return exact(Eigen::VectorXd(x)); }
+
+/// Why the column is not the shape's; empty if it is.
+std::string disagreement(const MassProblem& p, Eigen::Index j, const Region& region,
+                         const Rational& rounding) {
+  const auto moments = exact_moments(region.shape);
+  if (!moments) return fmt::format("the shape of column {} cannot be integrated", j);
+  const std::array<Enclosure, 10>& u = moments->parameters;
+  const Rational square = (u[4].lower + u[7].lower + u[9].lower) / 2;  // of the distance, mean
+  if (distance(exact(p.V[j]), moments->volume) > rounding * moments->volume.lower) {
+    return fmt::format("volume {} is said to be {:g}, its shape has {:g}", j, p.V[j],
+                       moments->volume.lower.get_d());
+  }
+  for (Eigen::Index i = 0; i < p.U.rows(); ++i) {
+    const Eigen::Index k = i - 10 * region.link;
+    const double written = p.U(i, j);
+    if (k < 0 || k >= 10) {
+      if (written != 0.0) return fmt::format("column {} has entries on other links", j);
+      continue;
+    }
+    const Enclosure& made = u[static_cast<std::size_t>(k)];
+    const Rational off = distance(exact(written), made);
+    const bool agrees = k == 0  ? off <= rounding
+                        : k < 4 ? off * off <= rounding * rounding * square
+                                : off <= rounding * square;
+    if (!agrees) {
+      return fmt::format("parameter {} of column {} is said to be {:g}, its shape has {:g}", k, j,
+                         written, made.lower.get_d());
+    }
+  }
+  return "";
+}
+
+/// Corners whose convex hull the shape is; none for curved shapes.
+struct Corners {
+  std::vector<Vector> operator()(const Cuboid& s) const {
+    std::vector<Vector> corners;
+    for (int corner = 0; corner < 8; ++corner) {
+      Vector x = exact3(s.frame.translation());
+      for (int axis = 0; axis < 3; ++axis) {
+        const double end = (corner >> axis) % 2 == 0 ? s.cell.lower[axis] : s.cell.upper[axis];
+        for (std::size_t i = 0; i < 3; ++i) {
+          x[i] += exact(s.frame(static_cast<Eigen::Index>(i), axis)) * exact(end);
+        }
+      }
+      corners.push_back(std::move(x));
+    }
+    return corners;
+  }
+  std::vector<Vector> operator()(const Polyhedron& s) const {
+    std::vector<Vector> corners;
+    for (const Eigen::Vector3d& vertex : s.vertices) corners.push_back(exact3(vertex));
+    return corners;
+  }
+  std::vector<Vector> operator()(const Point& s) const { return {exact3(s.position)}; }
+  std::vector<Vector> operator()(const Cylinder&) const { return {}; }
+  std::vector<Vector> operator()(const Ellipsoid&) const { return {}; }
+};
+
+/// Whether a convex region, widened by `rounding`, holds a point. Sectors hold none.
+struct Holds {
+  Vector x;
+  Rational rounding;
+
+  /// Coordinates in the canonical body; the frame is not singular.
+  [[nodiscard]] Vector seen_in(const Eigen::Affine3d& frame) const {
+    std::vector<Vector> L;
+    Vector right;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      L.push_back(exact(Eigen::VectorXd(frame.linear().row(i).transpose())));
+      right.emplace_back(x[static_cast<std::size_t>(i)] - exact(frame.translation()[i]));
+    }
+    return solve(std::move(L), std::move(right));
+  }
+  [[nodiscard]] bool between(const Rational& y, double lower, double upper) const {
+    const Rational slack = rounding * (exact(upper) - exact(lower));
+    return exact(lower) - slack <= y && y <= exact(upper) + slack;
+  }
+  [[nodiscard]] bool within(const Rational& square, double radius) const {
+    const Rational R = exact(radius) * (1 + rounding);
+    return square <= R * R;
+  }
+  static bool whole_turn(double lower, double upper) {
+    return upper - lower >= 2.0 * std::numbers::pi;
+  }
+
+  bool operator()(const Cuboid& s) const {
+    const Vector y = seen_in(s.frame);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      if (!between(y[i], s.cell.lower[axis], s.cell.upper[axis])) return false;
+    }
+    return true;
+  }
+  bool operator()(const Cylinder& s) const {
+    if (s.cell.lower.x() > 0.0 || !whole_turn(s.cell.lower.y(), s.cell.upper.y())) return false;
+    const Vector y = seen_in(s.frame);
+    return between(y[2], s.cell.lower.z(), s.cell.upper.z()) &&
+           within(y[0] * y[0] + y[1] * y[1], s.cell.upper.x());
+  }
+  bool operator()(const Ellipsoid& s) const {
+    const bool whole = s.cell.lower.x() == 0.0 && s.cell.lower.y() == 0.0 &&
+                       s.cell.upper.y() >= std::numbers::pi &&
+                       whole_turn(s.cell.lower.z(), s.cell.upper.z());
+    return whole && within(dot(seen_in(s.frame), seen_in(s.frame)), s.cell.upper.x());
+  }
+  bool operator()(const Polyhedron& s) const {
+    if (!s.convex) return false;
+    // Toward a point inside by `rounding` of the way.
+    Vector inner(3), y = x;
+    for (const Vector& corner : Corners{}(s)) {
+      for (std::size_t i = 0; i < 3; ++i) inner[i] += corner[i] / Rational(s.vertices.size());
+    }
+    for (std::size_t i = 0; i < 3; ++i) y[i] += rounding * (inner[i] - x[i]);
+    for (const auto& face : s.faces) {
+      const auto corner = [&](std::size_t i) {
+        return exact3(s.vertices[static_cast<std::size_t>(face[i])]);
+      };
+      const Vector a = corner(0), b = corner(1), c = corner(2);
+      std::array<Vector, 3> from_a{Vector(3), Vector(3), Vector(3)};
+      for (std::size_t i = 0; i < 3; ++i) {
+        from_a[0][i] = b[i] - a[i];
+        from_a[1][i] = c[i] - a[i];
+        from_a[2][i] = y[i] - a[i];
+      }
+      const auto& [u, v, w] = from_a;
+      const Rational side = w[0] * (u[1] * v[2] - u[2] * v[1]) +
+                            w[1] * (u[2] * v[0] - u[0] * v[2]) + w[2] * (u[0] * v[1] - u[1] * v[0]);
+      if (sgn(side) > 0) return false;
+    }
+    return true;
+  }
+  bool operator()(const Point& s) const { return x == exact3(s.position); }
+};
+
+/// Whether part and whole are cells of the same body, and the part's bounds lie in the whole's.
+struct PartOfCell {
+  template <class Celled>
+  bool operator()(const Celled& part, const Celled& whole) const {
+    return part.frame.affine() == whole.frame.affine() &&
+           (part.cell.lower.array() >= whole.cell.lower.array()).all() &&
+           (part.cell.upper.array() <= whole.cell.upper.array()).all();
+  }
+  bool operator()(const Polyhedron& part, const Polyhedron& whole) const {
+    return part.vertices == whole.vertices && part.faces == whole.faces;
+  }
+  bool operator()(const Point&, const Point&) const { return false; }
+  template <class Part, class Whole>
+  bool operator()(const Part&, const Whole&) const {
+    return false;
+  }
+};
+
+bool lies_in(const Shape& part, const Shape& region, const Rational& rounding) {
+  if (std::visit(PartOfCell{}, part, region)) return true;
+  const std::vector<Vector> corners = std::visit(Corners{}, part);
+  return !corners.empty() && std::all_of(corners.begin(), corners.end(), [&](const Vector& x) {
+    return std::visit(Holds{x, rounding}, region);
+  });
+}
+
+}  // namespace
+
+Geometry check_geometry(const StatedProblem& p, const Rational& rounding) {
+  Geometry geometry;
+  for (const Region& shape : p.shapes) {
+    const std::string why = disagreement(p.masses, geometry.declared, shape, rounding);
+    ++geometry.declared;
+    if (why.empty()) ++geometry.agree;
+    if (geometry.first_disagreement.empty()) geometry.first_disagreement = why;
+    const bool inside = std::any_of(p.regions.begin(), p.regions.end(), [&](const Region& region) {
+      return region.link == shape.link && lies_in(shape.shape, region.shape, rounding);
+    });
+    if (inside) ++geometry.inside;
+  }
+  return geometry;
+}
+
+}  // namespace shapeid::certificate

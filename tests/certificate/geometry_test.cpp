@@ -1,0 +1,161 @@
+// Columns of U against the shapes that they are said to be, and shapes against the regions.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "shapeid/proofs/certificate/certify.hpp"
+#include "shapeid/proofs/certificate/exact_moments.hpp"
+#include "shapeid/proofs/certificate/geometry.hpp"
+#include "shapeid/reference/mass_solver.hpp"
+#include "shapeid/tests/certificate/problems.hpp"
+#include "shapeid/tests/support/generators.hpp"
+#include "shapeid/tests/support/shape_generators.hpp"
+
+namespace shapeid::certificate {
+namespace {
+
+using std::numbers::pi;
+
+const Rational rounding = exact(1e-9);
+
+/// One column a shape, all on the second of two links; `region` is where they may lie.
+StatedProblem of_shapes(const std::vector<Shape>& shapes, const Shape& region) {
+  StatedProblem p;
+  const auto n = static_cast<Eigen::Index>(shapes.size());
+  p.masses.U = Eigen::MatrixXd::Zero(20, n);
+  p.masses.V.resize(n);
+  for (const Shape& shape : shapes) {
+    const auto j = static_cast<Eigen::Index>(p.shapes.size());
+    p.masses.U.col(j).tail<10>() = unit_parameters(shape).values;
+    p.masses.V[j] = volume(shape);
+    p.shapes.push_back({1, shape});
+  }
+  p.regions = {{1, region}};
+  return p;
+}
+
+/// Sines and cosines of doubles lie in their enclosures, and those are narrow.
+RC_GTEST_PROP(Enclosure, HoldsSineAndCosine, ()) {
+  const double angle = (*test::vector(1, 16.0))[0];
+  const auto at = sine_and_cosine(exact(angle));
+  RC_ASSERT(at.has_value());
+  const Rational ulp = exact(std::ldexp(1.0, -52));  // the library's own error is below one
+  for (const auto& [enclosure, value] :
+       {std::pair(at->sine, std::sin(angle)), std::pair(at->cosine, std::cos(angle))}) {
+    RC_ASSERT(distance(exact(value), enclosure) <= ulp);
+    RC_ASSERT(enclosure.upper - enclosure.lower <= exact(std::ldexp(1.0, -120)));
+  }
+  const Enclosure one = at->sine * at->sine + at->cosine * at->cosine;
+  RC_ASSERT(one.lower <= 1 && 1 <= one.upper);
+}
+
+TEST(Enclosure, EndsWhereCellsDo) {
+  EXPECT_FALSE(sine_and_cosine(exact(17.0)));
+  EXPECT_TRUE(sine_and_cosine(exact(-16.0)));
+}
+
+/// models/ and the exact integrals share nothing: shapes of all kinds, cells and slivers.
+RC_GTEST_PROP(Geometry, ColumnsOfAllKindsAgree, ()) {
+  const Shape shape = *test::solid();
+  const Geometry found = check_geometry(of_shapes({shape}, shape), rounding);
+  RC_ASSERT(found.first_disagreement.empty());
+  RC_ASSERT(found.declared == 1 && found.agree == 1 && found.inside == 1);
+}
+
+/// A part in a million of any entry or of the volume is seen.
+RC_GTEST_PROP(Geometry, EveryEntryCounts, ()) {
+  const Shape shape = *test::solid();
+  StatedProblem p = of_shapes({shape}, shape);
+  const auto i = *rc::gen::inRange<Eigen::Index>(0, 21);
+  if (i == 20) {
+    p.masses.V[0] *= 1.0 + 1e-6;
+  } else {
+    // Relative to what the entry is measured by: one, a distance, its square.
+    const InertialParameters unit = unit_parameters(shape);
+    const double square = 0.5 * unit.tensor().trace();
+    const Eigen::Index k = i % 10;
+    p.masses.U(i, 0) += 1e-6 * (k == 0 ? 1.0 : (k < 4 ? std::sqrt(square) : square));
+  }
+  const Geometry found = check_geometry(p, rounding);
+  RC_ASSERT(found.agree == 0 && !found.first_disagreement.empty());
+}
+
+/// All parts of a division lie where the whole lies; none of them in a neighbour.
+RC_GTEST_PROP(Geometry, PartsLieInTheirRegion, ()) {
+  const Shape whole = *test::solid();
+  RC_PRE(divisible(whole));
+  const auto [first, second] = divide(whole);
+  RC_PRE(divisible(second));
+  const auto [third, fourth] = divide(second);
+  EXPECT_EQ(check_geometry(of_shapes({first, third, fourth}, whole), rounding).inside, 3);
+  EXPECT_EQ(check_geometry(of_shapes({whole, second}, first), rounding).inside, 0);
+}
+
+TEST(Geometry, CornersDecideInOtherKindsOfRegions) {
+  const auto at = [](double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)); };
+  const auto inside = [](const Shape& part, const Shape& region) {
+    return check_geometry(of_shapes({part}, region), rounding).inside == 1;
+  };
+  const Shape cube = make_cuboid({0.1, 0.1, 0.1}, at(0.0));
+  const double corner = 0.05 * std::sqrt(3.0), edge = 0.05 * std::sqrt(2.0);
+  EXPECT_TRUE(inside(cube, make_ellipsoid({corner, corner, corner}, at(0.0))));
+  EXPECT_FALSE(inside(cube, make_ellipsoid({corner, corner, 0.99 * corner}, at(0.0))));
+  EXPECT_TRUE(inside(cube, make_cylinder(edge, 0.1, at(0.0))));
+  EXPECT_FALSE(inside(cube, make_cylinder(0.999 * edge, 0.1, at(0.0))));
+  EXPECT_FALSE(inside(cube, make_cylinder(edge, 0.0999, at(0.0))));
+  EXPECT_TRUE(inside(cube, make_cuboid({0.12, 0.1, 0.1}, at(0.01))));
+  EXPECT_FALSE(inside(cube, make_cuboid({0.12, 0.1, 0.1}, at(0.011))));
+  const Shape hull =
+      make_convex_hull({{0.2, 0.0, 0.0},
+                        {-0.2, 0.0, 0.0},
+                        {0.0, 0.2, 0.0},
+                        {0.0, -0.2, 0.0},
+                        {0.0, 0.0, 0.2},
+                        {0.0, 0.0, -0.2}},
+                       at(0.0));  // |x| + |y| + |z| <= 0.2, and the cube's corners have 0.15
+  EXPECT_TRUE(inside(cube, hull));
+  EXPECT_TRUE(inside(make_point({0.1, 0.05, 0.05}, 1e-6), hull));
+  EXPECT_FALSE(inside(make_point({0.1, 0.05, 0.0501}, 1e-6), hull));
+  // A ball in a cuboid is not shown to be inside, although it is.
+  EXPECT_FALSE(inside(make_ellipsoid({0.01, 0.01, 0.01}, at(0.0)), cube));
+}
+
+/// Another link's region does not count, nor an entry on another link's rows.
+TEST(Geometry, LinksAreKeptApart) {
+  const Shape cube = make_cuboid({0.1, 0.1, 0.1}, Eigen::Isometry3d::Identity());
+  StatedProblem p = of_shapes({cube}, cube);
+  p.regions[0].link = 0;
+  EXPECT_EQ(check_geometry(p, rounding).inside, 0);
+  p.masses.U(3, 0) = 1e-300;
+  EXPECT_EQ(check_geometry(p, rounding).agree, 0);
+}
+
+/// A writer of problems whose columns are not its shapes is told so, whatever the answer.
+TEST(Geometry, AContradictionIsRejected) {
+  StatedProblem p = test::load_problem();
+  const Eigen::VectorXd m = reference::solve_masses(p.masses).m;
+  p.shapes.assign(static_cast<std::size_t>(m.size()), p.regions.front());
+  const Certified c = certify(p, test::honest_answer(p, m));
+  ASSERT_FALSE(c.reasons.empty());
+  EXPECT_NE(c.reasons.back().find("contradicts itself"), std::string::npos);
+  EXPECT_EQ(c.proof.columns.agree, 0);
+  EXPECT_EQ(c.proof.columns.inside, m.size());
+}
+
+/// The quarter of a cylinder, by hand: centre (4 / (3 pi)) R along x and y.
+TEST(ExactMoments, OfAQuarterCylinder) {
+  Shape quarter = make_cylinder(2.0, 1.0, Eigen::Isometry3d::Identity());
+  std::get<Cylinder>(quarter).cell.upper.y() = 0.5 * pi;
+  const auto found = exact_moments(quarter);
+  ASSERT_TRUE(found);
+  const Rational close = exact(1e-15);
+  EXPECT_LT(distance(exact(pi), found->volume), close);
+  EXPECT_LT(distance(exact(8.0 / (3.0 * pi)), found->parameters[1]), close);
+  EXPECT_LT(distance(exact(8.0 / (3.0 * pi)), found->parameters[2]), close);
+  EXPECT_LT(distance(exact(2.0), found->parameters[9]), close);  // R^2 / 2
+}
+
+}  // namespace
+}  // namespace shapeid::certificate
