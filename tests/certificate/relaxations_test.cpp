@@ -151,6 +151,23 @@ TEST(Relaxations, ForgedBodiesReachNothing) {
   EXPECT_EQ(wrong.relaxations.masses.lower, 0.0);
 }
 
+/// A column that is no body's reaches what no body does: the floors count columns as written, so
+/// the optimum of the stated problem is never below them.
+TEST(Relaxations, ColumnsAsWrittenAreNotBelow) {
+  StatedProblem p = noisy_load(0, 0.05);
+  const Evidence evidence = sought(p);
+  const Proof honest = judged(p, evidence).proof;
+  const Eigen::VectorXd root = p.masses.W.cwiseSqrt();
+  const Eigen::VectorXd none =
+      (root.asDiagonal() * p.masses.Y).colPivHouseholderQr().solve(root.cwiseProduct(p.masses.F));
+  ASSERT_GT(none[0], 0.0);
+  p.masses.U.col(0) = none / none[0];
+  const Proof proof = judged(p, evidence).proof;
+  EXPECT_LT(proof.upper, honest.relaxations.bodies.lower);
+  EXPECT_LE(proof.relaxations.bodies.lower, proof.upper);
+  EXPECT_LE(proof.relaxations.divisions.lower, proof.upper);
+}
+
 /// A forger who changes evidence or claims and names the right digests meets the mathematics.
 TEST(Relaxations, DigestsMadeGoodDoNotHelp) {
   const StatedProblem p = noisy_load(0, 0.05);
