@@ -1,12 +1,18 @@
 // Optima and their floors, against solvers that share nothing with them.
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+
 #include "shapeid/models/inertia.hpp"
 #include "shapeid/proofs/certificate/quadric.hpp"
+#include "shapeid/tests/experiments/data/load_data.hpp"
 #include "shapeid/tests/experiments/methods/cone.hpp"
 #include "shapeid/tests/experiments/methods/division_floor.hpp"
 #include "shapeid/tests/experiments/methods/lowest_point.hpp"
 #include "shapeid/tests/experiments/studies/contest.hpp"
+#include "shapeid/tests/experiments/studies/torque_scale.hpp"
 #include "shapeid/tests/support/load_problem.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -69,6 +75,7 @@ TEST(Cones, ReachTheEdgeThatSmoothParametersDoNot) {
     EXPECT_GE(smooth.value, full.floor);
     if (smooth.value > 1.0001 * full.value) ++above;
   }
+  EXPECT_GT(above, 0);
   EXPECT_LT(above, 20);  // where the optimum is inside, both find it
 }
 
@@ -86,26 +93,85 @@ TEST(Cones, FreeOptimumInsideIsFound) {
   EXPECT_LT(full.value, of_barrier * f.size());
 }
 
-TEST(LowestPoint, IsThatOfTheExactSearchOfTheCertificate) {
-  const BodyModel base = test::bundled_quadruped().base;
+/// Slopes of a polynomial with entries of one size over the base, which is a tenth of a metre wide.
+Vector10 some_slopes(test::Draw& draw) {
+  Vector10 z;
+  for (double& entry : z) entry = draw.sign();
+  z.tail<6>() *= 100.0;
+  return z;
+}
+
+Vector10 point_at(const Eigen::Vector3d& x) {
+  return from_centre(1.0, x, Eigen::Matrix3d::Zero()).values;
+}
+
+BodyModel base_of(std::size_t kind) {
+  BodyModel model = test::bundled_quadruped().base;
+  std::erase_if(model.shapes, [&](const SoughtShape& s) { return s.shape.index() != kind; });
+  return model;
+}
+
+TEST(LowestPoint, InCuboidsIsThatOfTheExactSearch) {
+  const BodyModel cuboids = base_of(Shape(Cuboid{}).index());
+  ASSERT_EQ(cuboids.shapes.size(), 7U);
   test::Draw draw(5);
-  for (int i = 0; i < 20; ++i) {
-    Vector10 z;
-    for (double& entry : z) entry = draw.sign();
-    z.tail<6>() *= 100.0;  // m^-2: the base is a tenth of a metre wide
+  for (int i = 0; i < 100; ++i) {
+    const Vector10 z = some_slopes(draw);
+    const auto q = certificate::cost_of_point(certificate::exact(z));
     double lowest = std::numeric_limits<double>::infinity();
-    for (const SoughtShape& s : base.shapes) {
-      const auto q = certificate::cost_of_point(certificate::exact(z));
+    for (const SoughtShape& s : cuboids.shapes) {
       lowest = std::min(lowest, certificate::lowest_in(q, s.shape).value.get_d());
     }
-    const LowestPoint found = lowest_point(base, z);
-    // Coordinates are turned and stretched before the search; the certificate rounds the sides of
-    // its prism outward.
+    const LowestPoint found = lowest_point(cuboids, z);
     const double size = z.cwiseAbs().sum();
-    EXPECT_LT(test::scaled(found.value - lowest, size, 10), 1e8) << found.value - lowest;
-    const Vector10 unit = from_centre(1.0, found.point, Eigen::Matrix3d::Zero()).values;
-    EXPECT_LT(test::scaled(z.dot(unit) - found.value, size, 10), test::few_hundred_eps);
+    EXPECT_LT(std::abs(test::scaled(found.value - lowest, size, 10)), test::few_hundred_eps);
+    EXPECT_LT(std::abs(test::scaled(z.dot(point_at(found.point)) - found.value, size, 10)),
+              test::few_hundred_eps);
   }
+}
+
+TEST(LowestPoint, InCylindersIsBelowAllTheirPointsAndNotFarOutside) {
+  const BodyModel cylinders = base_of(Shape(Cylinder{}).index());
+  ASSERT_EQ(cylinders.shapes.size(), 4U);
+  constexpr double corner = 0.045 * 0.00215;  // m: radius times 1 / cos(pi / 48) - 1, and a little
+  test::Draw draw(6);
+  for (int i = 0; i < 100; ++i) {
+    const Vector10 z = some_slopes(draw);
+    const LowestPoint found = lowest_point(cylinders, z);
+    bool near_one = false;
+    for (const SoughtShape& s : cylinders.shapes) {
+      near_one = near_one || contains(s.shape, found.point, corner);
+      const Eigen::Affine3d frame = std::get<Cylinder>(s.shape).frame;
+      for (int k = 0; k < 50; ++k) {
+        const double angle = draw.between(0.0, 6.28), r = std::sqrt(draw.between(0.0, 1.0));
+        const Eigen::Vector3d in(r * std::cos(angle), r * std::sin(angle), 0.5 * draw.sign());
+        EXPECT_LE(found.value, z.dot(point_at(frame * in)));
+      }
+    }
+    EXPECT_TRUE(near_one) << found.point.transpose();
+  }
+}
+
+TEST(ScaledRows, AreTheWindowsRowsAtScaleOne) {
+  const test::Quadruped quadruped = test::bundled_quadruped();
+  const BodyModel area = load_area(quadruped.robot);
+  const auto motion = simulated(quadruped.robot, {gaits().front(), 0.1, 1, Load{}});
+  const std::vector<Sample> samples = exact(motion, 0.1);
+  const DataTerm window = whole(quadruped.robot, area, samples);
+  const ScaledRows rows(quadruped.robot, area, samples);
+  const Vector10 load = inertia_of(Load{}).values;
+  const Eigen::MatrixXd H = window.R().transpose() * window.R();
+  EXPECT_LT(test::scaled_difference(rows.at(1.0).R().transpose() * rows.at(1.0).R(), H,
+                                    std::ssize(samples)),
+            test::few_hundred_eps);
+  // Half the torque at twice the scale is the same robot.
+  EXPECT_LT(rows.rms(1.0, load), 1e-3 * rows.rms(1.0, Vector10::Zero()));
+  std::vector<Sample> halved = samples;
+  for (Sample& s : halved) s.tau *= 0.5;
+  const ScaledRows other(quadruped.robot, area, halved);
+  const double before = rows.rms(1.0, Vector10::Zero()), after = other.rms(2.0, Vector10::Zero());
+  EXPECT_LT(std::abs(test::scaled(0.5 * before - after, before, std::ssize(samples))),
+            test::few_hundred_eps);
 }
 
 TEST(DivisionLimit, IsBelowEveryDivision) {
