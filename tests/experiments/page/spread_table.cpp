@@ -14,7 +14,7 @@ void set_spread(Findings& findings, const std::string& name, const std::vector<d
 }
 
 std::string with_spread(const Findings& findings, const std::string& name) {
-  return fmt::format("{:.3g} ({:.2g} to {:.2g})", findings.values.at(name + ".median"),
+  return fmt::format("{:.3g} ({:.3g} to {:.3g})", findings.values.at(name + ".median"),
                      findings.values.at(name + ".lowest"), findings.values.at(name + ".highest"));
 }
 

@@ -71,6 +71,7 @@ Findings criterion(Form form) {
     motions.push_back(simulated(quadruped.robot, {gaits().front(), seconds, 400 + i, load}));
   }
   Findings findings;
+  findings.set("criterion.si_ratio", std::pow(shape_volumes(area).sum(), -2));
   Table table = {{"data", "criterion", "left above the floor, of what was", "divisions to 1e-4",
                   "useless divisions", "smallest divided, of the area", "place error, mm"}};
   for (const std::string data : {"exact", "robot"}) {

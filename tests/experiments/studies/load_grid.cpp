@@ -118,6 +118,8 @@ Findings load_grid(Form form) {
     }
   }
   for (const auto& [name, list] : numbers) set_spread(findings, name, list);
+  findings.set("load.grid.inertia_of_1kg", inertia_of(Load{}).tensor_about_centre()(0, 0));
+  findings.set("load.grid.base_mass", quadruped.robot.links[0].inertia.mass());
   findings.set("load.grid.cases", cases);
   findings.set("load.grid.fell", fell);
   findings.plots["load_errors"] = errors_plot(shown);
