@@ -27,7 +27,6 @@ class Barrier {
   Barrier(const Cone& cone, const DataTerm& f) : cone_(cone), f_(f) {}
 
   struct Centre {
-    int steps;
     Vector10 newton;    ///< the last step, which was not taken
     bool near = false;  ///< it would lower f + barrier by next to nothing
   };
@@ -37,8 +36,8 @@ class Barrier {
     constexpr int most_steps = 50;
     constexpr double shortest = 1e-10;
     constexpr double small_decrease = 1e-3;  // of mu, the scale on which the barrier bends
-    Centre end{0, Vector10::Zero()};
-    for (; end.steps < most_steps; ++end.steps) {
+    Centre end{Vector10::Zero()};
+    for (int step = 0; step < most_steps; ++step) {
       // With X = L L^T and B_i = L^-1 A_i L^-T the Hessian is 2 R^T R + mu B^T B and the gradient
       // 2 R^T r - mu B^T vec(1): Newton's step is a least-squares problem, which QR solves without
       // squaring its condition.
@@ -133,10 +132,9 @@ ConeOptimum least_over(const Cone& cone, const DataTerm& f) {
   // order, is nothing beside || F ||^2 and its rounding. Each mu starts near its own optimum.
   constexpr double first = 1e-2, last = 1e-13, fall = 0.1;
   const Barrier barrier(cone, f);
-  ConeOptimum best{cone.inside, 0.0, -std::numeric_limits<double>::infinity(), 0};
+  ConeOptimum best{cone.inside, 0.0, -std::numeric_limits<double>::infinity()};
   for (double mu = first * f.size(); mu > last * f.size(); mu *= fall) {
     const Barrier::Centre centre = barrier.centre(mu, best.Phi);
-    best.steps += centre.steps;
     if (!centre.near) break;
     best.floor = std::max(best.floor, f.dual(barrier.dual_point(mu, best.Phi, centre.newton)));
   }

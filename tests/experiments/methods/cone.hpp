@@ -28,7 +28,6 @@ struct ConeOptimum {
   Vector10 Phi;
   double value = 0.0;  ///< f at Phi, which lies inside the set
   double floor = 0.0;  ///< f is nowhere on the set below this
-  int steps = 0;       ///< of Newton's method
 };
 
 /// Barrier method: minimises f - mu log det of the matrix by Newton's method, for mu that falls.

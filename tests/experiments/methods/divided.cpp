@@ -13,7 +13,7 @@ namespace {
 class Divided final : public Method {
  public:
   Divided(const Setting& setting, double closed, int most)
-      : regions_(setting.shapes), closed_(closed), most_(most) {
+      : regions_(setting.shapes), closed_(closed) {
     options_.k2 = 0.0;  // docs/derivations/division.md: dense shapes first stops short of the floor
     options_.most_divisions = most;
     options_.expected_mass = setting.expected_mass;
@@ -38,7 +38,6 @@ class Divided final : public Method {
  private:
   BodyModel regions_;
   double closed_;
-  int most_;
   DivisionOptions options_;
 };
 

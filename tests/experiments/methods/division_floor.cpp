@@ -12,7 +12,7 @@ DivisionLimit limit_of_divisions(const BodyModel& regions, const DataTerm& f, do
   MassColumns columns(regions, most_rounds);
   DivisionLimit limit;
   limit.floor = -std::numeric_limits<double>::infinity();
-  for (; limit.rounds < most_rounds; ++limit.rounds) {
+  for (int round = 0; round < most_rounds; ++round) {
     limit.Phi = columns.solve(f);
     limit.value = f.value(limit.Phi);
     Vector10 z = f.gradient(limit.Phi);

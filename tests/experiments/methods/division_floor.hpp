@@ -12,7 +12,6 @@ struct DivisionLimit {
   Vector10 Phi;        ///< of shapes and points in the regions
   double value = 0.0;  ///< f at Phi: the limit is not above
   double floor = 0.0;  ///< the limit is not below, nor is f of any shapes in the regions
-  int rounds = 0;
 };
 
 /// Adds a point mass where the slope of f is lowest in the regions, solves, and repeats until value

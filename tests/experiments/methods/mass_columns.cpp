@@ -31,18 +31,14 @@ void MassColumns::append(const Vector10& u) {
 Vector10 MassColumns::solve(const DataTerm& f) {
   const Eigen::MatrixXd R = triangle_of(f);
   solver_.forget_masses();
-  if (solver_.solve(R) == fast::Outcome::solved) {
-    m_ = solver_.m();
-    return solver_.Phi();
-  }
+  if (solver_.solve(R) == fast::Outcome::solved) return solver_.Phi();
   MassProblem problem;
   problem.Y = R.leftCols(10);
   problem.F = R.col(10);
   problem.W = Eigen::VectorXd::Ones(11);
   problem.U = U_;
   problem.V = Eigen::VectorXd::Ones(U_.cols());
-  m_ = reference::solve_masses(problem).m;
-  return U_ * m_;
+  return reference::solve_masses(problem).Phi;
 }
 
 double MassColumns::floor(const DataTerm& f, const Vector10& Phi) const {

@@ -18,8 +18,6 @@ class MassColumns {
   void append(const Vector10& u);
   /// Parameters at the minimum over the columns, from no masses.
   [[nodiscard]] Vector10 solve(const DataTerm& f);
-  /// Of the last solve, kg.
-  [[nodiscard]] const Eigen::VectorXd& m() const { return m_; }
   /// No nonnegative masses of these columns have an f below this. `Phi`: a guess of the optimum,
   /// the better the higher.
   [[nodiscard]] double floor(const DataTerm& f, const Vector10& Phi) const;
@@ -28,7 +26,6 @@ class MassColumns {
  private:
   Eigen::MatrixXd U_;
   fast::MassSolver solver_;
-  Eigen::VectorXd m_;
 };
 
 /// [R c] over [0 d], as the fast solvers take it.

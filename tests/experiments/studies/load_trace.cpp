@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "shapeid/fast/division.hpp"
-#include "shapeid/tests/experiments/methods/cone.hpp"
 #include "shapeid/tests/experiments/methods/division_floor.hpp"
 #include "shapeid/tests/experiments/methods/mass_columns.hpp"
 
@@ -53,8 +52,6 @@ LoadTrace trace_load(const BodyModel& area, const DataTerm& f, const InertialPar
   }
   constexpr double gap = 1e-3;
   trace.floor = limit_of_divisions(area, f, gap).floor;
-  constexpr double length = 0.1;  // m, size of a load
-  trace.full = least_over(consistent_bodies(length), f).value;
   return trace;
 }
 

@@ -14,7 +14,6 @@ struct LoadTrace {
   std::vector<double> smallest;   ///< share of the area that the part just divided has
   int published_stop = 0;         ///< divisions at which the step rule with its patience stops
   double floor = 0.0;             ///< of infinitely many divisions
-  double full = 0.0;              ///< least f of all bodies that can exist, in the area or not
 };
 
 /// Divides `most` times, or as often as the criterion finds something to divide; then the last
