@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "shapeid/tests/blind/foreign.hpp"
+#include "shapeid/tests/blind/rotor.hpp"
 
 namespace shapeid::blind {
 namespace {
@@ -62,6 +63,11 @@ void cogging(Ingredients& in, const Machine&, const Amount& a) {
 void rotor(Ingredients& in, const Machine&, const Amount& a) {
   change_each(in, [a](Reading& r) { r.sample.tau[a.site] += a.size * r.sample.ddq[a.site]; });
 }
+void rotor_reaction(Ingredients& in, const Machine& m, const Amount& a) {
+  change_each(in, [a, robot = m.robot](Reading& r) {
+    r.sample.tau += a.size * rotor_torque(robot, r.sample, a.site);
+  });
+}
 void torque_offset(Ingredients& in, const Machine&, const Amount& a) {
   change_each(in, [a](Reading& r) { r.sample.tau[a.site] += a.size; });
 }
@@ -118,8 +124,27 @@ void link_length(Ingredients& in, const Machine&, const Amount& a) {
 void contact_point(Ingredients& in, const Machine&, const Amount& a) {
   in.robot.contacts[static_cast<std::size_t>(a.site)].frame.translation() += a.size * a.direction;
 }
-void payload_from(Ingredients& in, const Machine&, const Amount& a) {
+/// The flag of a foot follows its touch only so much later; size in s.
+template <bool touches>
+void late_flag(Ingredients& in, const Machine&, const Amount& a) {
+  in.signals.emplace_back([a](Readings& readings) {
+    const auto foot = static_cast<std::size_t>(a.site);
+    double changed = readings.front().sample.time - 2.0 * a.size;
+    bool before = readings.front().sample.in_contact[foot];
+    for (Reading& r : readings) {
+      const bool now = r.sample.in_contact[foot];
+      if (now != before && now == touches) changed = r.sample.time;
+      before = now;
+      if (now == touches && r.sample.time < changed + a.size) r.sample.in_contact[foot] = !touches;
+    }
+  });
+}
+
+void payload(Ingredients& in, const Machine&, const Amount& a) {
   in.load = Load{a.site, a.size, Eigen::Vector3d::Constant(0.05), {0.01, 0.0, 0.06}};
+}
+void payload_from(Ingredients& in, const Machine& m, const Amount& a) {
+  payload(in, m, a);
   in.load_from = load_moment;
 }
 void external_force(Ingredients& in, const Machine&, const Amount& a) {
@@ -149,7 +174,7 @@ std::vector<double> tilt_values(const Machine&, const Amount& a) {
 }
 std::vector<double> load_values(const Machine& m, const Amount& a) {
   Ingredients in;
-  payload_from(in, m, a);
+  payload(in, m, a);
   const Vector10 values = inertia_of(*in.load).values;
   return {values.data(), values.data() + values.size()};
 }
@@ -178,6 +203,7 @@ std::vector<Kind> list() {
       make("joint_spring", Place::joint, true, 1.0, spring, spring_values),
       make("cogging", Place::joint, true, 0.5, cogging, ripple_values, {ripple}),
       make("rotor_inertia", Place::joint, false, 0.02, rotor, one),
+      make("rotor_reaction", Place::joint, false, 0.002, rotor_reaction, one),
       make("torque_offset", Place::joint, false, 0.3, torque_offset, one),
       make("torque_gain", Place::joint, false, 0.1, torque_gain, one),
       make("encoder_offset", Place::joint, false, 0.02, encoder_offset, one),
@@ -188,6 +214,9 @@ std::vector<Kind> list() {
       make("gravity_tilt", Place::whole, true, 0.03, gravity_tilt, tilt_values),
       make("link_length", Place::joint, true, 0.01, link_length, one),
       make("contact_point", Place::contact, true, 0.01, contact_point, three),
+      make("contact_undeclared", Place::contact, false, 0.02, late_flag<true>, nullptr),
+      make("contact_absent", Place::contact, false, 0.02, late_flag<false>, nullptr),
+      make("payload", Place::link, true, 0.5, payload, load_values),
       make("payload_from", Place::link, true, 0.5, payload_from, load_values, {load_moment}),
       make("external_force", Place::link, true, 8.0, external_force, three),
       make("drag", Place::link, true, 5.0, drag, one),
@@ -197,8 +226,8 @@ std::vector<Kind> list() {
     if (k.id == "torque_delay" || k.id == "imu_delay") k.largest = 0.015;  // s
     if (k.id == "torque_gain") k.largest = 0.6;
     if (k.id == "link_length" || k.id == "contact_point") k.largest = 0.05;  // m
-    if (k.id == "payload_from") k.largest = 3.0;                             // kg
-    if (k.id == "gravity_tilt") k.quadruped = false;
+    if (k.id == "payload" || k.id == "payload_from") k.largest = 3.0;        // kg
+    if (k.id == "gravity_tilt" || k.id == "rotor_reaction") k.quadruped = false;
     if (k.id == "imu_delay" || k.place == Place::accelerometer || k.place == Place::contact) {
       k.arm = false;
     }

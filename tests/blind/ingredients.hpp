@@ -55,7 +55,8 @@ struct Kind {
   double nominal = 1.0;  ///< a size that is easy to see
   double largest = 1.0;  ///< beyond it no robot would be run, or the equation no longer holds
   void (*put)(Ingredients&, const Machine&, const Amount&) = nullptr;
-  /// Values of the catalogue's parameters and shape numbers for an amount; empty if foreign.
+  /// Values of the catalogue's parameters for an amount. Null if foreign, or if no number says how
+  /// much there is of it: the trial then has the nominal size, and no model is told the truth.
   std::vector<double> (*values)(const Machine&, const Amount&) = nullptr;
   std::vector<double> shape;
   /// Of a foreign effect: catalogue ids that describe a part of it rightly, on its site.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -60,6 +61,7 @@ class Generator {
       trial.error = "the robot fell";
     } else {
       write_logs(m, trial, readings, own);
+      if (needs_reference(trial)) write_reference(m, trial, own);
     }
     write_file(own + "/sealed.json", to_json(trial).dump(2) + "\n");
     return trial;
@@ -78,6 +80,18 @@ class Generator {
     if (readings.empty()) throw std::runtime_error("a clean robot fell: choose another seed");
     write_logs(m, reference_trial(seed), readings, scratch_);
     return clean_.emplace(key, Clean{readings, read_log(m, scratch_ + "/log.csv")}).first->second;
+  }
+
+  static bool needs_reference(const Trial& trial) {
+    return std::any_of(trial.items.begin(), trial.items.end(),
+                       [](const Item& item) { return item.kind == "payload"; });
+  }
+
+  /// The same robot earlier, with nothing in it and other noise.
+  void write_reference(const Machine& m, const Trial& trial, const std::string& own) {
+    Trial earlier = reference_trial(trial.noise_seed + 3);
+    write_logs(m, earlier, clean(m, trial.motion_seed).readings, scratch_);
+    fs::rename(scratch_ + "/log.csv", own + "/reference.csv");
   }
 
   static Trial reference_trial(std::uint64_t seed) {
@@ -120,14 +134,17 @@ class Generator {
     Item item{k.id, {places[draw(random, places.size())], k.nominal, {0, 0, 0}}, ratio};
     for (double& d : item.amount.direction) d = random.normal();
     item.amount.direction.normalize();
-    if (k.id == "soft_ground") {  // nothing of it reaches the equation of motion
+    // Nothing of soft ground reaches the equation of motion.
+    if (k.id == "soft_ground" || (!k.foreign && k.values == nullptr)) {
       item.ratio = 0.0;
       return item;
     }
     const Clean& base = clean(m, trial.motion_seed);
     const Eigen::MatrixXd change = unit_change(m, item, base.readings, base.log, scratch_,
                                                reference_trial(trial.motion_seed).noise_seed);
-    item.amount.size = ratio * detectable_size(m, base.log, change);
+    // A load that was never absent is told from its link by a log without it alone.
+    const bool against_reference = k.id == "payload";
+    item.amount.size = ratio * detectable_size(m, base.log, change, against_reference);
     if (!(item.amount.size < k.largest)) return std::nullopt;
     return item;
   }

@@ -187,7 +187,7 @@ Eigen::MatrixXd unit_change(const Machine& machine, const Item& item,
 }
 
 double detectable_size(const Machine& machine, const Recording& clean,
-                       const Eigen::MatrixXd& unit_change) {
+                       const Eigen::MatrixXd& unit_change, bool masses_known) {
   const RichModel truth{stacked_parameters(machine.robot), {}};
   const std::vector<Block> blocks = blocks_of(machine, clean, truth, unit_change);
   const Eigen::VectorXd prior = precision(machine);
@@ -197,7 +197,8 @@ double detectable_size(const Machine& machine, const Recording& clean,
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::size_t fold = b * folds / blocks.size();
     const auto start = [&](std::size_t f) { return (f * blocks.size() + folds - 1) / folds; };
-    const Eigen::MatrixXd x = masses(blocks, prior, start(fold), start(fold + 1));
+    const Eigen::MatrixXd x = masses_known ? Eigen::MatrixXd(Eigen::MatrixXd::Zero(n, 2))
+                                           : masses(blocks, prior, start(fold), start(fold + 1));
     // What is left of the change and of the residual, each after its own masses.
     Eigen::MatrixXd left(n + 2, 2);
     left << -x, Eigen::Matrix2d::Identity();

@@ -26,9 +26,10 @@ namespace shapeid::blind {
                                           std::uint64_t noise_seed);
 
 /// The smallest size from which on a model that knows the item lowers the blocked held-out error by
-/// three standard errors, masses refitted by both; infinity if there is none.
+/// three standard errors, masses refitted by both (or known to both, from a log without the item);
+/// infinity if there is none.
 [[nodiscard]] double detectable_size(const Machine& machine, const diagnosis::Recording& clean,
-                                     const Eigen::MatrixXd& unit_change);
+                                     const Eigen::MatrixXd& unit_change, bool masses_known = false);
 
 /// Root of the sum over joints of the mean squared residual on the test log, N m, of the model that
 /// is told the trial's effects and fits the masses to the other log.

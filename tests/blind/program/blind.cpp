@@ -32,10 +32,6 @@ std::string items_text(const Trial& trial) {
   return text.empty() ? "clean" : text;
 }
 
-bool is_foreign(const Trial& trial) {
-  return !trial.items.empty() && kind(trial.items.front().kind).foreign;
-}
-
 Scored score_trial(const fs::path& folder) {
   Scored s;
   s.trial = trial_from_json(read_json(folder / "sealed.json"));
@@ -43,7 +39,10 @@ Scored score_trial(const fs::path& folder) {
   const bool answered = fs::exists(said) && fs::file_size(said) > 0;
   const nlohmann::json result = answered ? read_json(said) : nlohmann::json();
   s.judgement = judge(s.trial, result);
-  if (answered && !is_foreign(s.trial)) {
+  const bool has_numbers =
+      std::all_of(s.trial.items.begin(), s.trial.items.end(),
+                  [](const Item& item) { return kind(item.kind).values != nullptr; });
+  if (answered && has_numbers) {
     const Machine m = machine(s.trial.machine);
     double sum = 0.0;
     for (const double rms : result.at("heldout_rms_after")) sum += rms * rms;
