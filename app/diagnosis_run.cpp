@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "shapeid/app/recordings.hpp"
@@ -21,20 +20,9 @@ using diagnosis::Recording;
 
 std::vector<int> free_links(const DiagnoseOptions& options, const Robot& robot) {
   if (options.trust) return {};
-  std::vector<int> links;
-  for (const std::string& name : options.free_links) {
-    const auto link = robot.find_link(name);
-    if (!link) throw InputError("--free " + name + ": no such link", "a link of the URDF");
-    links.push_back(*link);
-  }
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
-  if (!links.empty()) return links;
+  if (!options.free_links.empty()) return named_links(options.free_links, robot);
   if (robot.root == Root::floating && !options.whole_body) return {0};
-  links.resize(robot.links.size());
-  std::iota(links.begin(), links.end(), 0);
-  if (robot.root == Root::fixed) links.erase(links.begin());  // a fixed root never moves
-  return links;
+  return moving_links(robot);
 }
 
 BodyModel body_model(const DiagnoseOptions& options, const Robot& robot) {

@@ -1,10 +1,8 @@
 // shapeid identify: masses, parameters and a URDF from a robot and a log.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <numeric>
 
 #include "shapeid/app/identification.hpp"
 #include "shapeid/app/verbs.hpp"
@@ -27,28 +25,13 @@ struct Options {
 };
 
 std::vector<int> free_links(const Options& options, const Robot& robot) {
-  std::vector<int> links;
-  if (options.whole_body) {
-    links.resize(robot.links.size());
-    std::iota(links.begin(), links.end(), 0);
-    if (robot.root == Root::fixed) links.erase(links.begin());  // a fixed root never moves
-    return links;
+  if (options.whole_body) return moving_links(robot);
+  if (!options.free_links.empty()) return named_links(options.free_links, robot);
+  if (robot.root == Root::fixed) {
+    throw InputError("which links are sought is not said",
+                     "give --shapes, --free LINK or --whole-body (a fixed base has no dynamics)");
   }
-  if (options.free_links.empty()) {
-    if (robot.root == Root::fixed) {
-      throw InputError("which links are sought is not said",
-                       "give --shapes, --free LINK or --whole-body (a fixed base has no dynamics)");
-    }
-    return {0};
-  }
-  for (const std::string& name : options.free_links) {
-    const auto link = robot.find_link(name);
-    if (!link) throw InputError("--free " + name + ": no such link", "a link of the URDF");
-    links.push_back(*link);
-  }
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
-  return links;
+  return {0};
 }
 
 /// M0: said on the command line, else the expected range in robot.yaml, else the given masses.

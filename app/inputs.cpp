@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <numeric>
 #include <utility>
 
 #include "shapeid/models/error.hpp"
@@ -132,6 +133,25 @@ MotionOptions motion_options(const MotionInputs& inputs, const Robot& robot) {
 }
 
 }  // namespace
+
+std::vector<int> named_links(const std::vector<std::string>& names, const Robot& robot) {
+  std::vector<int> links;
+  for (const std::string& name : names) {
+    const auto link = robot.find_link(name);
+    if (!link) throw InputError("--free " + name + ": no such link", "a link of the URDF");
+    links.push_back(*link);
+  }
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  return links;
+}
+
+std::vector<int> moving_links(const Robot& robot) {
+  std::vector<int> links(robot.links.size());
+  std::iota(links.begin(), links.end(), 0);
+  if (robot.root == Root::fixed) links.erase(links.begin());
+  return links;
+}
 
 LogSamples::LogSamples(const std::string& path, const RobotInputs& robot,
                        const MotionInputs& inputs)

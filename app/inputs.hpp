@@ -41,6 +41,13 @@ struct RobotInputs {
 /// and "base.moment" (N m); ones where robot.yaml says nothing.
 [[nodiscard]] Eigen::VectorXd weight(const RobotInputs& inputs);
 
+/// Indices of the links that `--free` names, in the robot's order, each once. Throws InputError for
+/// a name that is not there.
+[[nodiscard]] std::vector<int> named_links(const std::vector<std::string>& names,
+                                           const Robot& robot);
+/// All links but a fixed root, which never moves.
+[[nodiscard]] std::vector<int> moving_links(const Robot& robot);
+
 /// A log as samples, with progress on a terminal. Keeps its report for the result.
 class LogSamples {
  public:

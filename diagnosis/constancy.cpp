@@ -84,6 +84,10 @@ std::vector<std::optional<Variation>> variations(const BlockFits& fits,
     Term& term = richer.emplace_back();
     for (Eigen::Index p = 0; p < n; ++p) term.columns.push_back(tally.first_modulated[k] + p);
     term.nonnegative.assign(term.columns.size(), false);
+    for (const Term& own : terms) {
+      const bool same = !own.columns.empty() && own.columns.front() == tally.first[m.hypothesis];
+      if (same) term.from_block = own.from_block;
+    }
     const double gain = (before - fits.held_out(richer)).sum();
     const Fit fit = fits.fit(richer);
     const double z =

@@ -6,9 +6,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/filter_error.hpp"
 #include "shapeid/diagnosis/placebo.hpp"
+#include "shapeid/diagnosis/prior.hpp"
 #include "shapeid/diagnosis/refine.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
@@ -18,10 +19,6 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-bool same_place(const AppliedEffect& a, const AppliedEffect& b) {
-  return a.effect == b.effect && a.site == b.site;
 }
 
 class Loop {
@@ -103,30 +100,6 @@ class Loop {
     });
   }
 
-  /// The strongest prior that predicts held-out blocks as well as any, as far as their scatter
-  /// tells: what the data say nothing about stays as given. Bounded, because a prior that froze the
-  /// given inertias would have effects found that make up for their errors.
-  void choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
-    std::vector<double> priors;
-    std::vector<Eigen::VectorXd> errors;
-    constexpr double strongest = 1000.0;  // a thirtieth of its natural size, for each parameter
-    for (double prior = 1e-4; prior <= 1.5 * strongest; prior *= 10.0) {
-      fits.set_prior(prior);
-      priors.push_back(prior);
-      errors.push_back(fits.held_out(terms));
-    }
-    const auto best =
-        std::min_element(errors.begin(), errors.end(),
-                         [](const auto& a, const auto& b) { return a.sum() < b.sum(); });
-    constexpr double told_apart = 1.0;  // standard errors, as usual in cross-validation
-    for (std::size_t i = 0; i < priors.size(); ++i) {
-      if (errors[i].sum() == best->sum() || gain_of(errors[i], *best).t < told_apart) {
-        result_.prior = priors[i];
-      }
-    }
-    fits.set_prior(result_.prior);
-  }
-
   void set_masses(const Fit& fit) {
     result_.model.Phi = centre_;
     for (std::size_t i = 0; i < masses_.columns.size(); ++i) {
@@ -136,7 +109,7 @@ class Loop {
 
   void fit_masses() {
     BlockFits fits = tallied({});
-    choose_prior(fits, {masses_});
+    result_.prior = choose_prior(fits, {masses_});
     set_masses(fits.fit({masses_}));
   }
 
@@ -159,127 +132,17 @@ class Loop {
     result_.weight = rms.cwiseMax(floor).cwiseAbs2().cwiseInverse();
   }
 
-  /// All hypotheses, those found with their numbers, ripple where the residual has most of it.
-  [[nodiscard]] std::vector<AppliedEffect> hypotheses() const {
-    std::vector<AppliedEffect> list = all_hypotheses(robot_);
-    const Series left = series(robot_, settings_.contacts, result_.model, log_, settings_.stride);
-    for (AppliedEffect& h : list) {
-      const auto found = std::find_if(result_.model.effects.begin(), result_.model.effects.end(),
-                                      [&](const AppliedEffect& a) { return same_place(a, h); });
-      if (found != result_.model.effects.end()) {
-        h = *found;
-      } else if (h.effect->id == "cogging") {
-        const Eigen::Index row = robot_.base_dof() + h.site;
-        std::vector<double> q, r;
-        for (Eigen::Index i = 0; i < left.residual.cols(); ++i) {
-          if (!left.counted(row, i)) continue;
-          q.push_back(log_[left.index[static_cast<std::size_t>(i)]].q[h.site]);
-          r.push_back(left.residual(row, i));
-        }
-        if (q.empty()) continue;
-        const ShapeNumber& N = h.effect->shape.front();
-        h.shape[0] = strongest_ripple(Eigen::Map<Eigen::VectorXd>(q.data(), std::ssize(q)),
-                                      Eigen::Map<Eigen::VectorXd>(r.data(), std::ssize(r)), N.lower,
-                                      N.upper);
-      }
-    }
-    for (const AppliedEffect& a : result_.model.effects) {
-      if (a.effect->is_payload) list.push_back(a);
-    }
-    return list;
-  }
-
-  [[nodiscard]] Term term_of(const Tally& tally, std::size_t hypothesis) const {
-    const AppliedEffect& h = tally.hypotheses[hypothesis];
-    Term term;
-    term.id = hypothesis_id(robot_, h);
-    for (Eigen::Index p = 0; p < h.value.size(); ++p) {
-      term.columns.push_back(tally.first[hypothesis] + p);
-      const bool changes = h.effect->transform.any();  // the column is of a change, of either sign
-      term.nonnegative.push_back(!changes &&
-                                 h.effect->parameters[static_cast<std::size_t>(p)].nonnegative);
-    }
-    return term;
-  }
-
-  /// A payload's term on the link's own columns.
-  [[nodiscard]] Candidate payload_candidate(const Effect& effect, int link, std::size_t from_block,
-                                            double onset) const {
-    Candidate c{at_start(effect, link), {}, false, {}};
-    if (c.effect.shape.size() > 0) c.effect.shape[0] = onset;
-    c.term.id = hypothesis_id(robot_, c.effect);
-    c.term.from_block = from_block;
-    for (Eigen::Index p = 0; p < 10; ++p) {
-      c.term.columns.push_back(10 * link + p);
-      c.term.nonnegative.push_back(p == 0);
-    }
-    return c;
-  }
-
-  [[nodiscard]] std::vector<Candidate> candidates(const BlockFits& fits) const {
-    const Tally& tally = fits.tally();
-    std::vector<Candidate> list;
-    for (std::size_t k = 0; k < tally.hypotheses.size(); ++k) {
-      const AppliedEffect& h = tally.hypotheses[k];
-      if (is_applied_transformation(h) || is_banned(h)) continue;
-      // The derivative of a transformation needs a model that is not wrong by other things.
-      if (round_ == 0 && h.effect->transform.any()) continue;
-      Candidate c{tally.hypotheses[k], term_of(tally, k), came_since(tally.hypotheses[k]), {}};
-      if (!c.since_reference) list.push_back(c);
-      if (reference_ != nullptr) {
-        c.since_reference = true;
-        c.term.from_block = fits.first_block();
-        list.push_back(c);
-      }
-    }
-    add_groups(list);
-    const std::size_t first = fits.first_block();
-    const auto blocks = static_cast<std::size_t>(fits.held_blocks());
-    for (int link = 0; link < robot_.link_count(); ++link) {
-      const Effect& always = *find_effect("payload");
-      const Effect& later = *find_effect("payload_from");
-      if (!always.applies(robot_, link)) continue;
-      const bool is_free = std::count(settings_.shapes.free_links.begin(),
-                                      settings_.shapes.free_links.end(), link) > 0;
-      if (reference_ != nullptr) {
-        Candidate c = payload_candidate(always, link, first, 0.0);
-        c.since_reference = true;
-        list.push_back(c);
-      } else if (!is_free) {
-        list.push_back(payload_candidate(always, link, 0, 0.0));
-      }
-      constexpr std::size_t onsets = 9;
-      for (std::size_t i = 1; i < onsets; ++i) {
-        const std::size_t block = first + i * blocks / onsets;
-        if (block == first) continue;
-        list.push_back(payload_candidate(later, link, block, tally.blocks[block].from));
-      }
-    }
-    return list;
-  }
-
-  /// The same effect at every joint together: what every drive has shows in the sum before it shows
-  /// in one.
-  static void add_groups(std::vector<Candidate>& list) {
-    const std::size_t singles = list.size();
-    for (const Effect& effect : all_effects()) {
-      if (effect.site != SiteKind::joint || effect.columns == nullptr) continue;
-      for (const bool since : {false, true}) {
-        Candidate group;
-        for (std::size_t k = 0; k < singles; ++k) {
-          if (list[k].effect.effect != &effect || list[k].since_reference != since) continue;
-          if (group.members.empty()) group = {list[k].effect, {}, since, {}};
-          group.members.push_back(k);
-          const Term& term = list[k].term;
-          group.term.from_block = term.from_block;
-          group.term.columns.insert(group.term.columns.end(), term.columns.begin(),
-                                    term.columns.end());
-        }
-        group.term.nonnegative.assign(group.term.columns.size(), false);
-        group.term.id = effect.id + "@every joint";
-        if (group.members.size() > 1) list.push_back(group);
-      }
-    }
+  [[nodiscard]] std::vector<Candidate> listed(const BlockFits& fits) const {
+    CandidateRule rule;
+    rule.free_links = settings_.shapes.free_links;
+    rule.has_reference = reference_ != nullptr;
+    // The derivative of a transformation needs a model that is not wrong by other things.
+    rule.transformations = round_ > 0;
+    rule.excluded = [this](const AppliedEffect& h) {
+      return is_applied_transformation(h) || is_banned(h);
+    };
+    rule.came_since = [this](const AppliedEffect& h) { return came_since(h); };
+    return candidates(robot_, fits, rule);
   }
 
   [[nodiscard]] bool is_applied_transformation(const AppliedEffect& h) const {
@@ -293,7 +156,7 @@ class Loop {
     Term term = masses_;
     for (std::size_t k = 0; k < tally.hypotheses.size(); ++k) {
       if (!is_applied_transformation(tally.hypotheses[k])) continue;
-      const Term change = term_of(tally, k);
+      const Term change = term_of(robot_, tally, k);
       term.columns.insert(term.columns.end(), change.columns.begin(), change.columns.end());
     }
     term.nonnegative.assign(term.columns.size(), false);
@@ -301,12 +164,14 @@ class Loop {
   }
 
   void screen() {
-    BlockFits fits = tallied(hypotheses());
+    BlockFits fits = tallied(screened_hypotheses(
+        robot_, result_.model, log_,
+        series(robot_, settings_.contacts, result_.model, log_, settings_.stride)));
     const Term fixed = always(fits.tally());
-    const std::vector<Candidate> list = candidates(fits);
+    const std::vector<Candidate> list = listed(fits);
     // From the beginning each time: what was accepted with worse weights has to prove itself again.
     const Selection selection = select(fits, fixed, list, settings_.rule);
-    choose_prior(fits, chosen_terms(fixed, list, selection));
+    result_.prior = choose_prior(fits, chosen_terms(fixed, list, selection));
     take(fits, fixed, list, selection);
   }
 
@@ -386,7 +251,7 @@ class Loop {
     for (std::size_t k = 0; k < effects; ++k) {
       const AppliedEffect& a = fits.tally().hypotheses[k];
       if (a.effect->transform.any()) continue;
-      terms.push_back(term_of(fits.tally(), k));
+      terms.push_back(term_of(robot_, fits.tally(), k));
       if (came_since(a)) terms.back().from_block = fits.first_block();
     }
     return terms;
@@ -513,7 +378,7 @@ class Loop {
       for (std::size_t i = 0; i < of_found.size(); ++i) {
         auto& terms = choices.emplace_back();
         for (const std::size_t v : of_found[i]) {
-          terms.push_back(term_of(fits.tally(), v));
+          terms.push_back(term_of(robot_, fits.tally(), v));
           if (result_.found[i].since_reference) terms.back().from_block = fits.first_block();
         }
       }

@@ -1,0 +1,137 @@
+#include "shapeid/diagnosis/candidates.hpp"
+
+#include <algorithm>
+
+#include "shapeid/diagnosis/effects.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+/// A payload's term on the link's own columns.
+Candidate payload_candidate(const Robot& robot, const Effect& effect, int link,
+                            std::size_t from_block, double onset) {
+  Candidate c{at_start(effect, link), {}, false, {}};
+  if (c.effect.shape.size() > 0) c.effect.shape[0] = onset;
+  c.term.id = hypothesis_id(robot, c.effect);
+  c.term.from_block = from_block;
+  for (Eigen::Index p = 0; p < 10; ++p) {
+    c.term.columns.push_back(10 * link + p);
+    c.term.nonnegative.push_back(p == 0);
+  }
+  return c;
+}
+
+/// The same effect at every joint together: what every drive has shows in the sum before it shows
+/// in one.
+void add_groups(std::vector<Candidate>& list) {
+  const std::size_t singles = list.size();
+  for (const Effect& effect : all_effects()) {
+    if (effect.site != SiteKind::joint || effect.columns == nullptr) continue;
+    for (const bool since : {false, true}) {
+      Candidate group;
+      for (std::size_t k = 0; k < singles; ++k) {
+        if (list[k].effect.effect != &effect || list[k].since_reference != since) continue;
+        if (group.members.empty()) group = {list[k].effect, {}, since, {}};
+        group.members.push_back(k);
+        const Term& term = list[k].term;
+        group.term.from_block = term.from_block;
+        group.term.columns.insert(group.term.columns.end(), term.columns.begin(),
+                                  term.columns.end());
+      }
+      group.term.nonnegative.assign(group.term.columns.size(), false);
+      group.term.id = effect.id + "@every joint";
+      if (group.members.size() > 1) list.push_back(group);
+    }
+  }
+}
+
+}  // namespace
+
+bool same_place(const AppliedEffect& a, const AppliedEffect& b) {
+  return a.effect == b.effect && a.site == b.site;
+}
+
+std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichModel& model,
+                                               const Recording& log, const Series& left) {
+  std::vector<AppliedEffect> list = all_hypotheses(robot);
+  for (AppliedEffect& h : list) {
+    const auto found = std::find_if(model.effects.begin(), model.effects.end(),
+                                    [&](const AppliedEffect& a) { return same_place(a, h); });
+    if (found != model.effects.end()) {
+      h = *found;
+    } else if (h.effect->id == "cogging") {
+      const Eigen::Index row = robot.base_dof() + h.site;
+      std::vector<double> q, r;
+      for (Eigen::Index i = 0; i < left.residual.cols(); ++i) {
+        if (!left.counted(row, i)) continue;
+        q.push_back(log[left.index[static_cast<std::size_t>(i)]].q[h.site]);
+        r.push_back(left.residual(row, i));
+      }
+      if (q.empty()) continue;
+      const ShapeNumber& N = h.effect->shape.front();
+      h.shape[0] =
+          strongest_ripple(Eigen::Map<Eigen::VectorXd>(q.data(), std::ssize(q)),
+                           Eigen::Map<Eigen::VectorXd>(r.data(), std::ssize(r)), N.lower, N.upper);
+    }
+  }
+  for (const AppliedEffect& a : model.effects) {
+    if (a.effect->is_payload) list.push_back(a);
+  }
+  return list;
+}
+
+Term term_of(const Robot& robot, const Tally& tally, std::size_t hypothesis) {
+  const AppliedEffect& h = tally.hypotheses[hypothesis];
+  Term term;
+  term.id = hypothesis_id(robot, h);
+  for (Eigen::Index p = 0; p < h.value.size(); ++p) {
+    term.columns.push_back(tally.first[hypothesis] + p);
+    const bool changes = h.effect->transform.any();  // the column is of a change, of either sign
+    term.nonnegative.push_back(!changes &&
+                               h.effect->parameters[static_cast<std::size_t>(p)].nonnegative);
+  }
+  return term;
+}
+
+std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
+                                  const CandidateRule& rule) {
+  const Tally& tally = fits.tally();
+  std::vector<Candidate> list;
+  for (std::size_t k = 0; k < tally.hypotheses.size(); ++k) {
+    const AppliedEffect& h = tally.hypotheses[k];
+    if (rule.excluded(h)) continue;
+    if (!rule.transformations && h.effect->transform.any()) continue;
+    Candidate c{h, term_of(robot, tally, k), rule.came_since(h), {}};
+    if (!c.since_reference) list.push_back(c);
+    if (rule.has_reference) {
+      c.since_reference = true;
+      c.term.from_block = fits.first_block();
+      list.push_back(c);
+    }
+  }
+  add_groups(list);
+  const std::size_t first = fits.first_block();
+  const auto blocks = static_cast<std::size_t>(fits.held_blocks());
+  for (int link = 0; link < robot.link_count(); ++link) {
+    const Effect& always = *find_effect("payload");
+    const Effect& later = *find_effect("payload_from");
+    if (!always.applies(robot, link)) continue;
+    const bool is_free = std::count(rule.free_links.begin(), rule.free_links.end(), link) > 0;
+    if (rule.has_reference) {
+      Candidate c = payload_candidate(robot, always, link, first, 0.0);
+      c.since_reference = true;
+      list.push_back(c);
+    } else if (!is_free) {
+      list.push_back(payload_candidate(robot, always, link, 0, 0.0));
+    }
+    constexpr std::size_t onsets = 9;
+    for (std::size_t i = 1; i < onsets; ++i) {
+      const std::size_t block = first + i * blocks / onsets;
+      if (block == first) continue;
+      list.push_back(payload_candidate(robot, later, link, block, tally.blocks[block].from));
+    }
+  }
+  return list;
+}
+
+}  // namespace shapeid::diagnosis

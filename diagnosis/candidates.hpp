@@ -1,0 +1,38 @@
+// What a round of the loop looks at: hypotheses with their start, and as terms of a fit.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "shapeid/diagnosis/selection.hpp"
+#include "shapeid/diagnosis/series.hpp"
+
+namespace shapeid::diagnosis {
+
+/// The same effect at the same place.
+[[nodiscard]] bool same_place(const AppliedEffect& a, const AppliedEffect& b);
+
+/// All hypotheses; those of the model with their numbers, ripple where the residual (`left`, of the
+/// model on the log) has most of it, payloads only if the model has them.
+[[nodiscard]] std::vector<AppliedEffect> screened_hypotheses(const Robot& robot,
+                                                             const RichModel& model,
+                                                             const Recording& log,
+                                                             const Series& left);
+
+/// The columns of one of the tally's hypotheses.
+[[nodiscard]] Term term_of(const Robot& robot, const Tally& tally, std::size_t hypothesis);
+
+struct CandidateRule {
+  std::vector<int> free_links;   ///< a load that is always there cannot be told from these
+  bool has_reference = false;    ///< what came since the reference log is a hypothesis of its own
+  bool transformations = false;  ///< whether effects that are no columns are tried
+  std::function<bool(const AppliedEffect&)> excluded;
+  std::function<bool(const AppliedEffect&)> came_since;  ///< found already, as that
+};
+
+/// The tally's hypotheses at their places, the same effect at every joint together (what every
+/// drive has shows in the sum before it shows in one), and loads from several moments on.
+[[nodiscard]] std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
+                                                const CandidateRule& rule);
+
+}  // namespace shapeid::diagnosis

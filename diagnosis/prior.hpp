@@ -1,0 +1,16 @@
+// How strongly the given inertias hold what the data say nothing about.
+#pragma once
+
+#include <vector>
+
+#include "shapeid/diagnosis/fits.hpp"
+
+namespace shapeid::diagnosis {
+
+/// The strongest prior that predicts held-out blocks as well as any, as far as their scatter
+/// tells: what the data say nothing about stays as given. Bounded, because a prior that froze the
+/// given inertias would have effects found that make up for their errors.
+/// Sets it and returns it.
+double choose_prior(BlockFits& fits, const std::vector<Term>& terms);
+
+}  // namespace shapeid::diagnosis
