@@ -53,9 +53,10 @@ std::vector<Sample> cheetah_samples(const Cheetah& cheetah, const std::string& l
   MotionReader reader(path_of(cheetah.folder, log), cheetah.robot, {},
                       read_mapping_yaml(mapping_file), {});
   std::vector<Sample> samples;
-  for (std::size_t i = 0; std::optional<Sample> sample = reader.next(); ++i) {
+  std::size_t count = 0;
+  while (std::optional<Sample> sample = reader.next()) {
     constexpr double impact = 25.0;  // m/s^2
-    if (i % every != 0 || sample->base_specific_force.norm() >= impact) continue;
+    if (count++ % every != 0 || sample->base_specific_force.norm() >= impact) continue;
     for (int j = 0; rotors && j < cheetah.robot.joint_count(); ++j) {
       sample->tau[j] -= reflected_inertia(j) * sample->ddq[j];
     }

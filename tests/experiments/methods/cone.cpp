@@ -130,10 +130,12 @@ Cone positive_bodies(double length) {
 ConeOptimum least_over(const Cone& cone, const DataTerm& f) {
   // From where the barrier and the data weigh alike down to where the gap, mu times the matrix's
   // order, is nothing beside || F ||^2 and its rounding. Each mu starts near its own optimum.
-  constexpr double first = 1e-2, last = 1e-13, fall = 0.1;
+  constexpr double first = 1e-2, fall = 0.1;
+  constexpr int most_falls = 11;  // down to 1e-13
   const Barrier barrier(cone, f);
   ConeOptimum best{cone.inside, 0.0, -std::numeric_limits<double>::infinity()};
-  for (double mu = first * f.size(); mu > last * f.size(); mu *= fall) {
+  double mu = first * f.size();
+  for (int k = 0; k <= most_falls; ++k, mu *= fall) {
     const Barrier::Centre centre = barrier.centre(mu, best.Phi);
     if (!centre.near) break;
     best.floor = std::max(best.floor, f.dual(barrier.dual_point(mu, best.Phi, centre.newton)));
