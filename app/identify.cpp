@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "shapeid/app/identification.hpp"
+#include "shapeid/app/sought.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
-#include "shapeid/models/shapes_yaml.hpp"
 #include "shapeid/reference/online.hpp"
 
 namespace shapeid::app {
@@ -17,33 +17,11 @@ struct Options {
   MotionInputs inputs;
   RunOptions run;
   Delivery delivery;
-  std::string shapes;
-  std::vector<std::string> free_links;
-  bool whole_body = false, online = false;
-  double expected_mass = 0.0, alpha = 0.5;
+  SoughtLinks sought;
+  bool online = false;
+  double alpha = 0.5;
   std::size_t window = 10, stride = 10;
 };
-
-std::vector<int> free_links(const Options& options, const Robot& robot) {
-  if (options.whole_body) return moving_links(robot);
-  if (!options.free_links.empty()) return named_links(options.free_links, robot);
-  if (robot.root == Root::fixed) {
-    throw InputError("which links are sought is not said",
-                     "give --shapes, --free LINK or --whole-body (a fixed base has no dynamics)");
-  }
-  return {0};
-}
-
-/// M0: said on the command line, else the expected range in robot.yaml, else the given masses.
-double expected_mass(const Options& options, const RobotInputs& robot, const BodyModel& model) {
-  if (options.expected_mass > 0.0) return options.expected_mass;
-  const double mass = shapeid::expected_mass(robot.robot, robot.notes, model.free_links);
-  if (!(mass > 0.0)) {
-    throw InputError("the free links have no mass in the URDF",
-                     "give --expected-mass, or expected_mass in robot.yaml");
-  }
-  return mass;
-}
 
 void identify_windows(const Options& options, const RobotInputs& robot, const BodyModel& model,
                       double mass) {
@@ -82,10 +60,8 @@ void identify_windows(const Options& options, const RobotInputs& robot, const Bo
 
 void identify(Options& options) {
   const RobotInputs robot = read_robot(options.inputs);
-  const BodyModel model = options.shapes.empty()
-                              ? default_shapes(robot.robot, free_links(options, robot.robot))
-                              : read_shapes_yaml(options.shapes, robot.robot);
-  const double mass = expected_mass(options, robot, model);
+  const BodyModel model = sought_bodies(options.sought, robot.robot);
+  const double mass = expected_mass(options.sought, robot, model);
   if (options.online) return identify_windows(options, robot, model, mass);
 
   options.run.settings.expected_mass = mass;
@@ -103,17 +79,7 @@ void add_identify(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("identify", "masses, parameters and a URDF from a log");
   options->inputs.add_to(*verb);
   add_solver_options(*verb, options->run);
-  auto* shapes = verb->add_option("--shapes", options->shapes, "shapes.yaml");
-  auto* named = verb->add_option("--free", options->free_links,
-                                 "links to identify, shapes from their collision bodies "
-                                 "(default: the floating base)");
-  verb->add_flag("--whole-body", options->whole_body, "identify every link")
-      ->excludes(shapes)
-      ->excludes(named);
-  named->excludes(shapes);
-  verb->add_option("--expected-mass", options->expected_mass,
-                   "kg, of all sought links together (default: as given)")
-      ->check(CLI::PositiveNumber);
+  options->sought.add_to(*verb);
   verb->add_option("--effects", options->run.effects,
                    "effects.yaml of diagnose: friction and the like, taken as known");
   verb->add_option("--min-mass", options->run.least_mass,

@@ -18,14 +18,13 @@ namespace shapeid::app {
 namespace {
 
 /// Whether a log, as seen through its mapping, has an IMU.
-bool has_imu(const std::string& log, const std::optional<Mapping>& mapping) {
+bool has_imu(const LogTable& log, const std::optional<Mapping>& mapping) {
   const auto starts_with_base = [](const std::string& name) { return name.starts_with("base."); };
   if (mapping) {
     return std::any_of(mapping->columns.begin(), mapping->columns.end(),
                        [&](const auto& rule) { return starts_with_base(rule.first); });
   }
-  const LogReader reader(log);
-  return std::any_of(reader.columns().begin(), reader.columns().end(), starts_with_base);
+  return std::any_of(log.columns().begin(), log.columns().end(), starts_with_base);
 }
 
 /// robot.yaml beside the URDF, under the URDF's name or plainly, if there is one.
@@ -38,31 +37,13 @@ std::string robot_yaml_beside(const std::string& urdf) {
   return {};
 }
 
-reference::ContactTreatment treatment(const std::string& choice, const Robot& robot) {
-  if (choice == "measured") return reference::ContactTreatment::measured;
-  if (choice == "none" || robot.root == Root::fixed || robot.contacts.empty()) {
-    return reference::ContactTreatment::ignore;
-  }
-  return reference::ContactTreatment::project;
-}
-
 }  // namespace
 
-void MotionInputs::add_to(CLI::App& verb) {
+void MotionInputs::add_robot_to(CLI::App& verb) {
   verb.add_option("--robot", robot, "URDF file")->required();
-  verb.add_option("--log", log, "log, CSV or CSV.gz")->required();
   verb.add_option("--mapping", mapping, "mapping.yaml, for a log with foreign names or units");
   verb.add_option("--robot-yaml", robot_yaml,
                   "contacts, IMU pose, noise (default: beside the URDF, if there)");
-  verb.add_option("--cutoff", cutoff,
-                  "Hz, of the zero-phase filter over every channel; 0 does not smooth")
-      ->capture_default_str();
-  verb.add_option("--row-cutoff", row_cutoff,
-                  "Hz: filter the rows of the equations as well; then --cutoff can be high, which "
-                  "distorts less (docs/recovery.md)")
-      ->check(CLI::PositiveNumber);
-  verb.add_option("--rate", rate, "Hz, of the regular grid (default: the log's)");
-  verb.add_flag("--exact", exact, "take dq, ddq and base.gyrodot from the log (simulations)");
   verb.add_flag("--accept-impossible", accept_impossible,
                 "take given inertias that no body can have as they are, for links that are known");
   verb.add_option("--contacts", contacts,
@@ -74,11 +55,44 @@ void MotionInputs::add_to(CLI::App& verb) {
       ->capture_default_str();
 }
 
+void MotionInputs::add_to(CLI::App& verb) {
+  add_robot_to(verb);
+  verb.add_option("--log", log, "log, CSV or CSV.gz")->required();
+  verb.add_option("--cutoff", cutoff,
+                  "Hz, of the zero-phase filter over every channel; 0 does not smooth")
+      ->capture_default_str();
+  verb.add_option("--row-cutoff", row_cutoff,
+                  "Hz: filter the rows of the equations as well; then --cutoff can be high, which "
+                  "distorts less (docs/recovery.md)")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--rate", rate, "Hz, of the regular grid (default: the log's)");
+  verb.add_flag("--exact", exact, "take dq, ddq and base.gyrodot from the log (simulations)");
+}
+
+ContactTreatment contact_treatment(const MotionInputs& inputs, const Robot& robot) {
+  if (inputs.contacts == "measured") return ContactTreatment::measured;
+  if (inputs.contacts == "none" || robot.root == Root::fixed || robot.contacts.empty()) {
+    return ContactTreatment::ignore;
+  }
+  return ContactTreatment::project;
+}
+
+ContactRule contact_rule(const MotionInputs& inputs, const Robot& robot) {
+  return [&robot, Phi = stacked_parameters(robot),
+          share = inputs.contact_threshold](const Sample& sample) {
+    return std::optional(reference::detect_contacts(robot, sample, Phi, share));
+  };
+}
+
 RobotInputs read_robot(const MotionInputs& inputs) {
+  return read_robot(inputs, LogReader(inputs.log).table());
+}
+
+RobotInputs read_robot(const MotionInputs& inputs, const LogTable& log) {
   RobotInputs result;
   if (!inputs.mapping.empty()) result.mapping = read_mapping_yaml(inputs.mapping);
   UrdfOptions options;
-  options.root = has_imu(inputs.log, result.mapping) ? Root::floating : Root::fixed;
+  options.root = has_imu(log, result.mapping) ? Root::floating : Root::fixed;
   options.reject_impossible = !inputs.accept_impossible;
   UrdfFile file = read_urdf(inputs.robot, options);
   for (const InertiaFinding& finding : file.findings) {
@@ -91,7 +105,7 @@ RobotInputs read_robot(const MotionInputs& inputs) {
   const std::string notes =
       inputs.robot_yaml.empty() ? robot_yaml_beside(inputs.robot) : inputs.robot_yaml;
   if (!notes.empty()) result.notes = read_robot_yaml(notes, result.robot);
-  add_default_contacts(result.robot, inputs.log, result.mapping);
+  add_default_contacts(result.robot, log, result.mapping);
   return result;
 }
 
@@ -123,11 +137,8 @@ MotionOptions motion_options(const MotionInputs& inputs, const Robot& robot) {
   options.smoothing = inputs.causal ? Smoothing::causal : Smoothing::zero_phase;
   if (inputs.exact || inputs.cutoff == 0.0) options.smoothing = Smoothing::none;
   if (inputs.cutoff != 0.0) options.cutoff = inputs.cutoff;
-  if (treatment(inputs.contacts, robot) == reference::ContactTreatment::project) {
-    options.derive_contacts = [&robot, Phi = stacked_parameters(robot),
-                               share = inputs.contact_threshold](const Sample& sample) {
-      return std::optional(reference::detect_contacts(robot, sample, Phi, share));
-    };
+  if (contact_treatment(inputs, robot) == ContactTreatment::project) {
+    options.derive_contacts = contact_rule(inputs, robot);
   }
   return options;
 }
@@ -156,7 +167,7 @@ std::vector<int> moving_links(const Robot& robot) {
 LogSamples::LogSamples(const std::string& path, const RobotInputs& robot,
                        const MotionInputs& inputs)
     : reader_(path, robot.robot, robot.notes, robot.mapping, motion_options(inputs, robot.robot)),
-      contacts_(treatment(inputs.contacts, robot.robot)) {
+      contacts_(contact_treatment(inputs, robot.robot)) {
   if (contacts_ == reference::ContactTreatment::measured && !reader_.report().forces_logged) {
     throw InputError({path}, "--contacts measured, but there are no force.* columns",
                      "log force.<link>.x, .y, .z for every contact, or choose another treatment");

@@ -24,6 +24,8 @@ struct MotionInputs {
   bool causal = false;  ///< smooth as a robot would, forward in time only
 
   void add_to(CLI::App& verb);
+  /// All but the log and how it is smoothed.
+  void add_robot_to(CLI::App& verb);
 };
 
 /// A robot with what its files say, ready for logs.
@@ -36,6 +38,15 @@ struct RobotInputs {
 
 /// Reads URDF, robot.yaml and mapping.yaml. The root is floating if the log has an IMU.
 [[nodiscard]] RobotInputs read_robot(const MotionInputs& inputs);
+/// The same for a log whose header is read already, as a stream's must be.
+[[nodiscard]] RobotInputs read_robot(const MotionInputs& inputs, const LogTable& log);
+
+/// What becomes of contact forces: as asked for, or nothing where nothing touches.
+[[nodiscard]] ContactTreatment contact_treatment(const MotionInputs& inputs, const Robot& robot);
+
+/// Derives contacts for logs without flags, from the model that is given. The robot must outlive
+/// it.
+[[nodiscard]] ContactRule contact_rule(const MotionInputs& inputs, const Robot& robot);
 
 /// Diagonal of W: 1 / sigma^2 of "tau.<joint>" (or "tau" for all joints) and of "base.force" (N)
 /// and "base.moment" (N m); ones where robot.yaml says nothing.

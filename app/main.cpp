@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   shapeid::app::add_identify(app);
   shapeid::app::add_load(app);
   shapeid::app::add_diagnose(app);
+  shapeid::app::add_track(app);
   shapeid::app::add_certify(app);
   shapeid::app::add_vectors(app);
   shapeid::app::add_simulate(app);

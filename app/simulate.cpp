@@ -76,6 +76,9 @@ void add_simulate(CLI::App& app) {
   verb->add_option("--load", options->load,
                    "MASS X Y Z [SIDE]: a block fixed to the base, kg and m (side 0.04)")
       ->expected(4, 5);
+  verb->add_option("--load-from", options->simulation.load_from, "s: when the block is put on")
+      ->capture_default_str();
+  verb->add_option("--load-until", options->simulation.load_until, "s: when it is taken off again");
   verb->add_flag("--exact", options->exact,
                  "no noise; accelerations and contact forces are logged as well");
   verb->add_flag("--json", options->json, "print JSON");

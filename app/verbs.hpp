@@ -8,6 +8,7 @@ namespace shapeid::app {
 void add_identify(CLI::App& app);
 void add_load(CLI::App& app);
 void add_diagnose(CLI::App& app);
+void add_track(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_certify(CLI::App& app);

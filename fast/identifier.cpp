@@ -60,12 +60,14 @@ Identifier::Identifier(const Robot& robot, const BodyModel& model,
     : block_(std::gcd(checked(settings).window, settings.stride)),
       window_(settings.window),
       stride_(settings.stride),
+      warm_(settings.warm),
       alpha_(settings.alpha),
       expected_mass_(settings.expected_mass),
       mass_bound_(settings.mass_bound.value_or(10.0 * settings.expected_mass)),
       lambda_(settings.lambda),
       volume_(shape_volumes(model).sum()),
       rows_(robot, model, settings.contacts, weight_of(robot, settings)),
+      last_window_(10 * static_cast<Eigen::Index>(model.free_links.size())),
       division_(model, options_of(settings)),
       Phi_(Eigen::VectorXd::Zero(10 * static_cast<Eigen::Index>(model.free_links.size()))),
       filtered_(Phi_) {
@@ -83,7 +85,10 @@ Identifier::Fed Identifier::feed(const Sample& sample) noexcept {
   }
   const bool complete = in_block_ == block_ && in_window_ == window_ && since_last_ >= stride_;
   bool solved = false;
-  if (complete) solved = solve(sliding_ ? sliding_->triangle().R() : rows_.triangle().R());
+  if (complete) {
+    last_window_.assign(sliding_ ? sliding_->triangle() : rows_.triangle());
+    solved = solve(last_window_.R());
+  }
   if (in_block_ == block_) {
     by_six_rows_ += rows_.samples_by_six_rows();
     rows_.clear();
@@ -108,6 +113,12 @@ Identifier::Fed Identifier::feed(const Sample& sample) noexcept {
   return solved ? Fed::answered : Fed::window_declined;
 }
 
+void Identifier::forget_samples() noexcept {
+  rows_.clear();
+  if (sliding_) sliding_->clear();
+  in_block_ = in_window_ = since_last_ = 0;
+}
+
 bool Identifier::solve(const Eigen::MatrixXd& R) noexcept {
   if (!lambda_) {
     // default_lambda(), from the triangle: || b ||^2 is the sum of squares of its last column.
@@ -115,6 +126,7 @@ bool Identifier::solve(const Eigen::MatrixXd& R) noexcept {
         1e-12 * R.col(R.cols() - 1).squaredNorm() * volume_ / (expected_mass_ * expected_mass_);
     division_.set_lambda(*lambda_);
   }
+  if (!warm_) division_.forget_masses();
   outcome_ = division_.start(R);
   if (outcome_ != Outcome::solved) return false;
   int iterations = division_.masses().iterations();

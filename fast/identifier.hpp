@@ -27,6 +27,9 @@ struct IdentifierSettings {
   double expected_mass = 0.0;        ///< M0 > 0, kg, of all free shapes together
   std::optional<double> lambda;      ///< default: default_lambda() of the first window, then kept
   std::optional<double> mass_bound;  ///< kg, for the gap; default: ten times M0
+  /// Windows start at the masses of the one before. If not, an answer depends on its window alone,
+  /// to the last bit: what a restart in the middle of a stream needs.
+  bool warm = true;
   /// Divisions in every window. Its expected_mass is the one above.
   DivisionOptions division{.most_divisions = 0};
 };
@@ -61,6 +64,12 @@ class Identifier {
   /// Takes a sample; every `stride` samples, once `window` are there, solves.
   Fed feed(const Sample& sample) noexcept;
 
+  /// As if no sample had been fed since the last window, which need not have been complete: for
+  /// when the next sample does not follow the last. lambda and filter (17) stay.
+  void forget_samples() noexcept;
+
+  /// The compressed rows of the last window that was complete; until the next feed.
+  [[nodiscard]] const Triangle& window() const noexcept { return last_window_; }
   /// Of the last window that was answered.
   [[nodiscard]] const WindowAnswer& answer() const noexcept { return answer_; }
   /// kg, one a shape of the model, before any division.
@@ -82,15 +91,33 @@ class Identifier {
     return by_six_rows_ + rows_.samples_by_six_rows();
   }
 
+  /// All that is remembered, for a checkpoint; with settings.warm the last masses are not, and the
+  /// next window starts cold.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("lambda", lambda_);
+    archive("rows", rows_);
+    archive("sliding", sliding_);
+    archive("in_block", in_block_);
+    archive("in_window", in_window_);
+    archive("since_last", since_last_);
+    archive("by_six_rows", by_six_rows_);
+    archive("has_answer", has_answer_);
+    archive("Phi", Phi_);
+    archive("filtered", filtered_);
+  }
+
  private:
   [[nodiscard]] bool solve(const Eigen::MatrixXd& R) noexcept;
 
   std::size_t block_, window_, stride_;  ///< samples
+  bool warm_;
   double alpha_, expected_mass_, mass_bound_;
   std::optional<double> lambda_;
   double volume_ = 0.0;
   Window rows_;                             ///< of the present block
   std::optional<SlidingTriangle> sliding_;  ///< the last blocks, if windows overlap
+  Triangle last_window_;
   Division division_;
   std::size_t in_block_ = 0, in_window_ = 0, since_last_ = 0;
   std::size_t by_six_rows_ = 0;  ///< samples of earlier blocks

@@ -36,6 +36,21 @@ class SlidingTriangle {
   /// Triangles merged by the last push: four at most.
   [[nodiscard]] int last_merges() const noexcept { return last_merges_; }
 
+  /// All that is remembered, for a checkpoint.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("oldest_ends", oldest_ends_);
+    archive("last", last_);
+    archive("filling", filling_);
+    archive("last_total", last_total_);
+    archive("filling_total", filling_total_);
+    archive("total", total_);
+    archive("filled", filled_);
+    archive("ends_made", ends_made_);
+    archive("whole_chunks", whole_chunks_);
+    archive("blocks", blocks_);
+  }
+
  private:
   void merge(Triangle& into, const Triangle& from) noexcept;
 

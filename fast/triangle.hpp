@@ -42,6 +42,12 @@ class Triangle {
   /// (unknowns + 1) x (unknowns + 1), zero below the diagonal; the last column belongs to F.
   [[nodiscard]] const Eigen::MatrixXd& R() const noexcept { return R_; }
 
+  /// All that is remembered, for a checkpoint.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("R", R_);
+  }
+
  private:
   void annihilate(Eigen::Index first, Eigen::Ref<Eigen::MatrixXd>& rows) noexcept;
 

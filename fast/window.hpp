@@ -42,6 +42,19 @@ class Window {
   /// How many of them took the six-row path; the others took the general one.
   [[nodiscard]] std::size_t samples_by_six_rows() const noexcept { return samples_by_six_rows_; }
 
+  /// All that is remembered, for a checkpoint.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("triangle", triangle_);
+    Eigen::MatrixXd waiting = waiting_.topRows(used_);  // what lies below is not set
+    archive("waiting", waiting);
+    used_ = waiting.rows();
+    waiting_.topRows(used_) = waiting;
+    archive("constant", constant_);
+    archive("samples", samples_);
+    archive("samples_by_six_rows", samples_by_six_rows_);
+  }
+
  private:
   void compress() noexcept;
 

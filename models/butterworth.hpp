@@ -47,6 +47,13 @@ class FilterState {
   /// The next output.
   [[nodiscard]] Eigen::VectorXd step(const Eigen::VectorXd& x);
 
+  /// All that is remembered, for a checkpoint.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("first", first_);
+    archive("second", second_);
+  }
+
  private:
   std::vector<Section> sections_;
   Eigen::MatrixXd first_, second_;  ///< transposed direct form II, channels x sections

@@ -41,7 +41,7 @@ bool sounds_like_current_or_motor(const std::string& name) {
 /// Looks names up in a log, through a mapping if there is one, and remembers what was used.
 class Finder {
  public:
-  Finder(const LogReader& log, const std::optional<Mapping>& mapping)
+  Finder(const LogTable& log, const std::optional<Mapping>& mapping)
       : path_(log.path()), mapping_(mapping) {
     for (std::size_t i = 0; i < log.columns().size(); ++i) columns_[log.columns()[i]] = i;
     if (!mapping) return;
@@ -169,8 +169,7 @@ void check_contacts(const std::vector<std::string>& names, const std::string& pa
 
 }  // namespace
 
-std::vector<std::string> contact_names(const LogReader& log,
-                                       const std::optional<Mapping>& mapping) {
+std::vector<std::string> contact_names(const LogTable& log, const std::optional<Mapping>& mapping) {
   constexpr std::string_view prefix = "contact.";
   std::set<std::string> names;
   const auto collect = [&](const std::string& name) {
@@ -183,7 +182,7 @@ std::vector<std::string> contact_names(const LogReader& log,
   return {names.begin(), names.end()};
 }
 
-ChannelPlan plan_channels(const LogReader& log, const Robot& robot,
+ChannelPlan plan_channels(const LogTable& log, const Robot& robot,
                           const std::optional<Mapping>& mapping) {
   Finder finder(log, mapping);
   check_root(finder, log.path(), robot);
@@ -231,39 +230,32 @@ ChannelPlan plan_channels(const LogReader& log, const Robot& robot,
   return plan;
 }
 
-MeasuredRows::MeasuredRows(const std::string& path, const Robot& robot,
-                           const std::optional<Mapping>& mapping)
-    : log_(path),
-      plan_(plan_channels(log_, robot, mapping)),
+RowMeaning::RowMeaning(const LogTable& log, const Robot& robot,
+                       const std::optional<Mapping>& mapping)
+    : path_(log.path()),
+      plan_(plan_channels(log, robot, mapping)),
       held_(plan_.channels.size(), std::numeric_limits<double>::quiet_NaN()) {}
 
-bool MeasuredRows::kept(const LogRow& row) const {
+bool RowMeaning::kept(const LogRow& row) const {
   return std::all_of(plan_.keep.begin(), plan_.keep.end(), [&](const ChannelPlan::Keep& keep) {
     return row.values[keep.column] == keep.value;
   });
 }
 
-double MeasuredRows::clock(const LogRow& row) {
-  const Place place{log_.path(), row.line, plan_.time.from};
+double RowMeaning::time(const LogRow& row) const {
   const double time = plan_.time.scale * row.values[plan_.time.column] + plan_.time.offset;
-  if (std::isnan(time)) throw InputError(place, "is empty", "give every row its time");
-  if (last_time_ && time <= *last_time_) {
-    throw InputError(place,
-                     time == *last_time_
-                         ? fmt::format("the clock stands still at {} s", time)
-                         : fmt::format("the clock runs back from {} to {} s", *last_time_, time),
-                     "give rows in increasing time, each time once");
+  if (std::isnan(time)) {
+    throw InputError({path_, row.line, plan_.time.from}, "is empty", "give every row its time");
   }
-  last_time_ = time;
   return time;
 }
 
-std::vector<int> MeasuredRows::contacts(const LogRow& row) const {
+std::vector<int> RowMeaning::contacts(const LogRow& row) const {
   std::vector<int> flags;
   for (const Channel& contact : plan_.contacts) {
     const double flag = contact.scale * row.values[contact.column] + contact.offset;
     if (!(std::isnan(flag) || flag == 0.0 || flag == 1.0 || flag == -1.0)) {
-      throw InputError({log_.path(), row.line, contact.from}, fmt::format("{} is no flag", flag),
+      throw InputError({path_, row.line, contact.from}, fmt::format("{} is no flag", flag),
                        "write 1 for touching, 0 for not, -1 or nothing for not known");
     }
     flags.push_back(std::isnan(flag) ? -1 : static_cast<int>(flag));
@@ -272,7 +264,7 @@ std::vector<int> MeasuredRows::contacts(const LogRow& row) const {
 }
 
 /// Leaves only new measurements: a sample-and-hold group repeats its values until a new one comes.
-void MeasuredRows::blank_held(const LogRow& row, Eigen::VectorXd& values) {
+void RowMeaning::blank_held(const LogRow& row, Eigen::VectorXd& values) {
   std::vector<bool> fresh(static_cast<std::size_t>(plan_.hold_groups), false);
   for (std::size_t c = 0; c < plan_.channels.size(); ++c) {
     const Channel& channel = plan_.channels[c];
@@ -289,27 +281,49 @@ void MeasuredRows::blank_held(const LogRow& row, Eigen::VectorXd& values) {
   }
 }
 
+MeasuredRow RowMeaning::read(const LogRow& row) {
+  MeasuredRow measured{row.line,
+                       time(row),
+                       Eigen::VectorXd(static_cast<Eigen::Index>(plan_.channels.size())),
+                       contacts(row),
+                       {}};
+  for (const std::size_t column : plan_.extra_columns) {
+    measured.extra.push_back(row.values[column]);
+  }
+  for (std::size_t c = 0; c < plan_.channels.size(); ++c) {
+    const Channel& channel = plan_.channels[c];
+    measured.values[static_cast<Eigen::Index>(c)] =
+        channel.scale * row.values[channel.column] + channel.offset;
+  }
+  blank_held(row, measured.values);
+  return measured;
+}
+
+MeasuredRows::MeasuredRows(const std::string& path, const Robot& robot,
+                           const std::optional<Mapping>& mapping)
+    : log_(path), meaning_(log_.table(), robot, mapping) {}
+
+void MeasuredRows::check_clock(const MeasuredRow& row) {
+  if (last_time_ && row.time <= *last_time_) {
+    throw InputError(
+        {log_.path(), row.line, plan().time.from},
+        row.time == *last_time_
+            ? fmt::format("the clock stands still at {} s", row.time)
+            : fmt::format("the clock runs back from {} to {} s", *last_time_, row.time),
+        "give rows in increasing time, each time once");
+  }
+  last_time_ = row.time;
+}
+
 std::optional<MeasuredRow> MeasuredRows::next() {
   while (const std::optional<LogRow> row = log_.next()) {
     ++rows_;
-    if (!kept(*row)) {
+    if (!meaning_.kept(*row)) {
       ++filtered_;
       continue;
     }
-    MeasuredRow measured{row->line,
-                         clock(*row),
-                         Eigen::VectorXd(static_cast<Eigen::Index>(plan_.channels.size())),
-                         contacts(*row),
-                         {}};
-    for (const std::size_t column : plan_.extra_columns) {
-      measured.extra.push_back(row->values[column]);
-    }
-    for (std::size_t c = 0; c < plan_.channels.size(); ++c) {
-      const Channel& channel = plan_.channels[c];
-      measured.values[static_cast<Eigen::Index>(c)] =
-          channel.scale * row->values[channel.column] + channel.offset;
-    }
-    blank_held(*row, measured.values);
+    MeasuredRow measured = meaning_.read(*row);
+    check_clock(measured);
     return measured;
   }
   return std::nullopt;

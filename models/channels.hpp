@@ -44,36 +44,59 @@ struct ChannelPlan {
 /// Finds the channels by name. Throws InputError for missing columns, for a floating log of a
 /// fixed robot and the reverse, for contacts that the robot does not have, and for torque channels
 /// whose name says current or motor while the mapping does not declare them.
-[[nodiscard]] ChannelPlan plan_channels(const LogReader& log, const Robot& robot,
+[[nodiscard]] ChannelPlan plan_channels(const LogTable& log, const Robot& robot,
                                         const std::optional<Mapping>& mapping);
 
 /// The links that the log, or the mapping, has contact.<link> columns for; in alphabetical order.
-[[nodiscard]] std::vector<std::string> contact_names(const LogReader& log,
+[[nodiscard]] std::vector<std::string> contact_names(const LogTable& log,
                                                      const std::optional<Mapping>& mapping);
 
-/// The rows of a log in the order of its plan: SI units, row filters and sample-and-hold resolved.
+/// What the rows of a table say in the order of its plan: SI units, sample-and-hold resolved.
+class RowMeaning {
+ public:
+  RowMeaning(const LogTable& log, const Robot& robot, const std::optional<Mapping>& mapping);
+
+  [[nodiscard]] const ChannelPlan& plan() const { return plan_; }
+  /// The mapping's row filter lets it pass.
+  [[nodiscard]] bool kept(const LogRow& row) const;
+  /// Throws InputError for a row without time and for contact flags other than 0, 1, -1 or nothing.
+  /// Rows must come in the order of the log.
+  [[nodiscard]] MeasuredRow read(const LogRow& row);
+
+  /// What is remembered from row to row, for a checkpoint.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("held", held_);
+  }
+
+ private:
+  [[nodiscard]] double time(const LogRow& row) const;
+  [[nodiscard]] std::vector<int> contacts(const LogRow& row) const;
+  void blank_held(const LogRow& row, Eigen::VectorXd& values);
+
+  std::string path_;
+  ChannelPlan plan_;
+  std::vector<double> held_;  ///< last seen value of every channel, NaN before the first
+};
+
+/// The rows of a log in the order of its plan, row filters resolved.
 class MeasuredRows {
  public:
   MeasuredRows(const std::string& path, const Robot& robot, const std::optional<Mapping>& mapping);
 
-  [[nodiscard]] const ChannelPlan& plan() const { return plan_; }
+  [[nodiscard]] const ChannelPlan& plan() const { return meaning_.plan(); }
   [[nodiscard]] const std::string& path() const { return log_.path(); }
-  /// Throws InputError for a clock that stands still or runs backwards and for contact flags other
-  /// than 0, 1, -1 or nothing.
+  /// Throws InputError as RowMeaning does, and for a clock that stands still or runs backwards.
   [[nodiscard]] std::optional<MeasuredRow> next();
   [[nodiscard]] std::size_t rows() const { return rows_; }          ///< read so far
   [[nodiscard]] std::size_t filtered() const { return filtered_; }  ///< of these, left out
 
  private:
-  [[nodiscard]] bool kept(const LogRow& row) const;
-  [[nodiscard]] double clock(const LogRow& row);
-  [[nodiscard]] std::vector<int> contacts(const LogRow& row) const;
-  void blank_held(const LogRow& row, Eigen::VectorXd& values);
+  void check_clock(const MeasuredRow& row);
 
   LogReader log_;
-  ChannelPlan plan_;
+  RowMeaning meaning_;
   std::optional<double> last_time_;
-  std::vector<double> held_;  ///< last seen value of every channel, NaN before the first
   std::size_t rows_ = 0, filtered_ = 0;
 };
 

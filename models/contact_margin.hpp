@@ -16,6 +16,13 @@ struct FlaggedSample {
   Sample sample;
   std::vector<int> contacts;
   bool starts_segment = false;  ///< the first one after a gap
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("sample", sample);
+    archive("contacts", contacts);
+    archive("starts_segment", starts_segment);
+  }
 };
 
 /// Holds samples back until the contacts within the margin after them are known. A contact that is
@@ -31,6 +38,15 @@ class ContactMargin {
   void finish();
   [[nodiscard]] std::optional<Sample> next();
   [[nodiscard]] std::size_t dropped() const { return dropped_; }
+
+  /// All that is remembered, for a checkpoint.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("near", near_);
+    archive("decided", decided_);
+    archive("ready", ready_);
+    archive("dropped", dropped_);
+  }
 
  private:
   void decide();

@@ -7,13 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace shapeid {
+#include "shapeid/models/log_table.hpp"
 
-/// A row of numbers in the order of LogReader::columns(). NaN marks an empty field.
-struct LogRow {
-  int line = 0;  ///< in the file, from 1
-  std::vector<double> values;
-};
+namespace shapeid {
 
 /// Reads a CSV or gzipped CSV file one row at a time, whatever its size. Throws InputError with
 /// file, line and column for anything that is not a header followed by rows of as many numbers.
@@ -28,6 +24,7 @@ class LogReader {
 
   [[nodiscard]] const std::string& path() const;
   [[nodiscard]] const std::vector<std::string>& columns() const;
+  [[nodiscard]] const LogTable& table() const;
   /// The next row; empty at the end of the file.
   [[nodiscard]] std::optional<LogRow> next();
 

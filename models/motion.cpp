@@ -11,6 +11,7 @@
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/plausibility.hpp"
 #include "shapeid/models/resampler.hpp"
+#include "shapeid/models/row_steps.hpp"
 #include "shapeid/models/sample_builder.hpp"
 #include "shapeid/models/segment_samples.hpp"
 
@@ -23,41 +24,6 @@ constexpr std::size_t head_of_stream = 256;
 // From half a period of the cutoff on, the impulse response of two passes of second order stays
 // below 5 percent of its peak (docs/derivations/filtering.md).
 constexpr double margin_periods = 0.5;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Median time between the rows, 0 for a single one.
-double median_row_step(const std::deque<MeasuredRow>& head) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < head.size(); ++i) steps.push_back(head[i].time - head[i - 1].time);
-  return steps.empty() ? 0.0 : median(std::move(steps));
-}
-
-/// Median time between the measurements of every channel.
-Eigen::VectorXd median_steps(const std::deque<MeasuredRow>& head, const MeasuredRows& source) {
-  Eigen::VectorXd steps(static_cast<Eigen::Index>(source.plan().channels.size()));
-  for (Eigen::Index c = 0; c < steps.size(); ++c) {
-    std::vector<double> own;
-    std::optional<double> last;
-    for (const MeasuredRow& row : head) {
-      if (std::isnan(row.values[c])) continue;
-      if (last) own.push_back(row.time - *last);
-      last = row.time;
-    }
-    if (own.empty()) {
-      const Channel& channel = source.plan().channels[static_cast<std::size_t>(c)];
-      throw InputError({source.path(), 0, channel.from},
-                       channel.hold_group < 0 ? "is empty" : "is held and never changes",
-                       fmt::format("{} needs measurements from the log's beginning", channel.name));
-    }
-    steps[c] = median(std::move(own));
-  }
-  return steps;
-}
 
 void check_exact(const ChannelPlan& plan, const std::string& path) {
   if (plan.dq < 0 || plan.ddq < 0 || (plan.floating() && plan.gyrodot < 0)) {
@@ -138,7 +104,7 @@ struct MotionReader::State {
                                                options.refuse_frozen});
     for (const MeasuredRow& row : head) plausibility->add(row);
     plausibility->judge();
-    const Eigen::VectorXd steps = median_steps(head, source);
+    const Eigen::VectorXd steps = median_steps(head, source.plan(), source.path());
     const double logged_rate = 1.0 / row_step;
     report.rate = options.rate > 0.0 ? options.rate : logged_rate;
     constexpr double rate_slack = 0.99;  // a median of jittered stamps
@@ -231,13 +197,13 @@ std::optional<Sample> MotionReader::next() {
 
 const MotionReport& MotionReader::report() const { return state_->report; }
 
-void add_default_contacts(Robot& robot, const std::string& log_path,
+void add_default_contacts(Robot& robot, const LogTable& log,
                           const std::optional<Mapping>& mapping) {
   if (!robot.contacts.empty()) return;
-  for (const std::string& name : contact_names(LogReader(log_path), mapping)) {
+  for (const std::string& name : contact_names(log, mapping)) {
     const std::optional<int> link = robot.find_link(name);
     if (!link) {
-      throw InputError({log_path, 1, "contact." + name}, "the robot has no link of this name",
+      throw InputError({log.path(), 1, "contact." + name}, "the robot has no link of this name",
                        "name links of the URDF");
     }
     const std::vector<Member>& members = robot.links[static_cast<std::size_t>(*link)].members;
@@ -247,6 +213,11 @@ void add_default_contacts(Robot& robot, const std::string& log_path,
         member == members.end() ? Eigen::Isometry3d::Identity() : member->pose;
     robot.contacts.push_back({name, *link, ContactKind::point, frame});
   }
+}
+
+void add_default_contacts(Robot& robot, const std::string& log_path,
+                          const std::optional<Mapping>& mapping) {
+  if (robot.contacts.empty()) add_default_contacts(robot, LogReader(log_path).table(), mapping);
 }
 
 }  // namespace shapeid

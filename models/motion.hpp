@@ -97,6 +97,7 @@ class MotionReader {
 
 /// Gives the robot a point contact at the origin of every link that the log has a contact.<link>
 /// column for, unless it has contacts already (robot.yaml). Throws InputError for unknown links.
+void add_default_contacts(Robot& robot, const LogTable& log, const std::optional<Mapping>& mapping);
 void add_default_contacts(Robot& robot, const std::string& log_path,
                           const std::optional<Mapping>& mapping);
 

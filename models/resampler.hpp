@@ -16,6 +16,15 @@ struct MeasuredRow {
   Eigen::VectorXd values;     ///< one a channel; NaN where this row measured nothing new
   std::vector<int> contacts;  ///< one a contact: 1 touches, 0 does not, -1 not known
   std::vector<double> extra;  ///< the log's other columns, carried along; NaN where empty
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("line", line);
+    archive("time", time);
+    archive("values", values);
+    archive("contacts", contacts);
+    archive("extra", extra);
+  }
 };
 
 /// A row of the regular grid.
@@ -44,15 +53,39 @@ class Resampler {
   /// Measurements in memory, of the channel that has most.
   [[nodiscard]] std::size_t held() const;
 
+  /// All that is remembered, for a checkpoint.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("tracks", tracks_);
+    archive("flags", flags_);
+    archive("newest", newest_);
+    archive("any", any_);
+    archive("finished", finished_);
+    archive("starts_segment", starts_segment_);
+    archive("anchor", anchor_);
+    archive("steps", steps_);
+  }
+
  private:
   struct Point {
     double time, value;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive("t", time);
+      archive("v", value);
+    }
   };
   using Track = std::deque<Point>;
   struct Flags {
     double time;
     std::vector<int> contacts;
     std::vector<double> extra;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive("time", time);
+      archive("contacts", contacts);
+      archive("extra", extra);
+    }
   };
   enum class State { ready, wait, gap };
   struct Look {

@@ -34,6 +34,21 @@ struct Sample {
   /// The log's other columns (MotionReport::extra) in the nearest row, as logged: neither scaled
   /// nor filtered. NaN where the row had none. The dynamics do not use them.
   std::vector<double> extra;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("time", time);
+    archive("base_angular_velocity", base_angular_velocity);
+    archive("base_angular_acceleration", base_angular_acceleration);
+    archive("base_specific_force", base_specific_force);
+    archive("q", q);
+    archive("dq", dq);
+    archive("ddq", ddq);
+    archive("tau", tau);
+    archive("in_contact", in_contact);
+    archive("contact_force", contact_force);
+    archive("extra", extra);
+  }
 };
 
 /// Empty if the sample has as many numbers as the robot needs, all finite.

@@ -38,6 +38,17 @@ class SegmentFilter {
   /// Forgets everything, ready for the next segment.
   void reset();
 
+  /// All that is remembered, for a checkpoint.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("forward", forward_);
+    archive("backward", backward_);
+    archive("started", started_);
+    archive("raw", raw_);
+    archive("half", half_);
+    archive("done", done_);
+  }
+
  private:
   void start();
   void forward(const Eigen::VectorXd& row);

@@ -39,11 +39,33 @@ class SegmentSamples {
   /// Rows that did not become samples, of the segments that have ended.
   [[nodiscard]] std::size_t lost() const { return lost_; }
 
+  /// All that is remembered, for a checkpoint.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("filter", filter_);
+    archive("in_filter", in_filter_);
+    archive("filtered", filtered_);
+    archive("filtered_stamps", filtered_stamps_);
+    archive("held", held_);
+    archive("ready", ready_);
+    archive("since_start", since_start_);
+    archive("rows", rows_);
+    archive("handed_on", handed_on_);
+    archive("segments", segments_);
+    archive("lost", lost_);
+  }
+
  private:
   struct Stamp {
     double time;
     std::vector<int> contacts;
     std::vector<double> extra;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive("time", time);
+      archive("contacts", contacts);
+      archive("extra", extra);
+    }
   };
   void drain();
   void differentiate();

@@ -45,7 +45,10 @@ SimulationReport simulate(const Robot& robot, const SimulationOptions& options,
   check(options);
   const Robot loaded = options.load ? with_load(robot, *options.load) : robot;
   TrotController controller(robot, options.trot, options.seed);
-  bool carries = options.load_from <= 0.0;
+  const auto carries_at = [&](double time) {
+    return time >= options.load_from && time < options.load_until;
+  };
+  bool carries = carries_at(0.0);
   const auto world_of = [&](const Robot& r) {
     return std::make_unique<World>(r, options.ground, options.disturbance, options.accuracy);
   };
@@ -62,11 +65,11 @@ SimulationReport simulate(const Robot& robot, const SimulationOptions& options,
   SimulationReport report;
   for (std::size_t step = 0; report.samples < samples; ++step) {
     const RobotState state = world->robot_state();
-    if (!carries && world->now() >= options.load_from) {
+    if (carries != carries_at(world->now())) {
       const double now = world->now();
       const Eigen::VectorXd torque = world->torque();
-      carries = true;
-      world = world_of(loaded);
+      carries = !carries;
+      world = world_of(carries ? loaded : robot);
       world->start(now, state, torque);
     }
     if (step % turns == 0) {

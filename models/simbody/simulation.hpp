@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "shapeid/models/robot.hpp"
@@ -23,6 +24,8 @@ struct SimulationOptions {
   Ground ground;
   std::optional<Load> load;  ///< the controller does not know
   double load_from = 0.0;    ///< s: the load is put on at this moment, moving along already
+  /// s: and taken off at this one.
+  double load_until = std::numeric_limits<double>::infinity();
   Disturbance disturbance;   ///< acts besides all that; its work is not counted
   double accuracy = 1e-5;    ///< of the integrator, relative
 };

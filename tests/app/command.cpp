@@ -34,10 +34,10 @@ std::string scratch_file(const std::string& name, const std::string& text) {
   return path;
 }
 
-CommandRun shapeid(const std::string& arguments) {
+CommandRun shapeid(const std::string& arguments, const std::string& input) {
   const std::string out = scratch() + "/stdout", err = scratch() + "/stderr";
-  const std::string line = fmt::format("cd '{}' && '{}/shapeid' {} >'{}' 2>'{}' </dev/null",
-                                       scratch(), SHAPEID_BUILD_DIR, arguments, out, err);
+  const std::string line = fmt::format("cd '{}' && '{}/shapeid' {} >'{}' 2>'{}' <'{}'", scratch(),
+                                       SHAPEID_BUILD_DIR, arguments, out, err, input);
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
 }

@@ -10,8 +10,10 @@ struct CommandRun {
   std::string out, err;
 };
 
-/// `shapeid ARGUMENTS` through the shell, in a folder of its own for files.
-[[nodiscard]] CommandRun shapeid(const std::string& arguments);
+/// `shapeid ARGUMENTS` through the shell, in a folder of its own for files. `input`: file that is
+/// its standard input.
+[[nodiscard]] CommandRun shapeid(const std::string& arguments,
+                                 const std::string& input = "/dev/null");
 
 /// A folder that is made anew for every test program and that tests may write into.
 [[nodiscard]] const std::string& scratch();

@@ -1,0 +1,50 @@
+#include "shapeid/app/sought.hpp"
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/shapes_yaml.hpp"
+
+namespace shapeid::app {
+namespace {
+
+std::vector<int> links_of(const SoughtLinks& sought, const Robot& robot) {
+  if (sought.whole_body) return moving_links(robot);
+  if (!sought.free_links.empty()) return named_links(sought.free_links, robot);
+  if (robot.root == Root::fixed) {
+    throw InputError("which links are sought is not said",
+                     "give --shapes, --free LINK or --whole-body (a fixed base has no dynamics)");
+  }
+  return {0};
+}
+
+}  // namespace
+
+void SoughtLinks::add_to(CLI::App& verb) {
+  auto* of_shapes = verb.add_option("--shapes", shapes, "shapes.yaml");
+  auto* named = verb.add_option("--free", free_links,
+                                "links to identify, shapes from their collision bodies "
+                                "(default: the floating base)");
+  verb.add_flag("--whole-body", whole_body, "identify every link")
+      ->excludes(of_shapes)
+      ->excludes(named);
+  named->excludes(of_shapes);
+  verb.add_option("--expected-mass", expected_mass,
+                  "kg, of all sought links together (default: as given)")
+      ->check(CLI::PositiveNumber);
+}
+
+BodyModel sought_bodies(const SoughtLinks& sought, const Robot& robot) {
+  return sought.shapes.empty() ? default_shapes(robot, links_of(sought, robot))
+                               : read_shapes_yaml(sought.shapes, robot);
+}
+
+double expected_mass(const SoughtLinks& sought, const RobotInputs& robot, const BodyModel& model) {
+  if (sought.expected_mass > 0.0) return sought.expected_mass;
+  const double mass = shapeid::expected_mass(robot.robot, robot.notes, model.free_links);
+  if (!(mass > 0.0)) {
+    throw InputError("the free links have no mass in the URDF",
+                     "give --expected-mass, or expected_mass in robot.yaml");
+  }
+  return mass;
+}
+
+}  // namespace shapeid::app

@@ -1,0 +1,192 @@
+// shapeid track: follows a log that is being written, and answers window by window.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "shapeid/app/sought.hpp"
+#include "shapeid/app/track_checkpoint.hpp"
+#include "shapeid/app/track_lines.hpp"
+#include "shapeid/app/track_run.hpp"
+#include "shapeid/app/verbs.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/reference/identify.hpp"
+
+namespace shapeid::app {
+namespace {
+
+struct Options {
+  MotionInputs inputs;
+  SoughtLinks sought;
+  TrackSettings settings;
+  FollowOptions follow;
+  double cutoff = 20.0;
+  std::string checkpoint;
+  std::size_t checkpoint_every = 50;
+  bool resume = false;
+};
+
+TrackSettings settings_for(const Options& options, const RobotInputs& robot,
+                           const BodyModel& model) {
+  TrackSettings settings = options.settings;
+  EstimateSettings& estimates = settings.estimates;
+  fast::IdentifierSettings& identifier = estimates.identifier;
+  identifier.contacts = contact_treatment(options.inputs, robot.robot);
+  identifier.weight = weight(robot);
+  identifier.stride = identifier.window;
+  identifier.expected_mass = expected_mass(options.sought, robot, model);
+  identifier.warm = false;  // an answer must not depend on where a run was resumed
+  estimates.natural_size = reference::natural_sizes(model, identifier.expected_mass);
+  estimates.cutoff = settings.stream.cutoff = options.cutoff;
+  settings.stream.rate = options.inputs.rate;
+  if (identifier.contacts == ContactTreatment::project) {
+    settings.stream.derive_contacts = contact_rule(options.inputs, robot.robot);
+  }
+  return settings;
+}
+
+/// Standard output before the checkpoint: it never says that a line is out which is not.
+void flush() {
+  if (std::fflush(stdout) != 0) {
+    throw InputError("standard output cannot be written", "give it to a program or disk with room");
+  }
+}
+
+/// Where the lines of a run begin: at the beginning, or behind the last line of a checkpoint.
+class Source {
+ public:
+  Source(const Options& options, const std::optional<Checkpoint>& checkpoint)
+      : lines_(options.inputs.log, options.follow) {
+    next_ = lines_.next();
+    if (checkpoint) {
+      go_on(checkpoint->position);
+    } else if (next_) {
+      position_ = {next_->text, next_->next_byte, next_->number};
+      next_ = lines_.next();
+    } else {
+      throw InputError({options.inputs.log}, "is empty", "begin with a row of column names");
+    }
+  }
+
+  /// The next line that is not blank, with its number in the log; empty when no more will come.
+  std::optional<Line> next() {
+    while (next_) {
+      Line line = *std::exchange(next_, std::nullopt);
+      position_.line = line.number += first_line_;
+      position_.next_byte = first_byte_ + line.next_byte;
+      if (!line.text.empty()) return line;
+      next_ = lines_.next();
+    }
+    next_ = lines_.next();
+    return next_ ? next() : std::nullopt;
+  }
+  [[nodiscard]] const LogPosition& position() const { return position_; }
+  [[nodiscard]] std::size_t unfinished() const { return lines_.unfinished(); }
+
+ private:
+  /// A file goes on behind the last line used. A stream may begin anew, with the header, and is
+  /// then passed over up to there; or it simply goes on.
+  void go_on(const LogPosition& stopped) {
+    position_ = stopped;
+    if (!lines_.is_stream()) {
+      if (!next_ || next_->text != stopped.header) {
+        throw InputError("the log's header is not the one that the checkpoint read",
+                         "resume with the same log");
+      }
+      lines_.skip_to(stopped.next_byte, stopped.line);
+      next_ = lines_.next();
+    } else if (next_ && next_->text == stopped.header) {
+      while (next_ && next_->number <= stopped.line) next_ = lines_.next();
+    } else {
+      first_line_ = stopped.line;
+      first_byte_ = stopped.next_byte;
+    }
+  }
+
+  LineFollower lines_;
+  std::optional<Line> next_;
+  LogPosition position_;
+  int first_line_ = 0;  ///< lines of the log before the stream begins
+  std::uint64_t first_byte_ = 0;
+};
+
+void track(Options& options) {
+  std::optional<Checkpoint> checkpoint;
+  if (options.resume && std::filesystem::exists(options.checkpoint)) {
+    checkpoint = read_checkpoint(options.checkpoint);
+  }
+  Source source(options, checkpoint);
+  LogTable table(options.inputs.log, source.position().header, 1);
+  const RobotInputs robot = read_robot(options.inputs, table);
+  const BodyModel model = sought_bodies(options.sought, robot.robot);
+  const TrackSettings settings = settings_for(options, robot, model);
+  const std::string setup = setup_digest(robot, model, settings);
+  TrackRun run(table, robot, model, settings);
+  if (checkpoint) restore(*checkpoint, run, setup);
+
+  std::size_t saved = run.lines();
+  while (const std::optional<Line> line = source.next()) {
+    for (const nlohmann::json& answer : run.push(table.row(line->text, line->number))) {
+      fmt::print("{}\n", answer.dump());
+    }
+    flush();
+    if (!options.checkpoint.empty() && run.lines() >= saved + options.checkpoint_every) {
+      write_checkpoint(options.checkpoint, run, source.position(), setup);
+      saved = run.lines();
+    }
+  }
+  if (!options.checkpoint.empty()) {
+    write_checkpoint(options.checkpoint, run, source.position(), setup);
+  }
+  if (source.unfinished() > 0) {
+    fmt::print(stderr, "{}: the last {} bytes are no whole line, and were left\n",
+               options.inputs.log, source.unfinished());
+  }
+}
+
+}  // namespace
+
+void add_track(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* verb =
+      app.add_subcommand("track", "a JSON line per window of a log that is being written");
+  options->inputs.add_robot_to(*verb);
+  verb->add_option("log", options->inputs.log, "log, CSV; - reads standard input")->required();
+  options->sought.add_to(*verb);
+  verb->add_option("--cutoff", options->cutoff, "Hz, of the causal filter over every channel")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--rate", options->inputs.rate, "Hz, of the regular grid (default: the log's)");
+  fast::IdentifierSettings& identifier = options->settings.estimates.identifier;
+  verb->add_option("--window", identifier.window, "samples a window")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--alpha", identifier.alpha, "filter (17)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  verb->add_option("--recent", options->settings.estimates.recent, "s, of the longer window")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--wander", options->settings.estimates.wander,
+                   "share of its size by which a parameter may wander in a second")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb->add_flag("--follow", options->follow.follow, "at the end of the file wait for more");
+  verb->add_option("--patience", options->follow.patience,
+                   "s without a new byte after which following ends; 0 never")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  auto* checkpoint = verb->add_option("--checkpoint", options->checkpoint,
+                                      "file that always holds a state to go on from");
+  verb->add_option("--checkpoint-every", options->checkpoint_every, "lines between checkpoints")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->needs(checkpoint);
+  verb->add_flag("--resume", options->resume, "go on from the checkpoint, if there is one")
+      ->needs(checkpoint);
+  verb->callback([options] { track(*options); });
+}
+
+}  // namespace shapeid::app

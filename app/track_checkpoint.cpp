@@ -1,0 +1,125 @@
+#include "shapeid/app/track_checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "shapeid/app/track_archive.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/file_output.hpp"
+#include "shapeid/models/strict_json.hpp"
+#include "shapeid/models/version.hpp"
+
+namespace shapeid::app {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* format = "shapeid-checkpoint-1";
+
+json rows_of(const Eigen::MatrixXd& M) { return matrix_json(M); }
+
+/// The tree as far as the equations know it.
+json robot_json(const Robot& robot) {
+  json links = json::array();
+  for (const Link& link : robot.links) {
+    links.push_back({{"name", link.name},
+                     {"parent", link.parent},
+                     {"joint", link.joint.name},
+                     {"kind", static_cast<int>(link.joint.kind)},
+                     {"axis", vector_json(link.joint.axis)},
+                     {"placement", rows_of(link.joint.placement.matrix())}});
+  }
+  json contacts = json::array();
+  for (const Contact& contact : robot.contacts) {
+    contacts.push_back({contact.name, contact.link, static_cast<int>(contact.kind),
+                        rows_of(contact.frame.matrix())});
+  }
+  return {{"floats", robot.root == Root::floating}, {"links", links}, {"contacts", contacts}};
+}
+
+InputError not_whole(const std::string& path, const json::exception& e) {
+  return {Place{path}, fmt::format("is no whole checkpoint ({})", e.what()),
+          "give a checkpoint that --checkpoint wrote"};
+}
+
+}  // namespace
+
+std::string setup_digest(const RobotInputs& robot, const BodyModel& model,
+                         const TrackSettings& settings) {
+  const EstimateSettings& e = settings.estimates;
+  const fast::IdentifierSettings& i = e.identifier;
+  json mapping = json::array();
+  if (robot.mapping) {
+    for (const auto& [ours, rule] : robot.mapping->columns) {
+      mapping.push_back({ours, rule.from, rule.scale, rule.offset, rule.sign, rule.hold});
+    }
+    mapping.push_back(robot.mapping->keep_rows);
+    mapping.push_back(robot.mapping->torque_factor);
+  }
+  const json setup = {
+      {"robot", robot_json(robot.robot)},
+      {"imu", rows_of(robot.notes.imu.matrix())},
+      {"mapping", mapping},
+      {"known", vector_json(model.known)},
+      {"free", model.free_links},
+      {"U", rows_of(shape_columns(model))},
+      {"V", vector_json(shape_volumes(model))},
+      {"weight", vector_json(i.weight)},
+      {"natural_size", vector_json(e.natural_size)},
+      {"options",
+       {static_cast<int>(i.contacts), i.window, i.stride, i.alpha, i.expected_mass,
+        i.lambda.value_or(-1.0), e.cutoff, e.recent, e.wander, settings.stream.cutoff,
+        settings.stream.rate, settings.stream.derive_contacts != nullptr}}};
+  return digest(setup.dump());
+}
+
+void write_checkpoint(const std::string& path, TrackRun& run, const LogPosition& position,
+                      const std::string& setup) {
+  const json document = {
+      {"format", format},
+      {"software", fmt::format("shapeid {}", version)},
+      {"setup", setup},
+      {"lines", run.lines()},
+      {"log",
+       {{"header", position.header}, {"next_byte", position.next_byte}, {"line", position.line}}},
+      {"state", StateWriter::encode(run)}};
+  write_file(path, document.dump() + "\n");
+}
+
+Checkpoint read_checkpoint(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) {
+    throw InputError({path}, "cannot be opened", "give a checkpoint that --checkpoint wrote");
+  }
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  try {
+    Checkpoint checkpoint{path, json::parse(text), {}};
+    if (checkpoint.document.at("format") != format) {
+      throw InputError({path}, fmt::format("is not of format {}", format),
+                       "give a checkpoint that this version wrote");
+    }
+    const json& log = checkpoint.document.at("log");
+    checkpoint.position = {log.at("header").get<std::string>(),
+                           log.at("next_byte").get<std::uint64_t>(), log.at("line").get<int>()};
+    return checkpoint;
+  } catch (const json::exception& e) {
+    throw not_whole(path, e);
+  }
+}
+
+void restore(const Checkpoint& checkpoint, TrackRun& run, const std::string& setup) {
+  try {
+    if (checkpoint.document.at("setup") != setup) {
+      throw InputError({checkpoint.path},
+                       "was written with another robot, other shapes or other options",
+                       "resume with the same, or start without --resume");
+    }
+    StateReader::decode(checkpoint.document.at("state"), run);
+  } catch (const json::exception& e) {
+    throw not_whole(checkpoint.path, e);
+  }
+}
+
+}  // namespace shapeid::app

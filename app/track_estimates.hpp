@@ -1,0 +1,120 @@
+// What a stream of samples says about the free links: by the last window, by the last tenths of a
+// second, by all that came before; and whether a load was put on or taken off.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+
+#include "shapeid/fast/identifier.hpp"
+#include "shapeid/fast/mass_solver.hpp"
+#include "shapeid/fast/parameter_tracker.hpp"
+#include "shapeid/fast/sliding_triangle.hpp"
+#include "shapeid/models/body_model.hpp"
+#include "shapeid/models/robot.hpp"
+#include "shapeid/models/sample.hpp"
+
+namespace shapeid::app {
+
+struct EstimateSettings {
+  fast::IdentifierSettings identifier;
+  Eigen::VectorXd natural_size;  ///< of the free links' parameters, reference::natural_sizes()
+  double cutoff = 20.0;          ///< Hz, of the filter that the samples went through
+  double recent = 0.3;           ///< s, of the longer window
+  /// Share of its natural size by which a parameter may wander in a second.
+  double wander = 0.02;
+};
+
+/// The total mass of the free links changed.
+struct LoadChange {
+  double since = 0.0;           ///< s
+  double mass = 0.0;            ///< kg, negative when taken off
+  double standard_error = 0.0;  ///< kg
+  bool settled = false;         ///< only rows after the change are in it
+  bool holds = false;           ///< large enough, still
+};
+
+class Estimates {
+ public:
+  Estimates(const Robot& robot, const BodyModel& model, const EstimateSettings& settings,
+            double rate);
+
+  fast::Identifier::Fed feed(const Sample& sample);
+  /// The next sample does not follow the last one.
+  void forget_samples();
+  /// So much time went by without a sample that says anything, s.
+  void pass(double seconds) { tracker_.drift(seconds); }
+
+  [[nodiscard]] const fast::Identifier& identifier() const { return identifier_; }
+  /// By the last tenths of a second, within the cone of the shapes; 10 a free link.
+  [[nodiscard]] const Eigen::VectorXd& recent() const { return recent_; }
+  /// By the Kalman filter, within the cone of the shapes; 10 a free link.
+  [[nodiscard]] const Eigen::VectorXd& tracked() const { return tracked_; }
+  /// Of the tracked total mass, kg.
+  [[nodiscard]] double mass_error() const;
+  /// Found at the last window that was answered.
+  [[nodiscard]] const std::optional<LoadChange>& load_change() const { return change_; }
+
+  /// All that is remembered, for a checkpoint.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("identifier", identifier_);
+    archive("sliding", sliding_);
+    archive("tracker", tracker_);
+    archive("recent", recent_);
+    archive("tracked", tracked_);
+    archive("noise", noise_);
+    archive("windows", windows_);
+    archive("rows", rows_);
+    archive("masses", masses_);
+    archive("disagreeing", disagreeing_);
+    archive("found", found_);
+    archive("settles_in", settles_in_);
+  }
+
+ private:
+  void take_window(double time);
+  void learn_noise();
+  [[nodiscard]] bool solve(const Eigen::MatrixXd& R, Eigen::VectorXd& Phi);
+  [[nodiscard]] double recent_variance() const;
+  void watch_load(double time);
+
+  /// A change that has not settled.
+  struct Found {
+    double before = 0.0;  ///< kg, tracked mass
+    double change = 0.0;  ///< kg, as first seen
+    double time = 0.0;    ///< s
+    template <class Archive>
+    void state(Archive& archive) {
+      archive("before", before);
+      archive("change", change);
+      archive("time", time);
+    }
+  };
+
+  const Robot& robot_;
+  EstimateSettings settings_;
+  double window_seconds_;
+  double correlation_;  ///< samples that say as much as one
+  std::size_t windows_in_recent_;
+  fast::Identifier identifier_;
+  fast::SlidingTriangle sliding_;
+  fast::ParameterTracker tracker_;
+  fast::MassSolver solver_;
+  Eigen::VectorXd recent_, tracked_;
+  double noise_ = 0.0;           ///< variance of a row, running mean
+  std::size_t windows_ = 0;      ///< that noise_ is made of
+  double rows_ = 0.0;            ///< free of contact forces, since the window began
+  std::deque<double> masses_;    ///< kg, tracked, of as many windows as the longer one has
+  std::size_t disagreeing_ = 0;  ///< windows in a row
+  std::optional<Found> found_;
+  std::size_t settles_in_ = 0;  ///< windows
+  std::optional<LoadChange> change_;
+};
+
+/// kg, of all links: 10 parameters each.
+[[nodiscard]] double total_mass(const Eigen::VectorXd& Phi);
+
+}  // namespace shapeid::app

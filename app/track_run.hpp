@@ -1,0 +1,93 @@
+// Rows of a log in, JSON lines out: what `shapeid track` does between reading and printing.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shapeid/app/inputs.hpp"
+#include "shapeid/app/track_estimates.hpp"
+#include "shapeid/app/track_events.hpp"
+#include "shapeid/app/track_slip.hpp"
+#include "shapeid/models/row_guard.hpp"
+#include "shapeid/models/sample_stream.hpp"
+
+namespace shapeid::app {
+
+struct TrackSettings {
+  EstimateSettings estimates;
+  StreamOptions stream;
+};
+
+/// A robot that is followed. `log`, `robot` and `model` must outlive it.
+class TrackRun {
+ public:
+  TrackRun(const LogTable& log, const RobotInputs& robot, const BodyModel& model,
+           TrackSettings settings);
+
+  /// Takes the next row and returns the lines that became due (docs/formats/track.md). Throws
+  /// InputError for rows that cannot be read at all.
+  [[nodiscard]] std::vector<nlohmann::json> push(const LogRow& row);
+
+  [[nodiscard]] std::size_t lines() const { return lines_; }
+  [[nodiscard]] const TrackSettings& settings() const { return settings_; }
+
+  /// All that is remembered, for a checkpoint.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("meaning", meaning_);
+    archive("guard", guard_);
+    archive("stream", stream_);
+    if (stream_.rate() > 0.0) {
+      if (!estimates_) prepare();
+      archive("estimates", *estimates_);
+      archive("slip", *slip_);
+    }
+    archive("events", events_);
+    archive("row_time", row_time_);
+    archive("row_step", row_step_);
+    archive("line_time", line_time_);
+    archive("sample_time", sample_time_);
+    archive("calm", calm_);
+    archive("held_back", held_back_);
+    archive("lines", lines_);
+  }
+
+ private:
+  enum class Why { answered, still, no_samples, declined };
+
+  void prepare();
+  void watch_clock(MeasuredRow row);
+  void take(GuardedRow row);
+  void take(const Sample& sample);
+  [[nodiscard]] bool stands_still(const Sample& sample);
+  void print(Why why, double time);
+  [[nodiscard]] nlohmann::json links_json() const;
+  [[nodiscard]] nlohmann::json mass_json() const;
+  [[nodiscard]] nlohmann::json rows_json() const;
+  [[nodiscard]] nlohmann::json samples_json() const;
+  [[nodiscard]] nlohmann::json contacts_json() const;
+  [[nodiscard]] std::string scale() const;
+
+  const RobotInputs& robot_;
+  const BodyModel& model_;
+  TrackSettings settings_;
+  RowMeaning meaning_;
+  RowGuard guard_;
+  SampleStream stream_;
+  std::optional<Estimates> estimates_;  ///< once the rate is known
+  std::optional<SlipWatch> slip_;
+  TrackEvents events_;
+  std::optional<double> row_time_;     ///< s, of the last row
+  std::optional<double> row_step_;     ///< s, between the last two
+  std::optional<double> line_time_;    ///< s, of the last line, by the clock of the rows
+  std::optional<double> sample_time_;  ///< s, of the last sample
+  std::size_t calm_ = 0;               ///< samples in a row in which nothing moves
+  std::size_t held_back_ = 0;          ///< still samples since the last line
+  std::size_t lines_ = 0;
+  std::vector<nlohmann::json> due_;
+};
+
+}  // namespace shapeid::app

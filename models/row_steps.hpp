@@ -1,0 +1,21 @@
+// How far apart in time a log's rows, and the measurements of its channels, usually are.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <deque>
+#include <string>
+
+#include "shapeid/models/channels.hpp"
+
+namespace shapeid {
+
+/// Median time between the rows, s; 0 for a single one.
+[[nodiscard]] double median_row_step(const std::deque<MeasuredRow>& head);
+
+/// Median time between the measurements of every channel, s. Throws InputError, which names `path`,
+/// for a channel with less than two.
+[[nodiscard]] Eigen::VectorXd median_steps(const std::deque<MeasuredRow>& head,
+                                           const ChannelPlan& plan, const std::string& path);
+
+}  // namespace shapeid

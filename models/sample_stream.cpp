@@ -1,0 +1,82 @@
+#include "shapeid/models/sample_stream.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/plausibility.hpp"
+#include "shapeid/models/row_steps.hpp"
+
+namespace shapeid {
+namespace {
+
+constexpr int order = 2;                // of the filter
+constexpr double gap = 5.0;             // steps, as in MotionOptions
+constexpr double margin_periods = 0.5;  // of the cutoff, as in MotionOptions::contact_margin
+
+}  // namespace
+
+SampleStream::SampleStream(std::string path, const ChannelPlan& plan, const Robot& robot,
+                           const Eigen::Isometry3d& imu, StreamOptions options)
+    : path_(std::move(path)),
+      plan_(plan),
+      robot_(robot),
+      imu_(imu),
+      options_(std::move(options)),
+      margin_(ContactChange::widen, margin_periods / options_.cutoff) {
+  if (!robot.contacts.empty() && plan.contacts.empty() && !options_.derive_contacts) {
+    throw InputError({path_}, "has no contact.* columns, but the robot has contacts",
+                     "log a flag for each (0 in the air), or have them derived");
+  }
+}
+
+void SampleStream::push(const MeasuredRow& row) {
+  if (grid_) return take(row);
+  head_.push_back(row);
+  if (head_.size() < head_rows) return;
+  learn_rate();
+  prepare();
+  for (const MeasuredRow& early : std::exchange(head_, {})) take(early);
+}
+
+void SampleStream::learn_rate() {
+  const double step = median_row_step(head_);
+  check_clock(path_, plan_.time.from, step);
+  rate_ = options_.rate > 0.0 ? options_.rate : 1.0 / step;
+  longest_step_ = gap * median_steps(head_, plan_, path_).cwiseMax(step);
+}
+
+void SampleStream::prepare() {
+  grid_.emplace(rate_, longest_step_);
+  segments_.emplace(plan_, robot_, imu_, Butterworth(order, options_.cutoff, rate_),
+                    SegmentSamples::Options{Smoothing::causal, rate_, false});
+}
+
+void SampleStream::restart() {
+  if (!grid_) {
+    head_.clear();  // rows of two clocks tell no rate
+    return;
+  }
+  grid_.emplace(rate_, longest_step_);
+}
+
+void SampleStream::take(const MeasuredRow& row) {
+  grid_->push(row);
+  while (const std::optional<GridRow> point = grid_->next()) segments_->push(*point);
+  while (std::optional<FlaggedSample> sample = segments_->next()) {
+    if (plan_.contacts.empty() && !robot_.contacts.empty()) {
+      const std::optional<std::vector<bool>> derived = options_.derive_contacts(sample->sample);
+      sample->contacts.assign(robot_.contacts.size(), -1);
+      if (derived) sample->contacts.assign(derived->begin(), derived->end());
+    }
+    margin_.push(std::move(*sample));
+  }
+}
+
+std::optional<Sample> SampleStream::next() { return margin_.next(); }
+
+double SampleStream::group_delay() const {
+  return Butterworth(order, options_.cutoff, rate_).group_delay(0.0);
+}
+
+}  // namespace shapeid

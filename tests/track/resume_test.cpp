@@ -1,0 +1,194 @@
+// A run that was cut anywhere and went on says, to the last byte, what one that was not cut says.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/track/logs.hpp"
+
+namespace shapeid::test {
+namespace {
+
+std::string track(const std::string& options) {
+  return fmt::format("track {} {}", bundled_robot(), options);
+}
+
+/// What a run says that is not cut.
+const std::string& whole() {
+  static const std::string text = [] {
+    scratch_file("whole.csv", joined(trot_log()));
+    const CommandRun run = shapeid(track("whole.csv"));
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out;
+  }();
+  return text;
+}
+
+/// The log is cut after so many bytes: first a run over that much, then one that goes on.
+void expect_same_when_cut_at(std::size_t bytes) {
+  const std::string log = joined(trot_log());
+  scratch_file("cut.csv", log.substr(0, bytes));
+  std::filesystem::remove(scratch() + "/state.json");
+  const std::string options = track("--checkpoint state.json --resume cut.csv");
+  const CommandRun first = shapeid(options);
+  ASSERT_EQ(first.status, 0) << first.err;
+  scratch_file("cut.csv", log);
+  const CommandRun second = shapeid(options);
+  ASSERT_EQ(second.status, 0) << second.err;
+  EXPECT_EQ(first.out + second.out, whole()) << "cut after " << bytes << " bytes";
+}
+
+TEST(TrackResume, CutAtEveryKindOfPlace) {
+  const Lines& log = trot_log();
+  const std::size_t header = log.front().size();
+  const std::size_t row = log[1].size() + 1;
+  std::size_t middle = 0;
+  for (std::size_t i = 0; i < 1000; ++i) middle += log[i].size() + 1;
+  // Behind the header; while the rate is learned; while the filters settle; at a row's end, inside
+  // a row, one byte before and behind a line's end; near the end.
+  for (const std::size_t bytes :
+       {header + 1, header + 1 + 100 * row, header + 1 + 280 * row, middle, middle + row / 2,
+        middle - 1, middle + 1, joined(log).size() - 1, joined(log).size()}) {
+    expect_same_when_cut_at(bytes);
+  }
+}
+
+/// Starts `shapeid` without waiting; output is appended to a file.
+pid_t start(const std::string& arguments, const std::string& out) {
+  const std::string line = fmt::format("cd '{}' && exec '{}/shapeid' {} >>'{}' 2>/dev/null",
+                                       scratch(), SHAPEID_BUILD_DIR, arguments, out);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    ::_exit(127);
+  }
+  return child;
+}
+
+/// Lines of several runs, each from its first to its last: a line that comes again must be the
+/// same, and replaces what came after it.
+std::string merged(const std::string& text, std::size_t& repeated) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (!nlohmann::json::accept(line)) continue;  // cut by kill -9
+    const auto number = nlohmann::json::parse(line).at("line").get<std::size_t>();
+    if (number < lines.size()) {
+      EXPECT_EQ(lines[number], line);
+      ++repeated;
+      continue;
+    }
+    EXPECT_EQ(number, lines.size()) << "a line is lost";
+    lines.push_back(line);
+  }
+  return fmt::format("{}\n", fmt::join(lines, "\n"));
+}
+
+// Kill -9 does not ask: the checkpoint that is there is whole, and what was said since is said
+// again.
+TEST(TrackResume, KilledAtAnyMomentNothingIsLost) {
+  const std::string log = joined(trot_log());
+  scratch_file("grows.csv", "");
+  const std::string out = scratch() + "/killed.jsonl";
+  std::filesystem::remove(out);
+  std::filesystem::remove(scratch() + "/state.json");
+  const std::string options =
+      track("--checkpoint state.json --checkpoint-every 3 --resume grows.csv");
+  constexpr std::size_t pieces = 7;  // a prime, so that cuts fall anywhere in lines
+  std::ofstream grows(scratch() + "/grows.csv", std::ios::binary);
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    const std::size_t from = piece * log.size() / pieces, to = (piece + 1) * log.size() / pieces;
+    grows << log.substr(from, to - from) << std::flush;
+    if (piece == 0) continue;  // a header is needed
+    const pid_t child = start(options + " --follow", out);
+    std::this_thread::sleep_for(std::chrono::milliseconds(150 + 90 * piece));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFSIGNALED(status));
+  }
+  const CommandRun last = shapeid(options);
+  ASSERT_EQ(last.status, 0) << last.err;
+  std::size_t repeated = 0;
+  EXPECT_EQ(merged(read_file(out) + last.out, repeated), whole());
+  fmt::print("killed {} times; {} lines were said again\n", pieces - 1, repeated);
+}
+
+// From a pipe: the writer stops in the middle of a line and goes on later.
+TEST(TrackResume, AWriterMayStopInTheMiddleOfALine) {
+  scratch_file("whole.csv", joined(trot_log()));
+  const std::string line = fmt::format(
+      "cd '{0}' && (head -c 100000 whole.csv; sleep 0.3; tail -c +100001 whole.csv) | "
+      "'{1}/shapeid' {2} >piped.jsonl",
+      scratch(), SHAPEID_BUILD_DIR, track("-"));
+  ASSERT_EQ(std::system(line.c_str()), 0);
+  EXPECT_EQ(read_file(scratch() + "/piped.jsonl"), whole());
+}
+
+// A stream that is resumed may begin with its header again, or simply go on.
+TEST(TrackResume, StreamsGoOnEitherWay) {
+  const Lines& log = trot_log();
+  const Lines head(log.begin(), log.begin() + 900), tail(log.begin() + 900, log.end());
+  scratch_file("head.csv", joined(head));
+  scratch_file("tail.csv", joined(tail));
+  scratch_file("whole.csv", joined(log));
+  const std::string options = track("--checkpoint state.json --resume -");
+  for (const char* rest : {"tail.csv", "whole.csv"}) {
+    std::filesystem::remove(scratch() + "/state.json");
+    const CommandRun first = shapeid(options, "head.csv");
+    ASSERT_EQ(first.status, 0) << first.err;
+    const CommandRun second = shapeid(options, rest);
+    ASSERT_EQ(second.status, 0) << second.err;
+    EXPECT_EQ(first.out + second.out, whole()) << rest;
+  }
+}
+
+TEST(TrackResume, RefusesWhatDoesNotBelongTogether) {
+  scratch_file("whole.csv", joined(trot_log()));
+  std::filesystem::remove(scratch() + "/state.json");
+  ASSERT_EQ(shapeid(track("--checkpoint state.json whole.csv")).status, 0);
+  const auto expect_refused = [](const std::string& options, const std::string& says) {
+    const CommandRun run = shapeid(track(options));
+    EXPECT_EQ(run.status, 2) << options;
+    EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  };
+  expect_refused("--checkpoint state.json --resume --alpha 0.4 whole.csv", "other options");
+  scratch_file("short.csv", joined({trot_log()[0], trot_log()[1]}));
+  expect_refused("--checkpoint state.json --resume short.csv", "bytes");
+  scratch_file("broken.json", read_file(scratch() + "/state.json").substr(0, 5000));
+  expect_refused("--checkpoint broken.json --resume whole.csv", "no whole checkpoint");
+  scratch_file("other.json", "{\"format\": \"shapeid-checkpoint-0\"}");
+  expect_refused("--checkpoint other.json --resume whole.csv", "format");
+}
+
+TEST(TrackInput, IsRefusedInOneLine) {
+  const auto expect_refused = [](const std::string& log, const std::string& says) {
+    scratch_file("bad.csv", log);
+    const CommandRun run = shapeid(track("bad.csv"));
+    EXPECT_EQ(run.status, 2) << says;
+    EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  };
+  const Lines& log = trot_log();
+  expect_refused("", "is empty");
+  expect_refused("\x1f\x8b compressed", "compressed");
+  expect_refused("time\n0\n", "has no column");
+  expect_refused(log[0] + "\n" + log[1] + ",1\n", "fields where the header has");
+  expect_refused(log[0] + "\n" + std::string(2 << 20, '1'), "longer than");
+  EXPECT_EQ(shapeid(track("--resume whole.csv")).status, 2) << "--resume needs --checkpoint";
+  EXPECT_EQ(shapeid(track("nowhere.csv")).status, 2);
+}
+
+}  // namespace
+}  // namespace shapeid::test
