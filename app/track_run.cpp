@@ -48,7 +48,7 @@ TrackRun::TrackRun(const LogTable& log, const RobotInputs& robot, const BodyMode
       model_(model),
       settings_(std::move(settings)),
       meaning_(log, robot.robot, robot.mapping),
-      guard_(meaning_.plan()),
+      guard_(meaning_.plan(), static_cast<std::size_t>(robot.robot.joint_count())),
       stream_(log.path(), meaning_.plan(), robot.robot, robot.notes.imu, settings_.stream),
       events_(meaning_.plan().channels.size(), robot.robot.contacts.size()) {}
 

@@ -72,7 +72,6 @@ Identifier::Identifier(const Robot& robot, const BodyModel& model,
       Phi_(Eigen::VectorXd::Zero(10 * static_cast<Eigen::Index>(model.free_links.size()))),
       filtered_(Phi_) {
   if (block_ < window_) sliding_.emplace(Phi_.size(), window_ / block_);
-  if (lambda_) division_.set_lambda(*lambda_);
 }
 
 Identifier::Fed Identifier::feed(const Sample& sample) noexcept {
@@ -124,8 +123,8 @@ bool Identifier::solve(const Eigen::MatrixXd& R) noexcept {
     // default_lambda(), from the triangle: || b ||^2 is the sum of squares of its last column.
     lambda_ =
         1e-12 * R.col(R.cols() - 1).squaredNorm() * volume_ / (expected_mass_ * expected_mass_);
-    division_.set_lambda(*lambda_);
   }
+  division_.set_lambda(*lambda_);
   if (!warm_) division_.forget_masses();
   outcome_ = division_.start(R);
   if (outcome_ != Outcome::solved) return false;

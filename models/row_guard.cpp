@@ -28,15 +28,11 @@ struct Kind {
   std::size_t size;
 };
 
-std::vector<Kind> kinds(const ChannelPlan& plan) {
+std::vector<Kind> kinds(const ChannelPlan& plan, std::size_t joints) {
   std::vector<int> firsts;
-  for (const int first : {plan.gyro, plan.accel, plan.q, plan.dq, plan.tau}) {
+  for (const int first : {plan.gyro, plan.accel, plan.q, plan.tau}) {
     if (first >= 0) firsts.push_back(first);
   }
-  const std::size_t joints =
-      plan.tau >= 0 && plan.q >= 0
-          ? static_cast<std::size_t>((plan.dq >= 0 ? plan.dq : plan.tau) - plan.q)
-          : 0;
   std::vector<Kind> result;
   for (const int first : firsts) {
     const bool imu = first == plan.gyro || first == plan.accel;
@@ -47,8 +43,8 @@ std::vector<Kind> kinds(const ChannelPlan& plan) {
 
 }  // namespace
 
-RowGuard::RowGuard(const ChannelPlan& plan) : kind_(plan.channels.size(), -1) {
-  const std::vector<Kind> all = kinds(plan);
+RowGuard::RowGuard(const ChannelPlan& plan, std::size_t joints) : kind_(plan.channels.size(), -1) {
+  const std::vector<Kind> all = kinds(plan, joints);
   for (std::size_t k = 0; k < all.size(); ++k) {
     for (std::size_t i = 0; i < all[k].size; ++i) {
       const std::size_t channel = static_cast<std::size_t>(all[k].first) + i;

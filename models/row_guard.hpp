@@ -43,18 +43,20 @@ struct GuardedRow {
 ///    furthest of ordinary rows lately, and than 30 percent of the largest magnitude so far.
 ///  * A channel that repeats its value to the last bit over `reach` rows, and four times as long as
 ///    it ever did in the first `learning` rows, while most others of its kind (gyro, accelerometer,
-///    positions, velocities, torques) change: its sensor is stuck, or saturated. All rows of the
+///    positions, torques) change: its sensor is stuck, or saturated. All rows of the
 ///    run that are still held are taken out.
 ///
-/// Zero is never stuck: it is what a free joint has, and a drive that is off.
+/// Logged velocities are not judged: the stream does not use them. Zero is never stuck: it is what
+/// a free joint has, and a drive that is off.
 class RowGuard {
  public:
   static constexpr std::size_t half = 3;        ///< rows on either side of an outlier
   static constexpr std::size_t reach = 12;      ///< rows held back: 24 ms at 500 Hz
   static constexpr double far = 4.0;            ///< impacts of feet differ less among each other
-  static constexpr std::size_t learning = 250;  ///< rows before anything is judged
+  static constexpr std::size_t learning = 500;  ///< rows before anything is judged
 
-  explicit RowGuard(const ChannelPlan& plan);
+  /// Of the log of a robot with so many joints.
+  RowGuard(const ChannelPlan& plan, std::size_t joints);
 
   void push(MeasuredRow row);
   /// No row follows the last one directly: hand on what is held.
