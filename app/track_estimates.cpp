@@ -22,7 +22,7 @@ constexpr double noise_memory = 2.0;
 constexpr double certain = 5.0;
 constexpr std::size_t certain_windows = 3;
 // Of the expected mass: smaller loads are left to the Kalman filter. Errors of the model make the
-// mass of a third of a second wander by about half of this (docs/tracking.md).
+// mass of a third of a second wander by a tenth of this (docs/tracking.md).
 constexpr double least_load = 0.08;
 
 std::size_t windows_in(double seconds, double window) {

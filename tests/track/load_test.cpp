@@ -13,8 +13,8 @@ using nlohmann::json;
 
 // s, from the moment to the line that says so.
 constexpr double soon = 0.5;
-// Of the mass. docs/tracking.md: errors of the model within one stride, not noise, decide.
-constexpr double share = 0.2;
+// Of the mass. What a third of a second tells is within two percent (docs/tracking.md).
+constexpr double share = 0.05;
 
 TEST(TrackLoad, PutOnAndTakenOffIsFoundWithinHalfASecond) {
   constexpr double mass = 1.5, on = 2.5, off = 4.5;
