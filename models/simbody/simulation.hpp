@@ -26,8 +26,8 @@ struct SimulationOptions {
   double load_from = 0.0;    ///< s: the load is put on at this moment, moving along already
   /// s: and taken off at this one.
   double load_until = std::numeric_limits<double>::infinity();
-  Disturbance disturbance;   ///< acts besides all that; its work is not counted
-  double accuracy = 1e-5;    ///< of the integrator, relative
+  Disturbance disturbance;  ///< acts besides all that; its work is not counted
+  double accuracy = 1e-5;   ///< of the integrator, relative
 };
 
 /// One instant of the simulated truth. All of it belongs to the same instant, so the equation of
