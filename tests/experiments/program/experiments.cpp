@@ -72,7 +72,7 @@ std::string write_page(const Findings& findings, const std::map<std::string, std
       std::cerr << "left out: " << part << " (no numbers " << needed << "*)\n";
       continue;
     }
-    const Page page = fill(read(templates + part + ".md"), findings, texts, pictures);
+    const Page page = fill(read(templates + part + ".md.in"), findings, texts, pictures);
     text += (text.empty() ? "" : "\n") + page.text;
     broken.insert(broken.end(), page.broken.begin(), page.broken.end());
   }
