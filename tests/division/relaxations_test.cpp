@@ -7,10 +7,10 @@
 
 #include "shapeid/reference/division.hpp"
 #include "shapeid/tests/support/any_model.hpp"
-#include "shapeid/tests/support/relaxations.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/load_problem.hpp"
 #include "shapeid/tests/support/qp_generators.hpp"
+#include "shapeid/tests/support/relaxations.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid::reference {
