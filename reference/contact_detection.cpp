@@ -6,21 +6,6 @@
 #include "shapeid/reference/regressor.hpp"
 
 namespace shapeid::reference {
-namespace {
-
-Eigen::Index component_count(ContactKind kind) {
-  switch (kind) {
-    case ContactKind::point:
-      return 3;
-    case ContactKind::line:
-      return 5;
-    case ContactKind::plane:
-      return 6;
-  }
-  return 0;
-}
-
-}  // namespace
 
 Eigen::VectorXd supporting_forces(const Robot& robot, const Sample& sample,
                                   const Eigen::VectorXd& Phi) {
@@ -38,7 +23,7 @@ Eigen::VectorXd supporting_forces(const Robot& robot, const Sample& sample,
   Eigen::Index row = 0;
   for (Eigen::Index c = 0; c < supporting.size(); ++c) {
     supporting[c] = f.segment<3>(row).dot(up);
-    row += component_count(robot.contacts[static_cast<std::size_t>(c)].kind);
+    row += force_numbers(robot.contacts[static_cast<std::size_t>(c)].kind);
   }
   return supporting;
 }
