@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <map>
 
 #include "shapeid/models/simbody/random.hpp"
 #include "shapeid/tests/experiments/page/spread_table.hpp"
@@ -15,6 +16,7 @@ using Motion = std::vector<SimulatedSample>;
 
 /// All that can be changed.
 struct Setup {
+  Gait gait = gaits().front();
   double seconds = 2.0;
   Preparation preparation;
   std::function<void(Motion&)> labels = [](Motion&) {};  ///< spoils contact flags
@@ -59,6 +61,10 @@ std::vector<Variant> variants() {
     all.push_back(
         {group, fmt::format("{:g}", value), [value, change](Setup& s) { change(s, value); }});
   };
+  for (const Gait& gait : gaits()) {
+    if (gait.name == gaits().front().name) continue;  // the default
+    all.push_back({"motion", gait.name, [gait](Setup& s) { s.gait = gait; }});
+  }
   for (const double k2 : {0.0, 1e-6, 1e-2, 1.0}) {
     add("k2 over k1", k2, [](Setup& s, double x) { s.division.k2 = x; });
   }
@@ -101,15 +107,17 @@ Load the_load() {
 }  // namespace
 
 Findings load_influence(Form form) {
-  const std::uint64_t seeds = form == Form::full ? 6 : 1;
+  const std::size_t seeds = form == Form::full ? 6 : 1;
   const double longest = form == Form::full ? 5.0 : 2.0;
   constexpr int most_divisions = 100;
   const test::Quadruped quadruped = test::bundled_quadruped();
   const BodyModel area = load_area(quadruped.robot);
   const Load load = the_load();
-  std::vector<Motion> motions;
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    motions.push_back(simulated(quadruped.robot, {gaits().front(), longest, 300 + seed, load}));
+  std::map<std::string, std::vector<Motion>> motions;
+  for (const Gait& gait : gaits()) {
+    for (std::size_t seed = 1; seed <= seeds; ++seed) {
+      motions[gait.name].push_back(simulated(quadruped.robot, {gait, longest, 300 + seed, load}));
+    }
   }
   Findings findings;
   Table table = {{"changed", "to", "divisions", "mass error, kg", "place error, mm",
@@ -119,9 +127,9 @@ Findings load_influence(Form form) {
     variant.change(setup);
     if (setup.seconds > longest) continue;
     std::vector<double> divisions, mass, place, tensor;
-    for (std::size_t i = 0; i < motions.size(); ++i) {
+    for (std::size_t i = 0; i < seeds; ++i) {
       setup.preparation.seed = i + 1;
-      Motion motion = motions[i];
+      Motion motion = motions.at(setup.gait.name)[i];
       setup.labels(motion);
       const DataTerm f = prepared(quadruped, area, motion, setup.seconds, setup.preparation);
       const LoadTrace trace =
