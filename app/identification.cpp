@@ -109,6 +109,19 @@ class EffectsRun {
 
 }  // namespace
 
+reference::IdentifySettings settings_for(const LogSamples& log, const RobotInputs& robot,
+                                         const MotionInputs& inputs,
+                                         reference::IdentifySettings settings) {
+  settings.contacts = log.contacts();
+  if (settings.weight.size() == 0) settings.weight = weight(robot);
+  if (inputs.row_cutoff > 0.0) {
+    settings.row_filter.emplace();
+    settings.row_filter->cutoff = inputs.row_cutoff;
+    settings.row_filter->rate = log.report().rate;
+  }
+  return settings;
+}
+
 Result run_identification(const RobotInputs& robot, const BodyModel& model,
                           const MotionInputs& inputs, const RunOptions& options,
                           const std::function<void(const reference::DivisionRun&)>& watch) {
@@ -116,16 +129,9 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   if (!options.effects.empty()) effects.emplace(robot, inputs, options);
   LogSamples log(inputs.log, robot, inputs);
   PartOfLog samples(log, options.test_log.empty() ? std::optional(Part::fitted) : std::nullopt);
-  reference::IdentifySettings settings = options.settings;
-  settings.contacts = log.contacts();
+  reference::IdentifySettings settings = settings_for(log, robot, inputs, options.settings);
   if (effects) {
     settings.rows = [&](const Sample& moved) { return effects->rows(moved, model); };
-  }
-  if (settings.weight.size() == 0) settings.weight = weight(robot);
-  if (inputs.row_cutoff > 0.0) {
-    settings.row_filter.emplace();
-    settings.row_filter->cutoff = inputs.row_cutoff;
-    settings.row_filter->rate = log.report().rate;
   }
 
   Result result;
@@ -175,9 +181,13 @@ void add_delivery_options(CLI::App& verb, Delivery& delivery) {
 }
 
 void add_solver_options(CLI::App& verb, RunOptions& options) {
-  DivisionOptions& division = options.settings.division;
   verb.add_option("--test", options.test_log,
                   "log to measure the residual on (default: every fifth two seconds are held out)");
+  add_solver_options(verb, options.settings);
+}
+
+void add_solver_options(CLI::App& verb, reference::IdentifySettings& settings) {
+  DivisionOptions& division = settings.division;
   verb.add_option("--divisions", division.most_divisions, "most divisions; 0 does not divide")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
@@ -190,7 +200,7 @@ void add_solver_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--eps", division.step, "stop when a division changes Phi by less, relatively")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  verb.add_option("--lambda", options.settings.lambda,
+  verb.add_option("--lambda", settings.lambda,
                   "weight of the density term (default: docs/derivations/mass-problem.md)")
       ->check(CLI::NonNegativeNumber);
 }

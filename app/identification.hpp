@@ -24,6 +24,12 @@ struct RunOptions {
     const RunOptions& options,
     const std::function<void(const reference::DivisionRun&)>& watch = {});
 
+/// The settings with what robot and log say: contacts, weight, the rate of a row filter.
+[[nodiscard]] reference::IdentifySettings settings_for(const LogSamples& log,
+                                                       const RobotInputs& robot,
+                                                       const MotionInputs& inputs,
+                                                       reference::IdentifySettings settings);
+
 /// Where a result goes.
 struct Delivery {
   std::string folder;  ///< empty: no files
@@ -39,6 +45,8 @@ void deliver(const Delivery& delivery, const nlohmann::json& document, const std
 void add_delivery_options(CLI::App& verb, Delivery& delivery);
 
 /// Options of the division and the mass problem, for verbs that solve.
+void add_solver_options(CLI::App& verb, reference::IdentifySettings& settings);
+/// And the log that the residual is measured on.
 void add_solver_options(CLI::App& verb, RunOptions& options);
 
 }  // namespace shapeid::app

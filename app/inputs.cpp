@@ -58,6 +58,10 @@ void MotionInputs::add_robot_to(CLI::App& verb) {
 void MotionInputs::add_to(CLI::App& verb) {
   add_robot_to(verb);
   verb.add_option("--log", log, "log, CSV or CSV.gz")->required();
+  add_smoothing_to(verb);
+}
+
+void MotionInputs::add_smoothing_to(CLI::App& verb) {
   verb.add_option("--cutoff", cutoff,
                   "Hz, of the zero-phase filter over every channel; 0 does not smooth")
       ->capture_default_str();
@@ -167,7 +171,8 @@ std::vector<int> moving_links(const Robot& robot) {
 LogSamples::LogSamples(const std::string& path, const RobotInputs& robot,
                        const MotionInputs& inputs)
     : reader_(path, robot.robot, robot.notes, robot.mapping, motion_options(inputs, robot.robot)),
-      contacts_(contact_treatment(inputs, robot.robot)) {
+      contacts_(contact_treatment(inputs, robot.robot)),
+      quiet_(inputs.quiet || ::isatty(STDERR_FILENO) == 0) {
   if (contacts_ == reference::ContactTreatment::measured && !reader_.report().forces_logged) {
     throw InputError({path}, "--contacts measured, but there are no force.* columns",
                      "log force.<link>.x, .y, .z for every contact, or choose another treatment");
@@ -176,13 +181,13 @@ LogSamples::LogSamples(const std::string& path, const RobotInputs& robot,
 
 std::optional<Sample> LogSamples::next() {
   std::optional<Sample> sample = reader_.next();
-  const bool on_terminal = ::isatty(STDERR_FILENO) != 0;
+  if (quiet_) return sample;
   constexpr std::size_t samples_between_reports = 2000;
   if (!sample) {
-    if (on_terminal && count_ >= samples_between_reports) fmt::print(stderr, "\r\033[K");
+    if (count_ >= samples_between_reports) fmt::print(stderr, "\r\033[K");
     return sample;
   }
-  if (on_terminal && ++count_ % samples_between_reports == 0) {
+  if (++count_ % samples_between_reports == 0) {
     fmt::print(stderr, "\rreading: {:.1f} s of motion", sample->time);
   }
   return sample;

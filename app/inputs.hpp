@@ -22,10 +22,12 @@ struct MotionInputs {
   std::string contacts = "auto";
   bool exact = false, accept_impossible = false;
   bool causal = false;  ///< smooth as a robot would, forward in time only
+  bool quiet = false;   ///< no progress on a terminal: several logs are read at once
 
   void add_to(CLI::App& verb);
   /// All but the log and how it is smoothed.
   void add_robot_to(CLI::App& verb);
+  void add_smoothing_to(CLI::App& verb);
 };
 
 /// A robot with what its files say, ready for logs.
@@ -71,6 +73,7 @@ class LogSamples {
  private:
   MotionReader reader_;
   reference::ContactTreatment contacts_;
+  bool quiet_;
   std::size_t count_ = 0;
 };
 

@@ -99,6 +99,7 @@ std::string links_text(const Result& result, const Robot& robot) {
 }
 
 std::string comparison_text(const Comparison& c, const Robot& robot) {
+  if (c.where.empty()) return "\nall samples were fitted, none held out\n";
   if (c.samples == 0) return "\nno samples were held out: the log is too short\n";
   std::string text = fmt::format(
       "\nresidual on {} samples that were not fitted ({}), rms\n  {:<20}{:>12}{:>12}{:>12}  unit\n",

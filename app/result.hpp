@@ -19,7 +19,8 @@ namespace shapeid::app {
 struct Comparison {
   std::size_t samples = 0;
   Eigen::VectorXd zero, given, found;  ///< rms per generalised row, N, N m
-  std::string where;                   ///< "every fifth two seconds of LOG", or the test log
+  /// "every fifth two seconds of LOG", or the test log; empty if nothing was held out
+  std::string where;
 };
 
 struct Result {

@@ -6,6 +6,7 @@
 namespace shapeid::app {
 
 void add_identify(CLI::App& app);
+void add_batch(CLI::App& app);
 void add_load(CLI::App& app);
 void add_diagnose(CLI::App& app);
 void add_track(CLI::App& app);

@@ -121,13 +121,11 @@ Eigen::VectorXd natural_sizes(const BodyModel& model, double expected_mass) {
   return size;
 }
 
-Identification identify(const Robot& robot, const BodyModel& model, const SampleStream& next,
-                        const IdentifySettings& settings,
-                        const std::function<void(const DivisionRun&)>& watch) {
+CompressedRows compress(const Robot& robot, const BodyModel& model, const SampleStream& next,
+                        const IdentifySettings& settings) {
   const Eigen::VectorXd weight = settings.weight.size() > 0
                                      ? settings.weight
                                      : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
-  const Window window(robot, model, settings.contacts, weight);
   std::optional<RowFilter> filter;
   if (settings.row_filter) {
     filter.emplace(robot, model, settings.contacts, weight, *settings.row_filter);
@@ -135,23 +133,27 @@ Identification identify(const Robot& robot, const BodyModel& model, const Sample
   const auto rigid = [&](const Sample& sample) {
     return sample_rows(robot, model.known, model.free_links, settings.contacts, sample);
   };
-  Blocks collected(window, std::move(filter), settings.rows ? settings.rows : rigid,
-                   settings.block_seconds);
-  Identification result;
+  Blocks collected(Window(robot, model, settings.contacts, weight), std::move(filter),
+                   settings.rows ? settings.rows : rigid, settings.block_seconds);
+  CompressedRows result;
   while (const std::optional<Sample> sample = next()) {
     collected.add(*sample);
     ++result.samples;
   }
-  const std::vector<RowBlock> blocks = collected.finish();
-  if (blocks.empty()) throw Refusal("no-data", "the log has no usable sample");
-  if (blocks.size() < 2) {
-    throw Refusal("too-short",
-                  fmt::format("{} samples within one block of {:g} s have no spread to "
-                              "judge them by; log a longer motion",
-                              result.samples, settings.block_seconds));
-  }
+  result.blocks = collected.finish();
+  return result;
+}
 
-  result.data = determine(blocks, natural_sizes(model, settings.expected_mass));
+Eigen::MatrixXd merged(const std::vector<RowBlock>& blocks) {
+  return rows_without(blocks, blocks.size());
+}
+
+Identification identify(const BodyModel& model, const CompressedRows& rows,
+                        const IdentifySettings& settings,
+                        const std::function<void(const DivisionRun&)>& watch) {
+  Identification result;
+  result.samples = rows.samples;
+  result.data = determine(rows.blocks, natural_sizes(model, settings.expected_mass));
   if (std::none_of(result.data.determined.begin(), result.data.determined.end(),
                    [](bool known) { return known; })) {
     throw Refusal("not-excited",
@@ -159,8 +161,10 @@ Identification identify(const Robot& robot, const BodyModel& model, const Sample
                   "move, turn or are loaded");
   }
 
-  MassProblem problem = window.problem(model);
-  set_rows(problem, rows_without(blocks, blocks.size()));
+  MassProblem problem;
+  set_rows(problem, merged(rows.blocks));
+  problem.U = shape_columns(model);
+  problem.V = shape_volumes(model);
   problem.lambda = settings.lambda.value_or(default_lambda(problem, settings.expected_mass));
   problem.mass_bound = settings.mass_bound.value_or(10.0 * settings.expected_mass);
   DivisionOptions division = settings.division;
@@ -171,8 +175,22 @@ Identification identify(const Robot& robot, const BodyModel& model, const Sample
   result.undivided_objective =
       history.empty() ? result.run.solution.value.total() : history.front().objective_before;
   result.Phi = all_parameters(model, result.run.solution.Phi);
-  result.standard_error = jackknife(blocks, result.run);
+  result.standard_error = jackknife(rows.blocks, result.run);
   return result;
+}
+
+Identification identify(const Robot& robot, const BodyModel& model, const SampleStream& next,
+                        const IdentifySettings& settings,
+                        const std::function<void(const DivisionRun&)>& watch) {
+  const CompressedRows rows = compress(robot, model, next, settings);
+  if (rows.blocks.empty()) throw Refusal("no-data", "the log has no usable sample");
+  if (rows.blocks.size() < 2) {
+    throw Refusal("too-short",
+                  fmt::format("{} samples within one block of {:g} s have no spread to "
+                              "judge them by; log a longer motion",
+                              rows.samples, settings.block_seconds));
+  }
+  return identify(model, rows, settings, watch);
 }
 
 }  // namespace shapeid::reference

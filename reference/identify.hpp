@@ -46,6 +46,25 @@ struct Identification {
 /// Samples one by one; empty at the end.
 using SampleStream = std::function<std::optional<Sample>()>;
 
+/// The rows of a stream, weighted and free of contact forces, as contiguous blocks of time.
+struct CompressedRows {
+  std::vector<RowBlock> blocks;  ///< fewer than most_blocks; neighbours merge when there are more
+  std::size_t samples = 0;
+};
+
+/// Reads a stream to its end. Memory does not grow with it. No blocks for an empty stream.
+[[nodiscard]] CompressedRows compress(const Robot& robot, const BodyModel& model,
+                                      const SampleStream& next, const IdentifySettings& settings);
+
+/// All blocks as one triangle, merged in their order.
+[[nodiscard]] Eigen::MatrixXd merged(const std::vector<RowBlock>& blocks);
+
+/// Identifies the free links of `model` from at least two blocks, whose spread is what errors are
+/// judged by. Throws Refusal "not-excited" if the rows determine no parameter at all.
+[[nodiscard]] Identification identify(const BodyModel& model, const CompressedRows& rows,
+                                      const IdentifySettings& settings,
+                                      const std::function<void(const DivisionRun&)>& watch = {});
+
 /// Identifies the free links of `model`. Memory does not grow with the stream: blocks are
 /// triangles, and neighbours merge when there are more than most_blocks of them. Throws Refusal
 /// "no-data" for an empty stream, "too-short" for a single block (no spread to judge by),

@@ -34,12 +34,16 @@ std::string scratch_file(const std::string& name, const std::string& text) {
   return path;
 }
 
-CommandRun shapeid(const std::string& arguments, const std::string& input) {
+CommandRun program(const std::string& line, const std::string& input) {
   const std::string out = scratch() + "/stdout", err = scratch() + "/stderr";
-  const std::string line = fmt::format("cd '{}' && '{}/shapeid' {} >'{}' 2>'{}' <'{}'", scratch(),
-                                       SHAPEID_BUILD_DIR, arguments, out, err, input);
-  const int status = std::system(line.c_str());
+  const std::string whole =
+      fmt::format("cd '{}' && {} >'{}' 2>'{}' <'{}'", scratch(), line, out, err, input);
+  const int status = std::system(whole.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+}
+
+CommandRun shapeid(const std::string& arguments, const std::string& input) {
+  return program(fmt::format("'{}/shapeid' {}", SHAPEID_BUILD_DIR, arguments), input);
 }
 
 }  // namespace shapeid::test

@@ -15,6 +15,9 @@ struct CommandRun {
 [[nodiscard]] CommandRun shapeid(const std::string& arguments,
                                  const std::string& input = "/dev/null");
 
+/// The same for any program.
+[[nodiscard]] CommandRun program(const std::string& line, const std::string& input = "/dev/null");
+
 /// A folder that is made anew for every test program and that tests may write into.
 [[nodiscard]] const std::string& scratch();
 

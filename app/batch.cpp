@@ -1,0 +1,110 @@
+// shapeid batch: one answer from many logs, read on several threads or machines.
+#include "shapeid/app/batch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include "shapeid/app/verbs.hpp"
+#include "shapeid/models/error.hpp"
+
+namespace shapeid::app {
+namespace {
+
+using nlohmann::json;
+
+/// The robot, whose root and default contacts depend on a log's header: the first that can be read.
+RobotInputs read_robot_with_any(MotionInputs inputs, const std::vector<std::string>& logs) {
+  std::optional<InputError> first;
+  for (const std::string& log : logs) {
+    try {
+      inputs.log = log;
+      return read_robot(inputs);
+    } catch (const InputError& e) {
+      if (!first) first = e;
+    }
+  }
+  throw *first;
+}
+
+json logs_json(const std::vector<BatchLog>& logs) {
+  json list = json::array();
+  for (const BatchLog& log : logs) {
+    const bool used = log.refused.empty();
+    list.push_back({{"log", log.path},
+                    {"refused", used ? json() : json(log.refused)},
+                    {"rows", log.rows},
+                    {"samples", used ? log.samples : 0},
+                    {"gaps", log.gaps},
+                    {"residual", used ? json(log.residual) : json()}});
+  }
+  return list;
+}
+
+std::string logs_text(const std::vector<BatchLog>& logs) {
+  std::string text = fmt::format("{:>10}{:>10}{:>12}  log\n", "rows", "samples", "residual");
+  for (const BatchLog& log : logs) {
+    if (log.refused.empty()) {
+      text +=
+          fmt::format("{:>10}{:>10}{:>12.5g}  {}\n", log.rows, log.samples, log.residual, log.path);
+    } else {
+      text += fmt::format("{:>32}  {}: {}\n", "refused", log.path, log.refused);
+    }
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+void BatchOptions::add_to(CLI::App& verb) {
+  inputs.quiet = true;
+  threads = std::max(1U, std::thread::hardware_concurrency());
+  inputs.add_robot_to(verb);
+  verb.add_option("--log", logs, "logs, CSV or CSV.gz; the order counts, to the last bit")
+      ->required();
+  inputs.add_smoothing_to(verb);
+  add_solver_options(verb, settings);
+  sought.add_to(verb);
+  verb.add_option("--min-mass", least_mass, "kg: a link found lighter keeps its given inertia")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb.add_option("--threads", threads, "logs that are read at once, by each process")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_option("--blocks", most_blocks,
+                  "most blocks of neighbouring logs, by whose spread errors are judged")
+      ->check(CLI::Range(std::size_t{2}, reference::most_blocks))
+      ->capture_default_str();
+  verb.add_flag("--skip-refused", skip_refused, "go on without logs that cannot be used");
+  add_delivery_options(verb, delivery);
+}
+
+void batch(const BatchOptions& options, Peers& peers) {
+  const RobotInputs robot = read_robot_with_any(options.inputs, options.logs);
+  const BodyModel model = sought_bodies(options.sought, robot.robot);
+  BatchOptions with_mass = options;
+  with_mass.settings.expected_mass = expected_mass(options.sought, robot, model);
+  const std::optional<BatchResult> found = run_batch(with_mass, robot, model, peers);
+  if (!found) return;
+  const Judgement judged = judge(found->result);
+  const std::optional<double>& floor = judged.certified.proof.floor;
+  json document = result_json(found->result, floor, robot.robot);
+  document["logs"] = logs_json(found->logs);
+  deliver(options.delivery, document,
+          logs_text(found->logs) + result_text(found->result, floor, robot.robot), found->result,
+          judged, robot, options.inputs);
+}
+
+void add_batch(CLI::App& app) {
+  const auto options = std::make_shared<BatchOptions>();
+  CLI::App* verb = app.add_subcommand("batch", "one answer from many logs, read in parallel");
+  options->add_to(*verb);
+  verb->callback([options] {
+    Alone alone;
+    batch(*options, alone);
+  });
+}
+
+}  // namespace shapeid::app

@@ -1,0 +1,280 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "shapeid/app/batch.hpp"
+#include "shapeid/app/in_parallel.hpp"
+#include "shapeid/app/merge_order.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/reference/triangle.hpp"
+
+namespace shapeid::app {
+namespace {
+
+using nlohmann::json;
+
+/// A log, and its rows as a triangle [Y F]; none if it was refused.
+struct CompressedLog {
+  BatchLog log;
+  Eigen::MatrixXd rows;
+};
+
+// --- Messages between processes. Numbers keep every bit.
+
+std::string packed(const Eigen::MatrixXd& M) {
+  const std::int64_t rows = M.rows();
+  const std::size_t size = static_cast<std::size_t>(M.size()) * sizeof(double);
+  std::string bytes(sizeof rows + size, '\0');
+  std::memcpy(bytes.data(), &rows, sizeof rows);
+  if (size > 0) std::memcpy(bytes.data() + sizeof rows, M.data(), size);
+  return bytes;
+}
+
+Eigen::MatrixXd unpacked(const std::string& bytes) {
+  std::int64_t rows = 0;
+  std::memcpy(&rows, bytes.data(), sizeof rows);
+  const std::size_t size = bytes.size() - sizeof rows;
+  const auto count = static_cast<Eigen::Index>(size / sizeof(double));
+  Eigen::MatrixXd M(rows, rows > 0 ? count / rows : 0);
+  if (size > 0) std::memcpy(M.data(), bytes.data() + sizeof rows, size);
+  return M;
+}
+
+std::string packed(const BatchLog& log) {
+  return json{{"refused", log.refused}, {"rows", log.rows},
+              {"samples", log.samples}, {"gaps", log.gaps},
+              {"rate", log.rate},       {"contacts_derived", log.contacts_derived},
+              {"notes", log.notes}}
+      .dump();
+}
+
+BatchLog unpacked_log(const std::string& path, const std::string& bytes) {
+  const json report = json::parse(bytes);
+  BatchLog log;
+  log.path = path;
+  log.refused = report.at("refused");
+  log.rows = report.at("rows");
+  log.samples = report.at("samples");
+  log.gaps = report.at("gaps");
+  log.rate = report.at("rate");
+  log.contacts_derived = report.at("contacts_derived");
+  log.notes = report.at("notes").get<std::vector<std::string>>();
+  return log;
+}
+
+// --- One log
+
+CompressedLog compressed(const std::string& path, const BatchOptions& options,
+                         const RobotInputs& robot, const BodyModel& model) {
+  CompressedLog result;
+  result.log.path = path;
+  try {
+    LogSamples samples(path, robot, options.inputs);
+    const reference::CompressedRows rows = compress(
+        robot.robot, model, [&] { return samples.next(); },
+        settings_for(samples, robot, options.inputs, options.settings));
+    const MotionReport& report = samples.report();
+    result.log.rows = report.rows;
+    result.log.samples = rows.samples;
+    result.log.gaps = report.gaps;
+    result.log.rate = report.rate;
+    result.log.contacts_derived = report.contacts_derived;
+    result.log.notes = report.notes;
+    if (rows.blocks.empty()) throw Refusal("no-data", "the log has no usable sample");
+    result.rows = merged(rows.blocks);
+    if (!result.rows.allFinite()) {
+      throw Refusal("not-finite", "the log's numbers are too large for the sums of their squares");
+    }
+  } catch (const InputError& e) {
+    result.log.refused = e.what();
+  } catch (const Refusal& e) {
+    result.log.refused = e.what();
+  }
+  if (!result.log.refused.empty()) result.rows.resize(0, 0);
+  return result;
+}
+
+double residual(const CompressedLog& log, const Eigen::VectorXd& Phi) {
+  if (log.rows.rows() == 0) return 0.0;
+  const Eigen::Index n = Phi.size();
+  const Eigen::VectorXd r = log.rows.leftCols(n) * Phi - log.rows.col(n);
+  return r.norm() / std::sqrt(static_cast<double>(log.log.samples));
+}
+
+// --- All logs
+
+/// The logs, each with the process that reads it: contiguous shares, so that neighbours merge where
+/// they are.
+class Shares {
+ public:
+  Shares(const BatchOptions& options, const RobotInputs& robot, const BodyModel& model,
+         Peers& peers)
+      : peers_(peers), all_(options.logs.size()) {
+    std::vector<std::size_t> mine;
+    for (std::size_t k = 0; k < all_.size(); ++k) {
+      all_[k].log.path = options.logs[k];
+      if (is_mine(k)) mine.push_back(k);
+    }
+    in_parallel(mine.size(), options.threads, [&](std::size_t i) {
+      all_[mine[i]] = compressed(options.logs[mine[i]], options, robot, model);
+    });
+  }
+
+  /// Number 0 learns what became of every log.
+  void gather_reports() {
+    to_first([&](std::size_t k) { return packed(all_[k].log); },
+             [&](std::size_t k, const std::string& bytes) {
+               all_[k].log = unpacked_log(all_[k].log.path, bytes);
+             });
+  }
+
+  /// Blocks of neighbouring logs, at most so many, at number 0; empty elsewhere.
+  std::vector<reference::RowBlock> merge(std::size_t most) {
+    std::vector<Eigen::MatrixXd> rows;
+    for (const CompressedLog& log : all_) rows.push_back(log.rows);
+    const std::size_t stride =
+        merge_neighbours(all_.size(), most, [&](std::size_t left, std::size_t right) {
+          if (!is_mine(left)) {
+            if (is_mine(right)) peers_.send(packed(rows[right]), owner(left));
+            return;
+          }
+          if (!is_mine(right)) rows[right] = unpacked(peers_.receive(owner(right)));
+          if (rows[left].rows() == 0) {
+            rows[left] = rows[right];
+          } else if (rows[right].rows() > 0) {
+            rows[left] = reference::triangle(reference::stacked(rows[left], rows[right]));
+          }
+          rows[right].resize(0, 0);
+        });
+    std::vector<reference::RowBlock> blocks;
+    for (std::size_t k = 0; k < all_.size(); k += stride) {
+      if (peers_.rank() != 0) {
+        if (is_mine(k)) peers_.send(packed(rows[k]), 0);
+        continue;
+      }
+      if (!is_mine(k)) rows[k] = unpacked(peers_.receive(owner(k)));
+      if (rows[k].rows() > 0) blocks.push_back({rows[k]});
+    }
+    return blocks;
+  }
+
+  /// Number 0 tells the others Phi (of the free links), and learns every log's residual there.
+  void gather_residuals(Eigen::VectorXd Phi) {
+    if (peers_.rank() == 0) {
+      for (std::size_t p = 1; p < peers_.count(); ++p) peers_.send(packed(Eigen::MatrixXd(Phi)), p);
+    } else {
+      Phi = unpacked(peers_.receive(0)).reshaped();
+    }
+    to_first(
+        [&](std::size_t k) {
+          all_[k].log.residual = residual(all_[k], Phi);
+          return packed(Eigen::MatrixXd::Constant(1, 1, all_[k].log.residual));
+        },
+        [&](std::size_t k, const std::string& bytes) {
+          all_[k].log.residual = unpacked(bytes)(0, 0);
+        });
+  }
+
+  [[nodiscard]] std::vector<BatchLog> logs() const {
+    std::vector<BatchLog> logs;
+    for (const CompressedLog& log : all_) logs.push_back(log.log);
+    return logs;
+  }
+
+ private:
+  [[nodiscard]] std::size_t owner(std::size_t k) const { return k * peers_.count() / all_.size(); }
+  [[nodiscard]] bool is_mine(std::size_t k) const { return owner(k) == peers_.rank(); }
+
+  /// `say` is called for every log where it was read, `hear` at number 0 for the others' logs.
+  void to_first(const std::function<std::string(std::size_t)>& say,
+                const std::function<void(std::size_t, const std::string&)>& hear) {
+    for (std::size_t k = 0; k < all_.size(); ++k) {
+      if (is_mine(k)) {
+        const std::string bytes = say(k);
+        if (peers_.rank() != 0) peers_.send(bytes, 0);
+      } else if (peers_.rank() == 0) {
+        hear(k, peers_.receive(owner(k)));
+      }
+    }
+  }
+
+  Peers& peers_;
+  std::vector<CompressedLog> all_;
+};
+
+void judge_refused(const std::vector<BatchLog>& logs, bool skip) {
+  std::size_t refused = 0;
+  for (const BatchLog& log : logs) {
+    if (log.refused.empty()) continue;
+    ++refused;
+    fmt::print(stderr, "log {} is refused: {}\n", log.path, log.refused);
+  }
+  if (refused == logs.size()) {
+    throw InputError("every log is refused", "give logs that `inspect` finds nothing wrong with");
+  }
+  if (refused > 0 && !skip) {
+    throw InputError(fmt::format("{} of {} logs are refused", refused, logs.size()),
+                     "leave them out, or give --skip-refused");
+  }
+}
+
+/// What the logs' preparation did, as if they were one.
+MotionReport motion_of(const std::vector<BatchLog>& logs) {
+  MotionReport motion;
+  double seconds = 0.0;
+  for (const BatchLog& log : logs) {
+    if (!log.refused.empty()) continue;
+    motion.rows += log.rows;
+    motion.samples += log.samples;
+    motion.gaps += log.gaps;
+    motion.contacts_derived = motion.contacts_derived || log.contacts_derived;
+    seconds += static_cast<double>(log.samples) / log.rate;
+    for (const std::string& note : log.notes) motion.notes.push_back(log.path + ": " + note);
+  }
+  motion.rate = static_cast<double>(motion.samples) / seconds;
+  return motion;
+}
+
+Result solved(const std::vector<BatchLog>& logs, std::vector<reference::RowBlock> blocks,
+              const BatchOptions& options, const RobotInputs& robot, const BodyModel& model) {
+  judge_refused(logs, options.skip_refused);
+  if (blocks.size() < 2) {
+    throw Refusal("too-short", "a single log has no spread to judge it by; identify it by itself");
+  }
+  Result result;
+  result.robot_file = options.inputs.robot;
+  result.log_file = fmt::format("{} logs", logs.size());
+  result.sought = model;
+  result.motion = motion_of(logs);
+  result.found = identify(model, {std::move(blocks), result.motion.samples}, options.settings);
+  result.notes = robot.robot.notes;
+  result.notes.insert(result.notes.end(), robot.warnings.begin(), robot.warnings.end());
+  result.notes.insert(result.notes.end(), result.motion.notes.begin(), result.motion.notes.end());
+  choose_written_links(result, robot.robot, options.least_mass);
+  return result;
+}
+
+}  // namespace
+
+std::optional<BatchResult> run_batch(const BatchOptions& options, const RobotInputs& robot,
+                                     const BodyModel& model, Peers& peers) {
+  Shares shares(options, robot, model, peers);
+  shares.gather_reports();
+  std::vector<reference::RowBlock> blocks = shares.merge(options.most_blocks);
+  if (peers.rank() != 0) {
+    shares.gather_residuals({});
+    return std::nullopt;
+  }
+  BatchResult batch;
+  batch.result = solved(shares.logs(), std::move(blocks), options, robot, model);
+  shares.gather_residuals(batch.result.found.run.solution.Phi);
+  batch.logs = shares.logs();
+  return batch;
+}
+
+}  // namespace shapeid::app

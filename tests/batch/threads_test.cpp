@@ -1,0 +1,166 @@
+// Many logs at once say what one log says, and the same whoever reads them.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shapeid/app/in_parallel.hpp"
+#include "shapeid/app/merge_order.hpp"
+#include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/batch/pieces.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/track/logs.hpp"
+
+namespace shapeid::test {
+namespace {
+
+using nlohmann::json;
+
+std::string batch(const std::string& options) {
+  return fmt::format("batch {} --json {}", bundled_robot(), options);
+}
+
+json done(const std::string& arguments) {
+  const CommandRun run = shapeid(arguments);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return run.status == 0 ? json::parse(run.out) : json();
+}
+
+Eigen::VectorXd parameters(const json& result) {
+  const auto list = result.at("links").at(0).at("parameters").get<std::vector<double>>();
+  return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+}
+
+TEST(BatchThreads, SameBytesForAnyNumber) {
+  const std::string logs = "--divisions 10 --log " + piece_names();
+  const CommandRun one = shapeid(batch(logs + "--threads 1"));
+  ASSERT_EQ(one.status, 0) << one.err;
+  for (const int threads : {2, 4, 7, 12}) {
+    const CommandRun many = shapeid(batch(fmt::format("{} --threads {}", logs, threads)));
+    ASSERT_EQ(many.status, 0) << many.err;
+    EXPECT_TRUE(many.out == one.out) << threads << " threads say something else";
+  }
+}
+
+/// How far apart the parameters are, in roundings of their own size.
+double apart(const json& a, const json& b) {
+  return scaled_difference(parameters(a), parameters(b), parameters(a).size());
+}
+
+TEST(BatchThreads, AnotherOrderOfLogsMovesTheLastBitsAtMost) {
+  const json forward = done(batch("--divisions 0 --log " + piece_names()));
+  const json backward = done(
+      batch("--divisions 0 --log piece6.csv piece5.csv piece4.csv piece3.csv piece2.csv piece1.csv "
+            "piece0.csv"));
+  EXPECT_LE(apart(forward, backward), few_hundred_eps);
+}
+
+TEST(BatchThreads, EqualsIdentifyOnOneLogWithGaps) {
+  // The rate is said: estimated from time stamps it differs by roundings, and with it which sample
+  // is a piece's last.
+  const json parts = done(batch("--rate 500 --divisions 5 --log " + piece_names()));
+  const json whole =
+      done(fmt::format("identify {0} --json --rate 500 --divisions 5 --log {1} --test {1}",
+                       bundled_robot(), whole_name()));
+  EXPECT_EQ(parts.at("samples"), whole.at("samples"));
+  EXPECT_LE(apart(parts, whole), few_hundred_eps);
+  const double data = whole.at("objective").at("data").get<double>();
+  EXPECT_LE(scaled(std::abs(parts.at("objective").at("data").get<double>() - data), data, pieces),
+            few_hundred_eps);
+}
+
+TEST(BatchThreads, ResidualsOfTheLogsAddUpToTheObjective) {
+  const json found = done(batch("--divisions 0 --log " + piece_names()));
+  ASSERT_EQ(found.at("logs").size(), static_cast<std::size_t>(pieces));
+  double sum = 0.0;
+  std::size_t samples = 0;
+  for (const json& log : found.at("logs")) {
+    EXPECT_TRUE(log.at("refused").is_null());
+    const double residual = log.at("residual").get<double>();
+    sum += residual * residual * log.at("samples").get<double>();
+    samples += log.at("samples").get<std::size_t>();
+  }
+  EXPECT_EQ(found.at("samples"), samples);
+  const double data = found.at("objective").at("data").get<double>();
+  EXPECT_LE(scaled(std::abs(sum - data), data, pieces), few_hundred_eps);
+}
+
+TEST(BatchThreads, ABadLogIsNamed) {
+  scratch_file("degrees.csv", "time,base.gyro.x\n0,not a number\n");
+  for (const std::string bad : {"degrees.csv", "absent.csv"}) {
+    for (const bool first : {true, false}) {
+      const std::string logs = first ? bad + " piece0.csv piece1.csv piece2.csv"
+                                     : "piece0.csv piece1.csv piece2.csv " + bad;
+      (void)piece_names();
+      const CommandRun run = shapeid(batch("--divisions 0 --log " + logs));
+      EXPECT_EQ(run.status, 2);
+      EXPECT_EQ(run.out, "");
+      EXPECT_NE(run.err.find("log " + bad + " is refused: "), std::string::npos) << run.err;
+      EXPECT_NE(run.err.find("1 of 4 logs are refused"), std::string::npos) << run.err;
+
+      const json skipped = done(batch("--skip-refused --divisions 0 --log " + logs));
+      const json without = done(batch("--divisions 0 --log piece0.csv piece1.csv piece2.csv"));
+      EXPECT_EQ(skipped.at("samples"), without.at("samples"));
+      EXPECT_LE(apart(skipped, without), few_hundred_eps);
+      const json& log = skipped.at("logs").at(first ? 0 : 3);
+      EXPECT_EQ(log.at("log"), bad);
+      EXPECT_TRUE(log.at("refused").is_string());
+    }
+  }
+}
+
+TEST(BatchThreads, NothingToJudgeByIsRefused) {
+  (void)piece_names();
+  EXPECT_EQ(shapeid(batch("--log piece0.csv")).status, 1);
+  EXPECT_EQ(shapeid(batch("--skip-refused --log absent.csv gone.csv")).status, 2);
+}
+
+TEST(InParallel, EveryNumberOnceAndTheFirstExceptionByNumber) {
+  for (const std::size_t threads : {1U, 2U, 5U}) {
+    std::vector<std::atomic<int>> calls(100);
+    app::in_parallel(calls.size(), threads, [&](std::size_t k) { ++calls[k]; });
+    for (const auto& count : calls) EXPECT_EQ(count, 1);
+    try {
+      app::in_parallel(calls.size(), threads, [&](std::size_t k) {
+        ++calls[k];
+        if (k % 30 == 17) throw std::runtime_error(std::to_string(k));
+      });
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const std::runtime_error& e) {
+      EXPECT_STREQ(e.what(), "17");
+    }
+    for (const auto& count : calls) EXPECT_EQ(count, 2);
+  }
+}
+
+TEST(MergeOrder, CoversEveryLogOnceInOrder) {
+  for (std::size_t count = 1; count <= 40; ++count) {
+    for (const std::size_t most : {1U, 2U, 3U, 64U}) {
+      std::vector<std::vector<std::size_t>> held(count);
+      for (std::size_t k = 0; k < count; ++k) held[k] = {k};
+      const std::size_t stride =
+          app::merge_neighbours(count, most, [&](std::size_t left, std::size_t right) {
+            ASSERT_LT(left, right);
+            held[left].insert(held[left].end(), held[right].begin(), held[right].end());
+            held[right].clear();
+          });
+      std::vector<std::size_t> all;
+      std::size_t blocks = 0;
+      for (std::size_t k = 0; k < count; k += stride, ++blocks) {
+        all.insert(all.end(), held[k].begin(), held[k].end());
+      }
+      EXPECT_LE(blocks, most);
+      ASSERT_EQ(all.size(), count);
+      for (std::size_t k = 0; k < count; ++k) EXPECT_EQ(all[k], k);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace shapeid::test
