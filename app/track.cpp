@@ -39,7 +39,7 @@ TrackSettings settings_for(const Options& options, const RobotInputs& robot,
   identifier.expected_mass = expected_mass(options.sought, robot, model);
   identifier.warm = false;  // an answer must not depend on where a run was resumed
   estimates.natural_size = reference::natural_sizes(model, identifier.expected_mass);
-  estimates.cutoff = settings.stream.cutoff = options.cutoff;
+  settings.stream.cutoff = options.cutoff;
   settings.stream.rate = options.inputs.rate;
   if (identifier.contacts == ContactTreatment::project) {
     settings.stream.derive_contacts = contact_rule(options.inputs, robot.robot);
@@ -139,6 +139,10 @@ void track(Options& options) {
   }
   if (!options.checkpoint.empty()) {
     write_checkpoint(options.checkpoint, run, source.position(), setup);
+  }
+  if (run.lines() == 0) {
+    fmt::print(stderr, "{}: too short for a line: no {} rows in the order of time, or no window\n",
+               options.inputs.log, SampleStream::head_rows);
   }
   if (source.unfinished() > 0) {
     fmt::print(stderr, "{}: the last {} bytes are no whole line, and were left\n",

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* format = "shapeid-checkpoint-1";
+constexpr const char* format = "shapeid-checkpoint-2";
 
 json rows_of(const Eigen::MatrixXd& M) { return matrix_json(M); }
 
@@ -58,20 +58,19 @@ std::string setup_digest(const RobotInputs& robot, const BodyModel& model,
     mapping.push_back(robot.mapping->keep_rows);
     mapping.push_back(robot.mapping->torque_factor);
   }
-  const json setup = {
-      {"robot", robot_json(robot.robot)},
-      {"imu", rows_of(robot.notes.imu.matrix())},
-      {"mapping", mapping},
-      {"known", vector_json(model.known)},
-      {"free", model.free_links},
-      {"U", rows_of(shape_columns(model))},
-      {"V", vector_json(shape_volumes(model))},
-      {"weight", vector_json(i.weight)},
-      {"natural_size", vector_json(e.natural_size)},
-      {"options",
-       {static_cast<int>(i.contacts), i.window, i.stride, i.alpha, i.expected_mass,
-        i.lambda.value_or(-1.0), e.cutoff, e.recent, e.wander, settings.stream.cutoff,
-        settings.stream.rate, settings.stream.derive_contacts != nullptr}}};
+  const json setup = {{"robot", robot_json(robot.robot)},
+                      {"imu", rows_of(robot.notes.imu.matrix())},
+                      {"mapping", mapping},
+                      {"known", vector_json(model.known)},
+                      {"free", model.free_links},
+                      {"U", rows_of(shape_columns(model))},
+                      {"V", vector_json(shape_volumes(model))},
+                      {"weight", vector_json(i.weight)},
+                      {"natural_size", vector_json(e.natural_size)},
+                      {"options",
+                       {static_cast<int>(i.contacts), i.window, i.stride, i.alpha, i.expected_mass,
+                        i.lambda.value_or(-1.0), e.recent, e.wander, settings.stream.cutoff,
+                        settings.stream.rate, settings.stream.derive_contacts != nullptr}}};
   return digest(setup.dump());
 }
 

@@ -10,14 +10,17 @@ namespace {
 using fast::Identifier;
 using fast::Outcome;
 
-// Noise through a Butterworth filter of second order has the bandwidth of 1.11 cutoffs, and as many
-// independent values a second as twice that.
-constexpr double noise_bandwidth = 1.11;
-// s: a stance. What contacts do differently from the model lasts about as long, so samples within
-// one tell of it only once (docs/tracking.md has the share of intervals that hold the truth).
+// s: a stance. What contacts do differently from the model lasts no longer; until it is learned how
+// long, it is taken to last as long.
 constexpr double stance = 0.1;
 // s: over which the variance of the rows is learned. Some strides.
 constexpr double noise_memory = 2.0;
+// s: over which it is learned how long errors last. Tens of strides.
+constexpr double correlation_memory = 10.0;
+// s: until then a stance is believed instead.
+constexpr double correlation_start = 1.0;
+// Standard deviations.
+constexpr double outstanding = 3.0;
 // Standard errors, and windows in a row, by which a changed mass must stand out.
 constexpr double certain = 5.0;
 constexpr std::size_t certain_windows = 3;
@@ -60,8 +63,7 @@ Estimates::Estimates(const Robot& robot, const BodyModel& model, const EstimateS
     : robot_(robot),
       settings_(settings),
       window_seconds_(static_cast<double>(settings.identifier.window) / rate),
-      correlation_(rate *
-                   std::max({1.0 / rate, 1.0 / (2.0 * noise_bandwidth * settings.cutoff), stance})),
+      correlation_(std::max(1.0, rate * stance)),
       windows_in_recent_(windows_in(settings.recent, window_seconds_)),
       identifier_(robot, model, settings.identifier),
       sliding_(settings.natural_size.size(), windows_in_recent_),
@@ -71,6 +73,7 @@ Estimates::Estimates(const Robot& robot, const BodyModel& model, const EstimateS
       recent_(Eigen::VectorXd::Zero(settings.natural_size.size())),
       tracked_(recent_) {
   append_shapes(model, solver_);
+  mass_variance_ = total_variance();
 }
 
 Identifier::Fed Estimates::feed(const Sample& sample) {
@@ -88,6 +91,7 @@ void Estimates::forget_samples() {
   identifier_.forget_samples();
   rows_ = 0.0;
   disagreeing_ = 0;
+  pulls_.clear();
 }
 
 void Estimates::take_window(double time) {
@@ -95,7 +99,8 @@ void Estimates::take_window(double time) {
   const fast::Triangle& window = identifier_.window();
   sliding_.push(window);
   tracker_.drift(window_seconds_);
-  tracker_.measure(window, noise_ * correlation_);
+  learn_correlation();
+  measure();
   static_cast<void>(solve(sliding_.triangle().R(), recent_));
   static_cast<void>(solve(tracker_.rows().R(), tracked_));
   watch_load(time);
@@ -111,6 +116,42 @@ void Estimates::learn_noise() {
   const double most = noise_memory / window_seconds_;
   const double share = 1.0 / std::min(static_cast<double>(windows_), most);
   noise_ += share * (variance - noise_);
+}
+
+/// How far a window pulls at the total mass is a sum over its rows, measured here by the standard
+/// deviation that it would have if their noise were white. Its mean square, covariances with the
+/// windows of a stance before included (Newey and West 1987), is how many samples say as much as
+/// one. What is not known at first and a load pull as well: the first windows are not asked, what
+/// stands out is cut off, and forgotten once a load is seen.
+void Estimates::learn_correlation() {
+  if (windows_ <= windows_in_recent_ || found_ || disagreeing_ > 0) return;
+  const Eigen::MatrixXd& R = identifier_.window().R();
+  const Eigen::Index n = R.cols() - 1;
+  Eigen::VectorXd total = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < n; i += 10) total[i] = 1.0;
+  const Eigen::VectorXd v = R.topLeftCorner(n, n) * (tracker_.covariance() * total);
+  const double white = noise_ * v.squaredNorm();
+  if (!(white > 0.0)) return;
+  const double raw = v.dot(R.col(n).head(n) - R.topLeftCorner(n, n) * tracker_.mean());
+  const double limit = outstanding * std::sqrt(correlation_);
+  const double pull = std::clamp(raw / std::sqrt(white), -limit, limit);
+  const std::size_t lags = windows_in(stance, window_seconds_);
+  double square = pull * pull;
+  for (std::size_t k = 0; k < pulls_.size(); ++k) {
+    const double weight = 1.0 - static_cast<double>(k + 1) / static_cast<double>(lags + 1);
+    square += 2.0 * weight * pull * pulls_[k];
+  }
+  pulls_.push_front(pull);
+  if (pulls_.size() > lags) pulls_.pop_back();
+
+  const auto learned = static_cast<double>(windows_ - windows_in_recent_);
+  mean_square_ += (square - mean_square_) / std::min(learned, correlation_memory / window_seconds_);
+  set_correlation();
+}
+
+void Estimates::set_correlation() {
+  if (static_cast<double>(windows_) * window_seconds_ < correlation_start) return;
+  correlation_ = std::max(1.0, mean_square_);
 }
 
 /// From no masses on: the answer depends on the rows alone. If the solver declines, the last answer
@@ -129,13 +170,30 @@ double total_mass(const Eigen::VectorXd& Phi) {
   return mass;
 }
 
-double Estimates::mass_error() const {
+double Estimates::total_variance() const {
   const Eigen::MatrixXd P = tracker_.covariance();
   double variance = 0.0;
   for (Eigen::Index i = 0; i < P.rows(); i += 10) {
     for (Eigen::Index k = 0; k < P.cols(); k += 10) variance += P(i, k);
   }
-  return std::sqrt(variance);
+  return variance;
+}
+
+/// The filter's own covariance allows, at every window, for what the mass may have wandered since
+/// the last; a mass that rests is known better. With the gain g of the total mass, what was wrong
+/// before counts by 1 - g, and the window's noise by g.
+void Estimates::measure() {
+  const double before = total_variance();
+  tracker_.measure(identifier_.window(), noise_ * correlation_);
+  const double after = total_variance();
+  const double kept = after / before;
+  mass_variance_ = kept * kept * mass_variance_ + (1.0 - kept) * after;
+}
+
+void Estimates::pass(double seconds) {
+  const double before = total_variance();
+  tracker_.drift(seconds);
+  mass_variance_ += total_variance() - before;
 }
 
 /// Of the total mass by the longer window, which knows no more of a parameter than its natural
@@ -155,8 +213,7 @@ double Estimates::recent_variance() const {
 /// The longer window against the tracked mass from before its first row: no row is in both.
 void Estimates::watch_load(double time) {
   const double now = total_mass(recent_);
-  const double tracked_error = mass_error();
-  const double error = std::sqrt(recent_variance() + tracked_error * tracked_error);
+  const double error = std::sqrt(recent_variance() + total_variance());
   const double least = std::max(certain * error, least_load * settings_.identifier.expected_mass);
   if (found_) {
     if (--settles_in_ > 0) return;
@@ -169,9 +226,11 @@ void Estimates::watch_load(double time) {
     return;
   }
   masses_.push_back(total_mass(tracked_));
+  mean_squares_.push_back(mean_square_);
   if (masses_.size() <= windows_in_recent_) return;
-  const double before = masses_.front();
+  const double before = masses_.front(), square_before = mean_squares_.front();
   masses_.pop_front();
+  mean_squares_.pop_front();
   disagreeing_ = std::abs(now - before) > least ? disagreeing_ + 1 : 0;
   if (disagreeing_ < certain_windows) return;
   const double change = now - before;
@@ -181,8 +240,14 @@ void Estimates::watch_load(double time) {
   settles_in_ = windows_in_recent_;
   disagreeing_ = 0;
   masses_.clear();
+  mean_squares_.clear();
   sliding_.clear();
+  // What the load did to the pulls is no noise.
+  pulls_.clear();
+  mean_square_ = square_before;
+  set_correlation();
   tracker_.loosen();
+  mass_variance_ = total_variance();
 }
 
 }  // namespace shapeid::app

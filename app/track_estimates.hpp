@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <deque>
 #include <optional>
@@ -21,7 +22,6 @@ namespace shapeid::app {
 struct EstimateSettings {
   fast::IdentifierSettings identifier;
   Eigen::VectorXd natural_size;  ///< of the free links' parameters, reference::natural_sizes()
-  double cutoff = 20.0;          ///< Hz, of the filter that the samples went through
   double recent = 0.3;           ///< s, of the longer window
   /// Share of its natural size by which a parameter may wander in a second.
   double wander = 0.02;
@@ -45,15 +45,16 @@ class Estimates {
   /// The next sample does not follow the last one.
   void forget_samples();
   /// So much time went by without a sample that says anything, s.
-  void pass(double seconds) { tracker_.drift(seconds); }
+  void pass(double seconds);
 
   [[nodiscard]] const fast::Identifier& identifier() const { return identifier_; }
   /// By the last tenths of a second, within the cone of the shapes; 10 a free link.
   [[nodiscard]] const Eigen::VectorXd& recent() const { return recent_; }
   /// By the Kalman filter, within the cone of the shapes; 10 a free link.
   [[nodiscard]] const Eigen::VectorXd& tracked() const { return tracked_; }
-  /// Of the tracked total mass, kg.
-  [[nodiscard]] double mass_error() const;
+  /// Of the tracked total mass, kg: by the noise of the rows it comes from, and by what the mass
+  /// may have wandered while nothing was said about it.
+  [[nodiscard]] double mass_error() const { return std::sqrt(mass_variance_); }
   /// Found at the last window that was answered.
   [[nodiscard]] const std::optional<LoadChange>& load_change() const { return change_; }
 
@@ -65,10 +66,15 @@ class Estimates {
     archive("tracker", tracker_);
     archive("recent", recent_);
     archive("tracked", tracked_);
+    archive("mass_variance", mass_variance_);
     archive("noise", noise_);
     archive("windows", windows_);
+    archive("correlation", correlation_);
+    archive("mean_square", mean_square_);
+    archive("pulls", pulls_);
     archive("rows", rows_);
     archive("masses", masses_);
+    archive("mean_squares", mean_squares_);
     archive("disagreeing", disagreeing_);
     archive("found", found_);
     archive("settles_in", settles_in_);
@@ -77,6 +83,10 @@ class Estimates {
  private:
   void take_window(double time);
   void learn_noise();
+  void learn_correlation();
+  void set_correlation();
+  void measure();
+  [[nodiscard]] double total_variance() const;
   [[nodiscard]] bool solve(const Eigen::MatrixXd& R, Eigen::VectorXd& Phi);
   [[nodiscard]] double recent_variance() const;
   void watch_load(double time);
@@ -104,11 +114,15 @@ class Estimates {
   fast::ParameterTracker tracker_;
   fast::MassSolver solver_;
   Eigen::VectorXd recent_, tracked_;
-  double noise_ = 0.0;           ///< variance of a row, running mean
-  std::size_t windows_ = 0;      ///< that noise_ is made of
-  double rows_ = 0.0;            ///< free of contact forces, since the window began
-  std::deque<double> masses_;    ///< kg, tracked, of as many windows as the longer one has
-  std::size_t disagreeing_ = 0;  ///< windows in a row
+  double mass_variance_;             ///< kg^2, mass_error()
+  double noise_ = 0.0;               ///< variance of a row, running mean
+  std::size_t windows_ = 0;          ///< that noise_ is made of
+  double mean_square_ = 0.0;         ///< of the pulls of windows, running: learn_correlation()
+  std::deque<double> pulls_;         ///< of the windows of a stance, newest first
+  double rows_ = 0.0;                ///< free of contact forces, since the window began
+  std::deque<double> masses_;        ///< kg, tracked, of as many windows as the longer one has
+  std::deque<double> mean_squares_;  ///< of the same windows
+  std::size_t disagreeing_ = 0;      ///< windows in a row
   std::optional<Found> found_;
   std::size_t settles_in_ = 0;  ///< windows
   std::optional<LoadChange> change_;

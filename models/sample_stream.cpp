@@ -32,6 +32,8 @@ SampleStream::SampleStream(std::string path, const ChannelPlan& plan, const Robo
 
 void SampleStream::push(const MeasuredRow& row) {
   if (grid_) return take(row);
+  // Rows of two clocks tell no rate; those on either side of a gap do, which the grid will see.
+  if (!head_.empty() && !(row.time > head_.back().time)) head_.clear();
   head_.push_back(row);
   if (head_.size() < head_rows) return;
   learn_rate();
@@ -53,11 +55,7 @@ void SampleStream::prepare() {
 }
 
 void SampleStream::restart() {
-  if (!grid_) {
-    head_.clear();  // rows of two clocks tell no rate
-    return;
-  }
-  grid_.emplace(rate_, longest_step_);
+  if (grid_) grid_.emplace(rate_, longest_step_);
 }
 
 void SampleStream::take(const MeasuredRow& row) {

@@ -1,0 +1,48 @@
+// The interval that `track` states holds the truth as often as it says.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "shapeid/tests/track/logs.hpp"
+
+namespace shapeid::test {
+namespace {
+
+using nlohmann::json;
+
+// kg, of the bundled base, and what is put on it.
+constexpr double empty = 5.48, load = 1.5;
+// s, when it is put on and taken off; and for how long after that an estimate is on its way.
+constexpr double on = 2.5, off = 4.5, settled = 1.0;
+// Of 95 percent intervals. Errors of lines less than a third of a second apart are not independent:
+// six runs are worth about 60 intervals, of which 95 percent hold the truth to within 2.8 percent
+// (one standard deviation of the binomial distribution). Two of these to either side, and no more
+// than 99: an interval that always holds says less than it knows.
+constexpr double fewest = 0.90, most = 0.99;
+
+TEST(TrackInterval, HoldsTheTruthAsOftenAsItSays) {
+  int held = 0, count = 0;
+  for (int seed = 31; seed <= 36; ++seed) {
+    const std::vector<json> lines = tracked(
+        simulated("interval", fmt::format("--seconds 6.5 --rate 500 --seed {} --load {} 0.02 -0.01 "
+                                          "0.078 --load-from {} --load-until {}",
+                                          seed, load, on, off)));
+    for (const json& line : lines) {
+      const double time = line.at("time").get<double>();
+      const bool loaded = time >= on && time < off;
+      if (time - (time >= off ? off : loaded ? on : 0.0) < settled) continue;
+      const double truth = empty + (loaded ? load : 0.0);
+      const json& interval = line.at("mass").at("interval");
+      ++count;
+      if (interval[0].get<double>() <= truth && truth <= interval[1].get<double>()) ++held;
+    }
+  }
+  fmt::print("the truth in {} of {} intervals\n", held, count);
+  ASSERT_GT(count, 900);
+  EXPECT_GE(held, fewest * count);
+  EXPECT_LE(held, most * count);
+}
+
+}  // namespace
+}  // namespace shapeid::test
