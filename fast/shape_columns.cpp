@@ -9,6 +9,8 @@ namespace {
 
 /// What a barred shape's price is lowered by. Prices lie in [-1, 1].
 constexpr float barred = 1e30F;
+/// And what no price reaches, unless products overflowed.
+constexpr float no_price = 2.0F;
 
 /// What rounding to single precision may do to a price: thirteen roundings (ten products, the two
 /// operands, the scale) of terms whose sizes add up to one.
@@ -146,6 +148,11 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
       odd += chunk.U.col(i + 1) * gl[i + 1];
     }
     const Best here = best_of((even + odd) * chunk.scale - chunk.barrier);
+    if (!(here.price <= no_price)) {
+      // A float overflowed, and may stand above the barrier: double decides.
+      uncertain_.push_back(c);
+      continue;
+    }
     if (here.price > -uncertain) uncertain_.push_back(c);
     const int shape = chunk.shape[here.lane];
     best_.push_back({shape, here.price});
