@@ -80,6 +80,16 @@ std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichMod
   return list;
 }
 
+double periods_told_apart(const Recording& log, const AppliedEffect& effect) {
+  if (effect.effect->id != "cogging") return 1.0;
+  const auto [least, most] = std::minmax_element(
+      log.samples().begin(), log.samples().end(),
+      [&](const Sample& a, const Sample& b) { return a.q[effect.site] < b.q[effect.site]; });
+  const ShapeNumber& N = effect.effect->shape.front();
+  constexpr double pi = 3.14159265358979323846;
+  return std::max(1.0, (N.upper - N.lower) * (most->q[effect.site] - least->q[effect.site]) / pi);
+}
+
 Term term_of(const Robot& robot, const Tally& tally, std::size_t hypothesis) {
   const AppliedEffect& h = tally.hypotheses[hypothesis];
   Term term;
@@ -101,7 +111,7 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
     const AppliedEffect& h = tally.hypotheses[k];
     if (rule.excluded(h)) continue;
     if (!rule.transformations && h.effect->transform.any()) continue;
-    Candidate c{h, term_of(robot, tally, k), rule.came_since(h), {}};
+    Candidate c{h, term_of(robot, tally, k), rule.came_since(h), {}, rule.choices(h)};
     if (!c.since_reference) list.push_back(c);
     if (rule.has_reference) {
       c.since_reference = true;

@@ -22,12 +22,16 @@ namespace shapeid::diagnosis {
 /// The columns of one of the tally's hypotheses.
 [[nodiscard]] Term term_of(const Robot& robot, const Tally& tally, std::size_t hypothesis);
 
+/// How many periods of a ripple at its joint the log tells apart; 1 for what is no ripple.
+[[nodiscard]] double periods_told_apart(const Recording& log, const AppliedEffect& effect);
+
 struct CandidateRule {
   std::vector<int> free_links;   ///< a load that is always there cannot be told from these
   bool has_reference = false;    ///< what came since the reference log is a hypothesis of its own
   bool transformations = false;  ///< whether effects that are no columns are tried
   std::function<bool(const AppliedEffect&)> excluded;
   std::function<bool(const AppliedEffect&)> came_since;  ///< found already, as that
+  std::function<double(const AppliedEffect&)> choices;   ///< Candidate::choices
 };
 
 /// The tally's hypotheses at their places, the same effect at every joint together (what every

@@ -71,9 +71,9 @@ std::vector<std::optional<Variation>> variations(const BlockFits& fits,
                                                  const Eigen::VectorXd& own_gain) {
   const Tally& tally = fits.tally();
   std::vector<std::optional<Variation>> result(tally.hypotheses.size());
-  std::size_t tried = 0;
+  double tried = 0.0;
   for (const Modulation& m : tally.modulations) {
-    tried += static_cast<std::size_t>(tally.hypotheses[m.hypothesis].value.size());
+    tried += static_cast<double>(tally.hypotheses[m.hypothesis].value.size());
   }
   const double least = limit_for(least_z(false_alarms, tried), fits.held_blocks());
   const Eigen::VectorXd before = fits.held_out(terms);

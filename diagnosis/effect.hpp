@@ -51,7 +51,8 @@ struct Instant {
   /// Predicted joint torques of the rigid links, with contact forces from the base's balance
   /// (predicted_load()), n. Contains no measured torque on a floating base.
   const Eigen::VectorXd& load;
-  double elapsed = 0.0;  ///< s since the log's first sample
+  const Eigen::VectorXd& load_rate;  ///< its change a second, n (Effect::needs_load_rate)
+  double elapsed = 0.0;              ///< s since the log's first sample
 };
 
 /// An instant with its neighbours: `at(dt)` is the sample dt seconds later, interpolated. dt stays
@@ -109,6 +110,8 @@ struct Effect {
   bool (*applies)(const Robot&, int site) = nullptr;
   /// What it adds per unit of each parameter: dof x parameters.
   Eigen::MatrixXd (*columns)(const Instant&, int site, const Eigen::VectorXd& shape) = nullptr;
+  /// The columns use Instant::load_rate, which costs two more instants each.
+  bool needs_load_rate = false;
   /// Instead of columns.
   Transformation transform;
   /// The columns are the link's own ten of Y, at all times or from the onset (its shape number) on.
@@ -127,6 +130,7 @@ struct Effect {
 struct PredictedLoad {
   Eigen::VectorXd force;  ///< contact rows of J
   Eigen::VectorXd joint;  ///< n
+  Eigen::VectorXd rate;   ///< of `joint`, 1/s, n; zero where nobody asks for it
 };
 [[nodiscard]] PredictedLoad predicted_load(const Robot& robot, const Eigen::VectorXd& applied,
                                            const Eigen::VectorXd& YPhi, const Eigen::MatrixXd& J);

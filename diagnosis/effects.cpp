@@ -8,8 +8,8 @@ const std::vector<Effect>& all_effects() {
   static const std::vector<Effect> effects = {
       // at a joint
       viscous_friction(), coulomb_friction(), stribeck_friction(), load_friction(), torque_offset(),
-      torque_gain(), rotor_inertia(), rotor_reaction(), joint_spring(), encoder_offset(), cogging(),
-      link_length(),
+      torque_gain(), torque_lag(), rotor_inertia(), rotor_reaction(), joint_spring(),
+      encoder_offset(), cogging(), link_length(),
       // of the whole log
       torque_delay(), imu_delay(), gravity_tilt(),
       // at the accelerometer

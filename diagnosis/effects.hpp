@@ -31,6 +31,7 @@ Effect rotor_reaction();
 Effect stribeck_friction();
 Effect torque_delay();
 Effect torque_gain();
+Effect torque_lag();
 Effect torque_offset();
 Effect viscous_friction();
 

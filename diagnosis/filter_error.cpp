@@ -107,6 +107,9 @@ std::vector<Eigen::VectorXd> filter_error(const Viewer& viewer, const RichModel&
     std::vector<View> views;
     for (std::size_t i = begin; i < end; ++i) {
       views.push_back(viewer.view(rough, usable[i]));
+      // A filtered sample has no neighbours, so the load's rate counts on neither side: of what is
+      // linear in the load the filter makes no error but the load's own.
+      views.back().around.clear();
       const View& view = views.back();
       const Prediction p = predict(viewer, view, model);
       const Eigen::VectorXd f = contact_force(viewer, view, p);

@@ -47,7 +47,9 @@ std::vector<AppliedEffect> all_hypotheses(const Robot& robot) {
 HypothesisColumns::HypothesisColumns(const Robot& robot, reference::ContactTreatment contacts,
                                      const RichModel& model,
                                      const std::vector<AppliedEffect>& hypotheses)
-    : model_(model), hypotheses_(hypotheses), viewer_(robot, contacts, model.effects) {
+    : model_(model),
+      hypotheses_(hypotheses),
+      viewer_(robot, contacts, model.effects, needs_load_rate(hypotheses)) {
   for (const AppliedEffect& h : hypotheses_) {
     first_.push_back(count_);
     count_ += h.value.size();
@@ -85,8 +87,7 @@ Eigen::VectorXd HypothesisColumns::difference(const AppliedEffect& hypothesis, c
 
 Eigen::MatrixXd HypothesisColumns::at(const Recording& recording, std::size_t index,
                                       const View& view, const Prediction& predicted) const {
-  const Instant instant{viewer_.robot(), view.sample,          view.motions,
-                        view.Y,          predicted.load.joint, view.elapsed};
+  const Instant instant = instant_of(viewer_, view, predicted.load);
   Eigen::MatrixXd columns(viewer_.robot().dof(), count_);
   for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
     const AppliedEffect& h = hypotheses_[k];

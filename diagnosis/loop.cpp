@@ -142,6 +142,7 @@ class Loop {
       return is_applied_transformation(h) || is_banned(h);
     };
     rule.came_since = [this](const AppliedEffect& h) { return came_since(h); };
+    rule.choices = [this](const AppliedEffect& h) { return periods_told_apart(log_, h); };
     return candidates(robot_, fits, rule);
   }
 

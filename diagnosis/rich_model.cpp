@@ -1,5 +1,6 @@
 #include "shapeid/diagnosis/rich_model.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "shapeid/reference/contact.hpp"
@@ -18,8 +19,8 @@ AppliedEffect at_start(const Effect& effect, int site) {
 }
 
 Viewer::Viewer(const Robot& robot, reference::ContactTreatment contacts,
-               const std::vector<AppliedEffect>& effects)
-    : robot_(robot), contacts_(contacts) {
+               const std::vector<AppliedEffect>& effects, bool load_rate)
+    : robot_(robot), contacts_(contacts), load_rate_(load_rate || needs_load_rate(effects)) {
   for (const AppliedEffect& a : effects) {
     if (!a.effect->transform.any()) continue;
     transforming_.push_back(a);
@@ -45,6 +46,13 @@ Sample Viewer::moved(const Recording& recording, std::size_t index) const {
 View Viewer::view(const Recording& recording, std::size_t index) const {
   View result = view(moved(recording, index), recording.elapsed(index));
   result.correction = recording.correction(index);
+  if (!load_rate_) return result;
+  for (const double dt : {-neighbour_step, neighbour_step}) {
+    Sample sample = moved(recording, index, dt, transforming_.size());
+    sample.in_contact = result.sample.in_contact;
+    const View near = view(std::move(sample), result.elapsed + dt);
+    result.around.push_back({logged_force(*this, near), near.Y, near.J});
+  }
   return result;
 }
 
@@ -86,16 +94,41 @@ Eigen::VectorXd logged_force(const Viewer& viewer, const View& view) {
   return force;
 }
 
+bool needs_load_rate(const std::vector<AppliedEffect>& effects) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const AppliedEffect& a) { return a.effect->needs_load_rate; });
+}
+
+Instant instant_of(const Viewer& viewer, const View& view, const PredictedLoad& load) {
+  return {viewer.robot(), view.sample, view.motions, view.Y, load.joint, load.rate, view.elapsed};
+}
+
+namespace {
+
+PredictedLoad load_of(const Viewer& viewer, const View& view, const Eigen::VectorXd& Phi) {
+  const auto load = [&](const Eigen::VectorXd& applied, const Eigen::MatrixXd& Y,
+                        const Eigen::MatrixXd& J) {
+    return predicted_load(viewer.robot(), applied, Y * Phi, J);
+  };
+  PredictedLoad now = load(logged_force(viewer, view), view.Y, view.J);
+  if (view.around.size() == 2) {
+    const Neighbour &before = view.around[0], &after = view.around[1];
+    now.rate = (load(after.applied, after.Y, after.J).joint -
+                load(before.applied, before.Y, before.J).joint) /
+               (2.0 * neighbour_step);
+  }
+  return now;
+}
+
+}  // namespace
+
 Prediction predict(const Viewer& viewer, const View& view, const RichModel& model) {
-  return predict(
-      viewer, view, model,
-      predicted_load(viewer.robot(), logged_force(viewer, view), view.Y * model.Phi, view.J));
+  return predict(viewer, view, model, load_of(viewer, view, model.Phi));
 }
 
 Prediction predict(const Viewer& viewer, const View& view, const RichModel& model,
                    const PredictedLoad& load) {
-  const Instant instant{viewer.robot(), view.sample, view.motions,
-                        view.Y,         load.joint,  view.elapsed};
+  const Instant instant = instant_of(viewer, view, load);
   Rows rows{view.Y * model.Phi, view.J};
   for (const AppliedEffect& a : model.effects) {
     if (a.effect->columns != nullptr) {
@@ -108,10 +141,8 @@ Prediction predict(const Viewer& viewer, const View& view, const RichModel& mode
 
 reference::SampleRows mass_rows(const Viewer& viewer, const View& view, const RichModel& model,
                                 const std::vector<int>& free_links) {
-  const PredictedLoad load =
-      predicted_load(viewer.robot(), logged_force(viewer, view), view.Y * model.Phi, view.J);
-  const Instant instant{viewer.robot(), view.sample, view.motions,
-                        view.Y,         load.joint,  view.elapsed};
+  const PredictedLoad load = load_of(viewer, view, model.Phi);
+  const Instant instant = instant_of(viewer, view, load);
   const Eigen::Index sought = 10 * std::ssize(free_links);
   Rows rows{Eigen::MatrixXd(viewer.robot().dof(), sought + 1), view.J};
   Eigen::VectorXd known = model.Phi;

@@ -28,6 +28,12 @@ struct RichModel {
   std::vector<AppliedEffect> effects;
 };
 
+/// What the load is predicted from, a little earlier or later than a view.
+struct Neighbour {
+  Eigen::VectorXd applied;  ///< S^T tau and measured forces, dof
+  Eigen::MatrixXd Y, J;     ///< as in View, with the contacts of the view
+};
+
 /// A sample as the model sees it: transformations done.
 struct View {
   Sample sample;
@@ -36,14 +42,20 @@ struct View {
   Eigen::MatrixXd J;  ///< contact rows x dof, likewise
   double elapsed = 0.0;
   Eigen::VectorXd correction;  ///< Recording::correction()
+  /// neighbour_step s before and after, or empty if nothing needs the load's rate.
+  std::vector<Neighbour> around;
 };
+inline constexpr double neighbour_step = 0.002;  // s: a small part of any filter's reach
 
-/// Prepares views of a robot with the transformations among some effects. The robot must outlive
-/// this.
+/// Whether some of them look at Instant::load_rate.
+[[nodiscard]] bool needs_load_rate(const std::vector<AppliedEffect>& effects);
+
+/// Prepares views of a robot with the transformations among some effects, with neighbours if one of
+/// them needs these or `load_rate` asks for them. The robot must outlive this.
 class Viewer {
  public:
   Viewer(const Robot& robot, reference::ContactTreatment contacts,
-         const std::vector<AppliedEffect>& effects);
+         const std::vector<AppliedEffect>& effects, bool load_rate = false);
 
   [[nodiscard]] View view(const Recording& recording, std::size_t index) const;
   /// Of a sample whose own transformations are done already (moved()).
@@ -63,7 +75,11 @@ class Viewer {
   Robot robot_;
   reference::ContactTreatment contacts_;
   std::vector<AppliedEffect> transforming_;
+  bool load_rate_;
 };
+
+/// Refers to all that it is given.
+[[nodiscard]] Instant instant_of(const Viewer& viewer, const View& view, const PredictedLoad& load);
 
 /// Y Phi + E theta and J with all transformations done: the model's rows before any projection.
 struct Prediction {

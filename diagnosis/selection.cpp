@@ -28,11 +28,9 @@ class Search {
     result_.error_given = fits_.given_error();
     result_.error_rigid = fits_.held_out({masses_});
     limit_ = limit_for(rule_.least_t, fits_.held_blocks());
-    std::size_t parameters = 0;
     for (const Candidate& c : candidates_) {
-      if (c.members.empty()) parameters += c.term.columns.size();
+      if (c.members.empty()) parameters_ += static_cast<double>(c.term.columns.size());
     }
-    least_z_ = limit_for(least_z(rule_.false_alarms, parameters), fits_.held_blocks());
     do {
       while (std::ssize(accepted_) < rule_.most_terms && advance()) {
       }
@@ -113,7 +111,8 @@ class Search {
     if (!candidates_[k].members.empty()) return true;  // judged one by one at the end
     const Eigen::ArrayXd each = fit.value.array() / fit.standard_error.array();
     const double z = effect.is_payload ? each[0] : each.abs().maxCoeff();  // a load has mass
-    if (!(z > least_z_)) return false;
+    const double tried = parameters_ * candidates_[k].choices;
+    if (!(z > limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks()))) return false;
     for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
       const auto at = static_cast<Eigen::Index>(p);
       // The column of a transformation is that of a change.
@@ -275,15 +274,16 @@ class Search {
   const Term& masses_;
   const std::vector<Candidate>& candidates_;
   const SelectionRule& rule_;
-  double limit_ = 0.0, least_z_ = 0.0;
+  double limit_ = 0.0;
+  double parameters_ = 0.0;  ///< of all candidates
   std::vector<std::size_t> accepted_, dropped_;
   Selection result_;
 };
 
 }  // namespace
 
-double least_z(double probability, std::size_t parameters) {
-  const double each = probability / static_cast<double>(std::max<std::size_t>(parameters, 1));
+double least_z(double probability, double parameters) {
+  const double each = probability / std::max(parameters, 1.0);
   double lower = 0.0, upper = 20.0;
   constexpr int halvings = 60;
   for (int i = 0; i < halvings; ++i) {

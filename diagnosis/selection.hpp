@@ -16,6 +16,8 @@ struct Candidate {
   /// Of a group (friction at every joint): candidates that it stands for. Accepted together, judged
   /// one by one at the end.
   std::vector<std::size_t> members;
+  /// Among how many independent ones it was chosen before (periods of a ripple): as many chances.
+  double choices = 1.0;
 };
 
 /// The rule of acceptance. The best hypothesis is accepted if the sum over held-out blocks of its
@@ -73,7 +75,7 @@ struct Selection {
 
 /// Standard errors that none of `parameters` normal numbers of mean zero exceeds, in either
 /// direction, but with this probability.
-[[nodiscard]] double least_z(double probability, std::size_t parameters);
+[[nodiscard]] double least_z(double probability, double parameters);
 
 /// `least_t` with many blocks, more with few: the quantile of Student's t of the same level.
 [[nodiscard]] double limit_for(double least_t, Eigen::Index blocks);

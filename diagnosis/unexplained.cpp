@@ -80,12 +80,19 @@ Waves waves_at(double u) {
 /// The curve of y over x; empty if it does not hold on other blocks. It is judged as a smooth
 /// function of the rank of x with four numbers, because every number costs held-out error, and
 /// filtered samples are few independent ones; it is shown as means of ten bins.
+///
+/// Folds are whole stretches of time. A curve over time itself cannot be judged so: on a stretch at
+/// the end it would have to foretell. Its folds are every sixth block.
+enum class Folds { stretches, interleaved };
 std::optional<Structure> curve(const std::vector<double>& x, const std::vector<double>& y,
-                               double least_t) {
+                               double least_t, Folds kind) {
   const std::vector<double> edges = quantiles(x);
   if (!(edges.back() > edges.front())) return std::nullopt;  // a constant
   const std::vector<double> u = ranks(x);
-  const auto fold_of = [&](std::size_t i) { return (i * blocks / x.size()) * folds / blocks; };
+  const auto fold_of = [&](std::size_t i) {
+    const std::size_t block = i * blocks / x.size();
+    return kind == Folds::stretches ? block * folds / blocks : block % folds;
+  };
   using Normal = Eigen::Matrix<double, waves, waves>;
   std::vector<Normal> normal(folds, Normal::Zero());
   std::vector<Waves> target(folds, Waves::Zero());
@@ -140,11 +147,11 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
       for (const std::size_t i : places) x.push_back(of(recording[series.index[i]], i));
       return x;
     };
-    const auto best_of = [&](auto&& candidates) {
+    const auto best_of = [&](auto&& candidates, Folds folds = Folds::stretches) {
       std::optional<Structure> best;
       for (const auto& [name, x] : candidates) {
         if (std::any_of(x.begin(), x.end(), [](double v) { return std::isnan(v); })) continue;
-        std::optional<Structure> c = curve(x, y, least_t);
+        std::optional<Structure> c = curve(x, y, least_t, folds);
         if (!c || (best && best->share >= c->share)) continue;
         best = c;
         best->joint = robot.joint(j).name;
@@ -152,8 +159,21 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
       }
       if (best) found.push_back(*best);
     };
+    // What lags or yields follows how the torque changes. (Its second difference would not do:
+    // noise of the motion is in it and in the residual.) A difference over one sample of the
+    // series.
+    const auto torque_rate = [&](const Sample&, std::size_t i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const Eigen::Index before = std::max<Eigen::Index>(at - 1, 0);
+      const Eigen::Index after = std::min(at + 1, series.residual.cols() - 1);
+      const auto when = [&](Eigen::Index k) {
+        return recording[series.index[static_cast<std::size_t>(k)]].time;
+      };
+      return (series.predicted(row, after) - series.predicted(row, before)) /
+             (when(after) - when(before));
+    };
     using Named = std::vector<std::pair<std::string, std::vector<double>>>;
-    Named position, velocity, acceleration, torque, time, extra;
+    Named position, velocity, acceleration, torque, rate, time, extra;
     for (int k = 0; k < robot.joint_count(); ++k) {
       const std::string& name = robot.joint(k).name;
       position.emplace_back("q." + name, signal([k](const Sample& s, auto) { return s.q[k]; }));
@@ -166,14 +186,16 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
     torque.emplace_back("tau." + own, signal([&](const Sample&, std::size_t i) {
                           return series.predicted(row, static_cast<Eigen::Index>(i));
                         }));
+    rate.emplace_back("dtau." + own, signal(torque_rate));
     time.emplace_back("time", signal([](const Sample& s, auto) { return s.time; }));
     for (std::size_t e = 0; e < recording.extra().size(); ++e) {
       extra.emplace_back(recording.extra()[e],
                          signal([e](const Sample& s, auto) { return s.extra[e]; }));
     }
-    for (const Named& kind : {position, velocity, acceleration, torque, time, extra}) {
+    for (const Named& kind : {position, velocity, acceleration, torque, rate, extra}) {
       best_of(kind);
     }
+    best_of(time, Folds::interleaved);
   }
   std::sort(found.begin(), found.end(),
             [](const Structure& a, const Structure& b) { return a.share > b.share; });

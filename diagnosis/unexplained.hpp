@@ -12,7 +12,8 @@ namespace shapeid::diagnosis {
 /// A curve of the residual of one joint over one signal.
 struct Structure {
   std::string joint;
-  std::string variable;  ///< "q.knee", "dq.hip", "ddq.knee", "tau.knee", "time", or a log column
+  std::string variable;  ///< "q.knee", "dq.hip", "ddq.knee", "tau.knee", its "dtau.knee" and
+                         ///< "ddtau.knee", "time", or a log column
   /// Of the joint's residual variance, on blocks that were not used; of an effect whose number
   /// follows the signal: of what that effect is worth.
   double share = 0.0;

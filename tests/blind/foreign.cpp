@@ -75,15 +75,22 @@ void warm_offset(Ingredients& in, const Machine&, const Amount& a) {
   });
 }
 
-/// The torque of one drive goes through a slow filter of its own; size is its time constant, s.
-void slow_torque(Ingredients& in, const Machine&, const Amount& a) {
+/// Oil that is churned: friction with the square of speed. Its slope is viscous.
+void churning(Ingredients& in, const Machine&, const Amount& a) {
   in.signals.emplace_back([a](Readings& readings) {
-    double state = readings.front().sample.tau[a.site];
-    for (std::size_t i = 1; i < readings.size(); ++i) {
-      const double dt = readings[i].sample.time - readings[i - 1].sample.time;
-      double& tau = readings[i].sample.tau[a.site];
-      state += (tau - state) * (1.0 - std::exp(-dt / a.size));
-      tau = state;
+    for (Reading& r : readings) {
+      const double dq = r.sample.dq[a.site];
+      r.sample.tau[a.site] += a.size * dq * std::abs(dq);
+    }
+  });
+}
+
+/// A gear that is lossy when the torque is positive: half of it is a gain.
+void one_sided_gain(Ingredients& in, const Machine&, const Amount& a) {
+  in.signals.emplace_back([a](Readings& readings) {
+    for (Reading& r : readings) {
+      double& tau = r.sample.tau[a.site];
+      if (tau > 0.0) tau *= 1.0 + a.size;
     }
   });
 }
@@ -120,8 +127,9 @@ std::vector<Kind> foreign_kinds() {
       make("hysteresis", 1.0, hysteresis, {"coulomb_friction", "joint_spring"}),
       make("saturation", 0.3, saturation),
       make("warm_offset", 0.6, warm_offset, {"torque_offset"}),
-      make("slow_torque", 0.008, slow_torque),
       make("uneven_friction", 0.5, uneven_friction, {"coulomb_friction"}),
+      make("churning", 0.3, churning, {"viscous_friction"}),
+      make("one_sided_gain", 0.1, one_sided_gain, {"torque_gain"}),
       make("soft_ground", 8.0, soft_ground),
   };
   for (Kind& k : all) {

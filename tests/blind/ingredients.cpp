@@ -74,6 +74,18 @@ void torque_offset(Ingredients& in, const Machine&, const Amount& a) {
 void torque_gain(Ingredients& in, const Machine&, const Amount& a) {
   change_each(in, [a](Reading& r) { r.sample.tau[a.site] *= 1.0 + a.size; });
 }
+/// The drive reports its torque through a filter of first order; size is its time constant, s.
+void torque_lag(Ingredients& in, const Machine&, const Amount& a) {
+  in.signals.emplace_back([a](Readings& readings) {
+    double state = readings.front().sample.tau[a.site];
+    for (std::size_t i = 1; i < readings.size(); ++i) {
+      const double dt = readings[i].sample.time - readings[i - 1].sample.time;
+      double& tau = readings[i].sample.tau[a.site];
+      state += (tau - state) * (1.0 - std::exp(-dt / a.size));
+      tau = state;
+    }
+  });
+}
 void encoder_offset(Ingredients& in, const Machine&, const Amount& a) {
   change_each(in, [a](Reading& r) { r.sample.q[a.site] -= a.size; });
 }
@@ -206,6 +218,7 @@ std::vector<Kind> list() {
       make("rotor_reaction", Place::joint, false, 0.002, rotor_reaction, one),
       make("torque_offset", Place::joint, false, 0.3, torque_offset, one),
       make("torque_gain", Place::joint, false, 0.1, torque_gain, one),
+      make("torque_lag", Place::joint, false, 0.008, torque_lag, one),
       make("encoder_offset", Place::joint, false, 0.02, encoder_offset, one),
       make("torque_delay", Place::whole, false, 0.004, torque_delay, one),
       make("imu_delay", Place::whole, false, 0.004, imu_delay, one),
@@ -224,6 +237,7 @@ std::vector<Kind> list() {
   for (Kind& k : all) {
     k.largest = 12.0 * k.nominal;
     if (k.id == "torque_delay" || k.id == "imu_delay") k.largest = 0.015;  // s
+    if (k.id == "torque_lag") k.largest = 0.03;                            // s
     if (k.id == "torque_gain") k.largest = 0.6;
     if (k.id == "link_length" || k.id == "contact_point") k.largest = 0.05;  // m
     if (k.id == "payload" || k.id == "payload_from") k.largest = 3.0;        // kg

@@ -179,9 +179,10 @@ Eigen::MatrixXd unit_change(const Machine& machine, const Item& item,
   effect.value.setZero();
   const diagnosis::HypothesisColumns columns(machine.robot, contacts(machine), truth, {effect});
   for (std::size_t i = 0; i < indices.size(); ++i) {
-    const View view = viewer.view(clean, indices[i]);
+    const View view = columns.viewer().view(clean, indices[i]);
+    const diagnosis::Prediction predicted = diagnosis::predict(columns.viewer(), view, truth);
     change.col(static_cast<Eigen::Index>(i)) =
-        columns.at(clean, indices[i], view, diagnosis::predict(viewer, view, truth)) * value;
+        columns.at(clean, indices[i], view, predicted) * value;
   }
   return change;
 }

@@ -24,8 +24,11 @@ struct Scene {
     J = reference::contact_jacobian(robot, sample);
     Phi = stacked_parameters(robot);
     load = predicted_load(robot, reference::applied_force(robot, sample), Y * Phi, J).joint;
+    load_rate = load.array().sin();  // any numbers
   }
-  [[nodiscard]] Instant instant() const { return {robot, sample, motions, Y, load, 2.0}; }
+  [[nodiscard]] Instant instant() const {
+    return {robot, sample, motions, Y, load, load_rate, 2.0};
+  }
   [[nodiscard]] Eigen::MatrixXd columns(const Effect& e, int site) const {
     Eigen::VectorXd shape(static_cast<Eigen::Index>(e.shape.size()));
     for (std::size_t i = 0; i < e.shape.size(); ++i) {
@@ -38,7 +41,7 @@ struct Scene {
   Sample sample;
   std::vector<reference::LinkMotion> motions;
   Eigen::MatrixXd Y, J;
-  Eigen::VectorXd Phi, load;
+  Eigen::VectorXd Phi, load, load_rate;
 };
 
 Scene any_scene(Root root) {
@@ -78,6 +81,7 @@ double joint_equation(const std::string& id, const Scene& s, int j, int paramete
   if (id == "load_friction") {
     return std::abs(s.load[j]) * (1.0 - 2.0 / (std::exp(2.0 * dq / width) + 1.0));
   }
+  if (id == "torque_lag") return -s.load_rate[j];
   if (id == "torque_offset") return 1.0;
   if (id == "rotor_inertia") return ddq;
   if (id == "joint_spring") return parameter == 0 ? q : 1.0;

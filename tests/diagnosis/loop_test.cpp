@@ -66,6 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, OneEffect,
                                            Truth{"coulomb_friction", "joint3", 2, {0.4}},
                                            Truth{"torque_offset", "joint1", 0, {0.3}},
                                            Truth{"cogging", "joint1", 0, {0.3, 0.2}},
+                                           Truth{"torque_lag", "joint2", 1, {0.01}},
                                            Truth{"torque_delay", "all", 0, {0.012}}),
                          [](const auto& one) { return one.param.id; });
 

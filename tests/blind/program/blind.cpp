@@ -1,4 +1,4 @@
-// blind generate FOLDER, blind score FOLDER: the two ends of ./run blind. Between them the
+// blind generate FOLDER, blind score FOLDER...: the two ends of ./run blind. Between them the
 // diagnosis sees what is in FOLDER/trial*/ but sealed.json.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -53,12 +53,18 @@ Scored score_trial(const fs::path& folder) {
   return s;
 }
 
-void score(const std::string& folder) {
+void score(const std::vector<std::string>& folders) {
   std::vector<fs::path> trials;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (fs::exists(entry.path() / "sealed.json")) trials.push_back(entry.path());
+  for (const std::string& folder : folders) {
+    const auto before = std::ssize(trials);
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      // Made, but not diagnosed yet: a run that was stopped is scored as far as it came.
+      const bool complete =
+          fs::exists(entry.path() / "sealed.json") && fs::exists(entry.path() / "result.json");
+      if (complete) trials.push_back(entry.path());
+    }
+    std::sort(trials.begin() + before, trials.end());
   }
-  std::sort(trials.begin(), trials.end());
   std::vector<Scored> all;
   std::string lines;
   for (const fs::path& trial : trials) {
@@ -93,7 +99,8 @@ int main(int argc, char** argv) {
   generating->add_option("--ratio", options.ratio, "times the detectable size (default: drawn)");
   generating->add_option("--only", options.only, "this kind alone, or clean");
   CLI::App* scoring = app.add_subcommand("score", "opens the seals and prints the tables");
-  scoring->add_option("folder", folder)->required();
+  std::vector<std::string> folders;
+  scoring->add_option("folders", folders, "all in one table")->required();
   CLI11_PARSE(app, argc, argv);
   try {
     if (generating->parsed()) {
@@ -102,7 +109,7 @@ int main(int argc, char** argv) {
       });
       fmt::print(stderr, "\n");
     } else {
-      score(folder);
+      score(folders);
     }
   } catch (const std::exception& e) {
     fmt::print(stderr, "blind: {}\n", e.what());
