@@ -13,8 +13,9 @@
 namespace shapeid::app {
 namespace {
 
-/// Bytes: a thousand rows and ten thousand shapes fit several times.
-constexpr std::size_t largest_file = std::size_t{1} << 28U;
+/// Bytes: a thousand rows and ten thousand shapes fit. As JSON a file takes up to twenty times its
+/// size.
+constexpr std::size_t largest_file = std::size_t{1} << 26U;
 
 struct Options {
   std::string problem, answer, certificate, out;

@@ -12,6 +12,9 @@
 namespace shapeid::app {
 namespace {
 
+// Bytes: no answer to any vector has a thousandth of it.
+constexpr std::size_t longest_answer = std::size_t{1} << 26U;
+
 constexpr const char* what_is_right = "a program that answers each line with one line";
 
 }  // namespace
@@ -66,6 +69,10 @@ std::string ForeignProgram::ask(const std::string& line, int patience) {
     const ssize_t count = read(from_, buffer.data(), buffer.size());
     if (count <= 0) throw InputError(command_ + ": ended without an answer", what_is_right);
     unread_.append(buffer.data(), static_cast<std::size_t>(count));
+    if (unread_.size() > longest_answer) {
+      kill(child_, SIGTERM);
+      throw InputError(command_ + ": answers with an endless line", what_is_right);
+    }
     end = unread_.find('\n');
   }
   const std::string answer = unread_.substr(0, end);

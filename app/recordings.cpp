@@ -3,11 +3,18 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::app {
+namespace {
+
+// Half an hour at 500 Hz: about a gigabyte for a quadruped.
+constexpr std::size_t most_samples = 1000000;
+
+}  // namespace
 
 RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
                            const MotionInputs& inputs, std::optional<Part> wanted) {
@@ -16,6 +23,11 @@ RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
   std::optional<double> start;
   while (std::optional<Sample> sample = log.next()) {
     if (!start) start = sample->time;
+    if (samples.size() == most_samples) {
+      throw InputError({path},
+                       fmt::format("more than {} samples, all of which are held", most_samples),
+                       "half an hour says no less: give a shorter stretch");
+    }
     if (!wanted || part_of(sample->time - *start) == *wanted) samples.push_back(*sample);
   }
   const MotionReport& report = log.report();

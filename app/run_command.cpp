@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <system_error>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/text.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -15,7 +17,8 @@ namespace {
 constexpr int no = 1, bad_input = 2, our_defect = 3;
 
 int complain(const std::string& message, int status) {
-  fmt::print(stderr, "shapeid: {}\n", message);
+  constexpr std::size_t longest = 2000;  // bytes: a screen
+  fmt::print(stderr, "shapeid: {}\n", one_line(message, longest));
   return status;
 }
 

@@ -2,6 +2,8 @@
 // same list saves and restores: the two cannot get out of step.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 
 #include <cmath>
@@ -12,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "shapeid/models/error.hpp"
@@ -117,7 +120,7 @@ class StateReader {
     if constexpr (std::is_default_constructible_v<T>) {
       if (!value) value.emplace();
     }
-    if (!value) throw InputError("the state has a part that these options do not make", "");
+    if (!value) refuse("has a part that these options do not make");
     decode(json, *value);
   }
   template <class T>
@@ -130,8 +133,7 @@ class StateReader {
         values.push_back(std::move(value));
       }
     } else {  // made by the constructor: as many as there are
-      if (json.size() != values.size())
-        throw InputError("a list of the state has another size", "");
+      if (json.size() != values.size()) refuse("has a list of another size");
       for (std::size_t i = 0; i < values.size(); ++i) decode(json.at(i), values[i]);
     }
   }
@@ -148,14 +150,27 @@ class StateReader {
   static void decode(const nlohmann::json& json, Eigen::Matrix<double, rows, columns>& matrix) {
     std::vector<double> numbers;
     decode(json.at("values"), numbers);
-    matrix.resize(json.at("rows").get<Eigen::Index>(), json.at("columns").get<Eigen::Index>());
-    if (static_cast<Eigen::Index>(numbers.size()) != matrix.size()) {
-      throw InputError("a matrix of the state has another size", "");
-    }
+    const auto height = json.at("rows").get<std::size_t>();
+    const auto width = json.at("columns").get<std::size_t>();
+    const bool complete = width == 0
+                              ? numbers.empty()
+                              : numbers.size() % width == 0 && height == numbers.size() / width;
+    // A size that the type or the constructor gave stays: what was made with it relies on it.
+    const bool fits_type = (rows == Eigen::Dynamic || std::cmp_equal(height, rows)) &&
+                           (columns == Eigen::Dynamic || std::cmp_equal(width, columns));
+    const bool as_made = matrix.size() == 0 || (std::cmp_equal(height, matrix.rows()) &&
+                                                std::cmp_equal(width, matrix.cols()));
+    if (!complete || !fits_type || !as_made) refuse("has a matrix of another size");
+    matrix.resize(static_cast<Eigen::Index>(height), static_cast<Eigen::Index>(width));
     std::copy(numbers.begin(), numbers.end(), matrix.data());
   }
 
  private:
+  [[noreturn]] static void refuse(const char* wrong) {
+    throw InputError(fmt::format("the state of the checkpoint {}", wrong),
+                     "resume with the options that it was written with");
+  }
+
   const nlohmann::json& object_;
 };
 

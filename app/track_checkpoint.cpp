@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
+#include <cstddef>
 
 #include "shapeid/app/track_archive.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
 #include "shapeid/models/strict_json.hpp"
+#include "shapeid/models/text.hpp"
 #include "shapeid/models/version.hpp"
 
 namespace shapeid::app {
@@ -16,7 +16,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* format = "shapeid-checkpoint-2";
+constexpr const char* format = "shapeid-checkpoint-3";
+constexpr const char* what_is_right = "give a checkpoint that --checkpoint wrote";
+
+/// Bytes: an hour of windows of a whole robot fits; beyond it something else was named.
+constexpr std::size_t largest_checkpoint = std::size_t{1} << 30U;
 
 json rows_of(const Eigen::MatrixXd& M) { return matrix_json(M); }
 
@@ -40,8 +44,12 @@ json robot_json(const Robot& robot) {
 }
 
 InputError not_whole(const std::string& path, const json::exception& e) {
-  return {Place{path}, fmt::format("is no whole checkpoint ({})", e.what()),
-          "give a checkpoint that --checkpoint wrote"};
+  return {Place{path}, fmt::format("is no whole checkpoint ({})", e.what()), what_is_right};
+}
+
+/// Tells a damaged file from a whole one. Whoever means to deceive can compute it as well.
+std::string damage_digest(const json& log, const json& state) {
+  return digest(log.dump() + state.dump());
 }
 
 }  // namespace
@@ -76,30 +84,31 @@ std::string setup_digest(const RobotInputs& robot, const BodyModel& model,
 
 void write_checkpoint(const std::string& path, TrackRun& run, const LogPosition& position,
                       const std::string& setup) {
-  const json document = {
-      {"format", format},
-      {"software", fmt::format("shapeid {}", version)},
-      {"setup", setup},
-      {"lines", run.lines()},
-      {"log",
-       {{"header", position.header}, {"next_byte", position.next_byte}, {"line", position.line}}},
-      {"state", StateWriter::encode(run)}};
+  const json log = {
+      {"header", position.header}, {"next_byte", position.next_byte}, {"line", position.line}};
+  const json state = StateWriter::encode(run);
+  const json document = {{"format", format},
+                         {"software", fmt::format("shapeid {}", version)},
+                         {"setup", setup},
+                         {"lines", run.lines()},
+                         {"log", log},
+                         {"state", state},
+                         {"digest", damage_digest(log, state)}};
   write_file(path, document.dump() + "\n");
 }
 
 Checkpoint read_checkpoint(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    throw InputError({path}, "cannot be opened", "give a checkpoint that --checkpoint wrote");
-  }
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const JsonSource source{path, "docs/formats/track.md"};
+  Checkpoint checkpoint{path, parse_json(read_small_file(path, largest_checkpoint), source), {}};
   try {
-    Checkpoint checkpoint{path, json::parse(text), {}};
     if (checkpoint.document.at("format") != format) {
       throw InputError({path}, fmt::format("is not of format {}", format),
                        "give a checkpoint that this version wrote");
     }
     const json& log = checkpoint.document.at("log");
+    if (checkpoint.document.at("digest") != damage_digest(log, checkpoint.document.at("state"))) {
+      throw InputError({path}, "is damaged: its digest differs", what_is_right);
+    }
     checkpoint.position = {log.at("header").get<std::string>(),
                            log.at("next_byte").get<std::uint64_t>(), log.at("line").get<int>()};
     return checkpoint;

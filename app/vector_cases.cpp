@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/problem_json.hpp"
@@ -35,16 +36,20 @@ std::optional<std::vector<double>> number_list(const json& value) {
 void compare_numbers(const std::string& name, const json& expected, const json& within,
                      const json& output, Sentences& found) {
   const auto observed = number_list(output.contains(name) ? output[name] : json());
-  if (!observed || observed->size() != expected.size()) {
-    found.push_back(fmt::format("{} is not a list of {} finite numbers", name, expected.size()));
+  const JsonSource source{"vector", manual};
+  const Eigen::VectorXd wanted = numbers(expected, name, source);
+  const Eigen::VectorXd bounds =
+      within.is_array() ? numbers(within, name, source)
+                        : Eigen::VectorXd::Constant(wanted.size(), number(within, name, source));
+  if (!observed || std::cmp_not_equal(observed->size(), wanted.size())) {
+    found.push_back(fmt::format("{} is not a list of {} finite numbers", name, wanted.size()));
     return;
   }
-  for (std::size_t i = 0; i < observed->size(); ++i) {
-    const double wanted = expected[i].get<double>(),
-                 allowed = (within.is_array() ? within[i] : within).get<double>();
-    if (std::abs((*observed)[i] - wanted) <= allowed) continue;
+  for (Eigen::Index i = 0; i < wanted.size(); ++i) {
+    const double here = (*observed)[static_cast<std::size_t>(i)];
+    if (std::abs(here - wanted[i]) <= bounds[i]) continue;
     found.push_back(fmt::format("{}[{}]: observed {:.17g}, expected {:.17g} within {:.1e}", name, i,
-                                (*observed)[i], wanted, allowed));
+                                here, wanted[i], bounds[i]));
   }
 }
 
@@ -62,28 +67,87 @@ void judge_masses(const json& vector, const json& output, Sentences& found) {
   const Answer answer{problem_digest(problem), m, problem.masses.U * m,
                       objective(problem.masses, m).total()};
   certificate::Tolerance tolerance;
-  tolerance.gap = vector["expected"]["certified_gap"].get<double>();
+  tolerance.gap = number(vector["expected"]["certified_gap"], "certified_gap", {"vector", manual});
   for (const std::string& reason : certify(problem, answer, tolerance).reasons) {
     found.push_back(reason);
   }
 }
 
+/// Throws InputError unless there is a bound, or one each, for a list of numbers.
+void check_expectation(const std::string& name, const json& expected, const json& within,
+                       const JsonSource& source) {
+  const Eigen::VectorXd wanted = numbers(expected, name, source);
+  if (!within.is_object()) throw InputError({source.name, 0, "within"}, "not an object", "bounds");
+  const json& bound = member(within, name, source);
+  if (!bound.is_array()) {
+    static_cast<void>(number(bound, name, source));
+  } else if (numbers(bound, name, source).size() != wanted.size()) {
+    throw InputError({source.name, 0, name}, "has as many bounds as numbers", "one, or one each");
+  }
+}
+
+void check_case(const json& vector, const std::string& kind, const JsonSource& source) {
+  check_keys(vector, kind, source, {"id", "flags", "input", "expected", "within"});
+  static_cast<void>(text(member(vector, "id", source), "id", source));
+  const json& flags = member(vector, "flags", source);
+  if (!flags.is_array() && !flags.is_null()) {
+    throw InputError({source.name, 0, "flags"}, "not a list", "names, or null");
+  }
+  for (const json& flag : flags) static_cast<void>(text(flag, "flags", source));
+  const json& input = member(vector, "input", source);
+  const json& expected = member(vector, "expected", source);
+  if (!expected.is_object()) throw InputError({source.name, 0, "expected"}, "not an object", "one");
+  for (const auto& [name, value] : expected.items()) {
+    if (name == "certified_gap") {
+      static_cast<void>(number(value, name, source));
+      static_cast<void>(stated_problem_from_json(input.dump(), source.name));
+    } else if (!value.is_boolean()) {
+      check_expectation(name, value, member(vector, "within", source), source);
+    }
+  }
+}
+
 }  // namespace
+
+VectorFile vector_file_from_json(const std::string& text, const std::string& name) {
+  const JsonSource source{name, manual};
+  const json document = parse_document(text, source, format, {"kind", "seed", "cases"});
+  VectorFile file{shapeid::text(member(document, "kind", source), "kind", source),
+                  member(document, "cases", source)};
+  if (!file.cases.is_array()) throw InputError({name, 0, "cases"}, "not a list", "of cases");
+  for (const json& vector : file.cases) check_case(vector, file.kind, source);
+  return file;
+}
+
+json parsed_answer(const std::string& line) {
+  try {
+    return parse_json(line, {"answer", manual});
+  } catch (const InputError&) {
+    return nullptr;
+  }
+}
 
 Vectors read_vectors(const std::string& folder) {
   const JsonSource source{folder + "/index.json", manual};
   const json index = parse_document(read_small_file(source.name, largest_file), source, format,
                                     {"made_by", "flags", "files"});
   Vectors vectors{member(index, "flags", source), {}};
+  if (!vectors.flags.is_object())
+    throw InputError({source.name, 0, "flags"}, "not an object", "one");
+  for (const auto& [flag, meaning] : vectors.flags.items()) {
+    static_cast<void>(text(meaning, flag, source));
+  }
   for (const auto& [kind, recorded] : member(index, "files", source).items()) {
-    const JsonSource file{fmt::format("{}/{}.json", folder, kind), manual};
-    const std::string text = read_small_file(file.name, largest_file);
+    if (kind.find('/') != std::string::npos) {
+      throw InputError({source.name, 0, kind}, "leads out of the folder", "a name without slashes");
+    }
+    const std::string name = fmt::format("{}/{}.json", folder, kind);
+    const std::string text = read_small_file(name, largest_file);
     if (digest(text) != recorded) {
-      throw InputError({file.name}, "is not what the tool wrote: its digest differs",
+      throw InputError({name}, "is not what the tool wrote: its digest differs",
                        "an unchanged file");
     }
-    const json document = parse_document(text, file, format, {"kind", "seed", "cases"});
-    vectors.files.push_back({kind, member(document, "cases", file)});
+    vectors.files.push_back(vector_file_from_json(text, name));
   }
   return vectors;
 }

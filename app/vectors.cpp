@@ -41,8 +41,6 @@ std::string failure_text(const json& vector, const std::vector<std::string>& fou
   return text;
 }
 
-json parsed(const std::string& line) { return json::parse(line, nullptr, false); }
-
 void vectors(const Options& options) {
   const Vectors all = read_vectors(options.folder);
   ForeignProgram program(options.program);
@@ -54,7 +52,7 @@ void vectors(const Options& options) {
     Tally& tally = tallies[file.kind];
     for (const json& vector : file.cases) {
       const json question = {{"id", vector["id"]}, {"kind", file.kind}, {"input", vector["input"]}};
-      const auto found = differences(vector, parsed(program.ask(question.dump())));
+      const auto found = differences(vector, parsed_answer(program.ask(question.dump())));
       ++tally.cases;
       if (found.empty()) continue;
       ++failed;

@@ -1,4 +1,6 @@
 // The convex hull of points: one point after the other, each joined to the rim of what it sees.
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
@@ -11,6 +13,10 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 using Face = std::array<int, 3>;
+
+/// Every point is held against every face, so a mesh of a million triangles needs an end. No part
+/// of a robot is that round.
+constexpr std::size_t most_faces = 5000;
 
 class Hull {
  public:
@@ -96,6 +102,10 @@ class Hull {
       (heights[f] >= -flat_ ? seen : kept).push_back(faces_[f]);
     }
     for (const auto& [a, b] : open_edges(seen)) kept.push_back({a, b, i});
+    if (kept.size() > most_faces) {
+      throw std::invalid_argument(
+          fmt::format("the hull has more than {} faces; simplify it", most_faces));
+    }
     faces_ = std::move(kept);
   }
 

@@ -3,8 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/shape_size.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
 
 namespace shapeid {
@@ -65,6 +67,21 @@ std::vector<Shape> shapes_of(const Link& link) {
       "describe it in shapes.yaml");
 }
 
+/// The shapes that `make` returns. Throws InputError, which names `what`, for those that are too
+/// small or too large to be computed with.
+template <typename Make>
+std::vector<Shape> of_size(const std::string& what, const Make& make) {
+  try {
+    std::vector<Shape> shapes = make();
+    for (const Shape& shape : shapes) {
+      if (const Violation why = why_no_size(shape)) throw std::invalid_argument("it " + *why);
+    }
+    return shapes;
+  } catch (const std::invalid_argument& error) {
+    throw InputError(fmt::format("{}: {}", what, error.what()), "give lengths in metres");
+  }
+}
+
 BodyModel all_known(const Robot& robot) {
   BodyModel model;
   model.known = stacked_parameters(robot);
@@ -81,7 +98,8 @@ BodyModel default_shapes(const Robot& robot, const std::vector<int>& free_links)
   model.free_links.erase(last, model.free_links.end());
   for (const int i : model.free_links) {
     model.known.segment<10>(10 * i).setZero();
-    for (Shape& shape : shapes_of(robot.links.at(static_cast<std::size_t>(i)))) {
+    const Link& link = robot.links.at(static_cast<std::size_t>(i));
+    for (Shape& shape : of_size("a shape of link " + link.name, [&] { return shapes_of(link); })) {
       model.shapes.push_back({i, std::move(shape), std::to_string(model.shapes.size())});
     }
   }
@@ -100,7 +118,9 @@ BodyModel load_region(const Robot& robot, int link, const Eigen::Vector3d& lower
   BodyModel model = all_known(robot);
   model.free_links = {link};
   const Eigen::Isometry3d middle = pose * Eigen::Translation3d(0.5 * (lower + upper));
-  model.shapes.push_back({link, make_cuboid(upper - lower, middle), "0"});
+  const std::vector<Shape> area =
+      of_size("the area", [&] { return std::vector<Shape>{make_cuboid(upper - lower, middle)}; });
+  model.shapes.push_back({link, area.front(), "0"});
   SHAPEID_CONTRACT(why_malformed(model, robot));
   return model;
 }

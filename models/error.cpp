@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shapeid/models/contract.hpp"
+#include "shapeid/models/text.hpp"
 
 namespace shapeid {
 
@@ -19,11 +20,23 @@ std::string describe(const Place& place) {
   return text;
 }
 
+namespace {
+
+// Bytes of a part of a message: lists of keys fit, whole files do not.
+constexpr std::size_t longest_part = 600;
+
+std::string joined(const std::string& wrong, const std::string& right) {
+  return fmt::format("{}; {}", one_line(wrong, longest_part), one_line(right, longest_part));
+}
+
+}  // namespace
+
 InputError::InputError(const Place& place, const std::string& wrong, const std::string& right)
-    : std::runtime_error(fmt::format("{}: {}; {}", describe(place), wrong, right)) {}
+    : std::runtime_error(
+          fmt::format("{}: {}", one_line(describe(place), longest_part), joined(wrong, right))) {}
 
 InputError::InputError(const std::string& wrong, const std::string& right)
-    : std::runtime_error(fmt::format("{}; {}", wrong, right)) {}
+    : std::runtime_error(joined(wrong, right)) {}
 
 Refusal::Refusal(std::string code, const std::string& reason)
     : std::runtime_error(fmt::format("refused ({}): {}", code, reason)), code_(std::move(code)) {}

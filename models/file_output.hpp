@@ -5,6 +5,28 @@
 
 namespace shapeid {
 
+/// Where a file goes, and where it is written until it is whole. A symbolic link is followed: what
+/// it points to is replaced, the link stays. A device or a pipe (/dev/null, /dev/stdout) cannot be
+/// replaced and is written to as it stands.
+class OutputPlace {
+ public:
+  /// Throws InputError for a folder.
+  explicit OutputPlace(std::string path);
+
+  /// The file to write to: beside the final one, unless that is no regular file.
+  [[nodiscard]] const std::string& writable() const { return writable_; }
+  /// What was written takes its place. Throws InputError if it cannot.
+  void finish() const;
+  /// Nothing was written.
+  void discard() const noexcept;
+  /// Discards and throws InputError.
+  [[noreturn]] void fail(const std::string& wrong) const;
+
+ private:
+  std::string path_;  ///< as given, for complaints
+  std::string final_, writable_;
+};
+
 /// Writes `text` beside `path` and renames it into place, so that a half-written file never
 /// replaces a good one. Throws InputError if the place cannot be written (missing folder, full
 /// disk).

@@ -1,19 +1,17 @@
 #include "shapeid/models/log_writer.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include "shapeid/models/contract.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/file_output.hpp"
 
 namespace shapeid {
 namespace {
@@ -34,10 +32,10 @@ void check_names(const std::vector<std::string>& columns, const std::string& pat
 
 struct LogWriter::State {
   State(const std::string& p, std::vector<std::string> names)
-      : path(p), beside(fmt::format("{}.part{}", p, ::getpid())), columns(std::move(names)) {
-    check_names(columns, path);
-    const bool zipped = path.ends_with(".gz");
-    file = gzopen(beside.c_str(), zipped ? "wb" : "wbT");  // T: transparent, no gzip
+      : place(p), columns(std::move(names)) {
+    check_names(columns, p);
+    const bool zipped = p.ends_with(".gz");
+    file = gzopen(place.writable().c_str(), zipped ? "wb" : "wbT");  // T: transparent, no gzip
     if (file == nullptr) fail("cannot be written");
     put(fmt::format("{}\n", fmt::join(columns, ",")));
   }
@@ -54,16 +52,15 @@ struct LogWriter::State {
   void discard() {
     if (file == nullptr) return;
     gzclose_w(std::exchange(file, nullptr));
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
+    place.discard();
   }
 
   [[noreturn]] void fail(const std::string& wrong) {
     discard();
-    throw InputError({path}, wrong, "name a writable folder with room in it");
+    place.fail(wrong);
   }
 
-  std::string path, beside;
+  OutputPlace place;
   std::vector<std::string> columns;
   gzFile file = nullptr;
 };
@@ -94,17 +91,9 @@ void LogWriter::write(const std::vector<double>& values) {
 
 void LogWriter::close() {
   if (gzclose_w(std::exchange(state_->file, nullptr)) != Z_OK) {
-    std::error_code ignored;
-    std::filesystem::remove(state_->beside, ignored);
-    state_->fail("cannot be written");
+    state_->place.fail("cannot be written");
   }
-  std::error_code failed;
-  std::filesystem::rename(state_->beside, state_->path, failed);
-  if (failed) {
-    std::error_code ignored;
-    std::filesystem::remove(state_->beside, ignored);
-    state_->fail("cannot be replaced: " + failed.message());
-  }
+  state_->place.finish();
 }
 
 }  // namespace shapeid

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <charconv>
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/log.hpp"
+#include "shapeid/models/yaml_input.hpp"
 
 namespace shapeid {
 namespace {
@@ -24,7 +24,7 @@ struct Reader {
     if (!node.IsMap()) throw InputError(place(node), what + " is not a map", "write key: value");
     std::set<std::string> seen;
     for (const auto& entry : node) {
-      const auto key = entry.first.as<std::string>();
+      const std::string key = text(entry.first, "a key of " + what);
       if (!seen.insert(key).second) {
         throw InputError(place(entry.first), fmt::format("{} appears twice in {}", key, what),
                          "give every key once");
@@ -60,7 +60,7 @@ struct Reader {
     check_map(node, what, {});
     std::map<std::string, double> values;
     for (const auto& entry : node) {
-      const auto key = entry.first.as<std::string>();
+      const std::string key = text(entry.first, "a key of " + what);
       values[key] = number(entry.second, key);
     }
     return values;
@@ -128,20 +128,13 @@ struct Reader {
 
 Mapping read_mapping_yaml(const std::string& path) {
   const Reader reader{path};
-  YAML::Node root;
-  try {
-    root = YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw InputError({path}, "cannot be opened", "give a readable YAML file");
-  } catch (const YAML::ParserException& error) {
-    throw InputError({path, error.mark.line + 1}, error.msg, "write YAML");
-  }
+  const YAML::Node root = load_yaml(path);
   reader.check_map(root, "the mapping", {"columns", "keep_rows", "torque"});
   Mapping mapping;
   if (const YAML::Node columns = root["columns"]) {
     reader.check_map(columns, "columns", {});
     for (const auto& entry : columns) {
-      const auto ours = entry.first.as<std::string>();
+      const std::string ours = entry.first.Scalar();
       mapping.columns[ours] = reader.rule(entry.second, ours);
     }
   }

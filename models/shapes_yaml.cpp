@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "shapeid/models/mesh_file.hpp"
+#include "shapeid/models/shape_size.hpp"
 #include "shapeid/models/yaml_input.hpp"
 
 namespace shapeid {
@@ -71,7 +72,11 @@ Shape read_shape(const YamlInput& in, const YAML::Node& node, const Eigen::Isome
   Eigen::Isometry3d pose = link_pose;
   if (node["pose"]) pose = link_pose * in.pose(node["pose"], "pose");
   try {
-    return read_kind(in, node, in.text(node["kind"], "kind"), pose);
+    Shape shape = read_kind(in, node, in.text(node["kind"], "kind"), pose);
+    if (const Violation why = why_no_size(shape)) {
+      in.refuse(node, "the shape " + *why, "lengths are in metres");
+    }
+    return shape;
   } catch (const std::invalid_argument& error) {
     in.refuse(node, error.what(), "give a solid with a positive volume");
   }

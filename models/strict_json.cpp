@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "shapeid/models/error.hpp"
@@ -21,12 +22,19 @@ using nlohmann::json;
   throw InputError({source.name, 0, key}, wrong, right);
 }
 
-/// The parser keeps the last of two equal keys; here both are refused.
-class DuplicateKeys {
+/// What the parser would take: it keeps the last of two equal keys, and nests as deep as the file
+/// does. Here both keys are refused, and so is what no format of ours nests. (Comparing and writing
+/// a document recurse: a million brackets would end the program there.)
+class Strictness {
  public:
-  explicit DuplicateKeys(const JsonSource& source) : source_(&source) {}
+  explicit Strictness(const JsonSource& source) : source_(&source) {}
 
-  bool operator()(int /*depth*/, json::parse_event_t event, const json& parsed) {
+  bool operator()(int depth, json::parse_event_t event, const json& parsed) {
+    constexpr int deepest = 64;
+    if (depth > deepest) {
+      throw InputError({source_->name}, fmt::format("nested deeper than {}", deepest),
+                       "see " + source_->manual);
+    }
     if (event == json::parse_event_t::object_start) open_.emplace_back();
     if (event == json::parse_event_t::object_end) open_.pop_back();
     if (event == json::parse_event_t::key && !open_.back().insert(parsed).second) {
@@ -54,17 +62,20 @@ std::optional<double> hexadecimal(std::string_view text) {
 
 }  // namespace
 
-json parse_document(const std::string& text, const JsonSource& source, const std::string& format,
-                    const std::set<std::string>& keys) {
-  json document;
+json parse_json(const std::string& text, const JsonSource& source) {
   try {
-    document = json::parse(text, DuplicateKeys(source));
+    return json::parse(text, Strictness(source));
   } catch (const json::parse_error& e) {
     throw InputError({source.name}, fmt::format("is not JSON (at byte {})", e.byte),
                      "see " + source.manual);
   } catch (const json::out_of_range&) {
     throw InputError({source.name}, "a number is larger than any double", "write finite decimals");
   }
+}
+
+json parse_document(const std::string& text, const JsonSource& source, const std::string& format,
+                    const std::set<std::string>& keys) {
+  json document = parse_json(text, source);
   if (!document.is_object() || !document.contains("format") || document["format"] != format) {
     throw InputError({source.name}, "has no or another format",
                      fmt::format("\"format\" must be \"{}\"", format));
@@ -127,14 +138,20 @@ Eigen::VectorXd numbers(const json& value, const std::string& key, const JsonSou
 Eigen::MatrixXd matrix(const json& value, Eigen::Index columns, const std::string& key,
                        const JsonSource& source) {
   if (!value.is_array()) refuse(source, key, "not a list", "a list of rows");
-  Eigen::MatrixXd M(static_cast<Eigen::Index>(value.size()), columns);
-  for (Eigen::Index i = 0; i < M.rows(); ++i) {
-    const Eigen::VectorXd row = numbers(value[static_cast<std::size_t>(i)], key, source);
-    if (row.size() != columns) {
-      refuse(source, key, fmt::format("row {} has {} numbers", i, row.size()),
+  // All sizes before any memory: ten thousand empty rows of a stated width would ask for all of it.
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (!value[i].is_array()) refuse(source, key, "not a list", "a list of numbers");
+    if (std::cmp_not_equal(value[i].size(), columns)) {
+      refuse(source, key, fmt::format("row {} has {} numbers", i, value[i].size()),
              fmt::format("every row has {}", columns));
     }
-    M.row(i) = row.transpose();
+  }
+  Eigen::MatrixXd M(static_cast<Eigen::Index>(value.size()), columns);
+  for (Eigen::Index i = 0; i < M.rows(); ++i) {
+    const json& row = value[static_cast<std::size_t>(i)];
+    for (Eigen::Index k = 0; k < columns; ++k) {
+      M(i, k) = number(row[static_cast<std::size_t>(k)], key, source);
+    }
   }
   return M;
 }

@@ -16,6 +16,10 @@ struct JsonSource {
   std::string manual;  ///< "docs/formats/problem.md"
 };
 
+/// What the text spells. Throws InputError for what is no JSON, for a key that is there twice, for
+/// numbers beyond double and for values nested deeper than any format of ours.
+[[nodiscard]] nlohmann::json parse_json(const std::string& text, const JsonSource& source);
+
 /// The object that the text spells. `format` is the required value of its member "format"; `keys`
 /// are all other members that may be there. Throws InputError.
 [[nodiscard]] nlohmann::json parse_document(const std::string& text, const JsonSource& source,

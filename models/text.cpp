@@ -87,6 +87,19 @@ Violation why_no_name(std::string_view name) {
   return std::nullopt;
 }
 
+std::string one_line(const std::string& text, std::size_t most) {
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool control = byte < 0x20 || byte == 0x7F;
+    // Inside a character of UTF-8, which has four bytes at most, is no place to cut.
+    const bool inside_character = (byte & 0xC0U) == 0x80U && result.size() < most + 4;
+    if (result.size() >= most && !inside_character) return result + "...";
+    result += control ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  }
+  return result;
+}
+
 Eigen::Matrix3d rotation_from_rpy(const Eigen::Vector3d& rpy) {
   return (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
           Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *

@@ -21,6 +21,10 @@ namespace shapeid {
 /// Why a text cannot name a link, joint or channel ("is empty", ...); empty if it can.
 [[nodiscard]] Violation why_no_name(std::string_view name);
 
+/// A text as a terminal shows it in one line: control characters are spelled out (\x0a), and what
+/// is longer than `most` bytes is cut. Messages quote files, and a file may hold anything.
+[[nodiscard]] std::string one_line(const std::string& text, std::size_t most);
+
 /// R = Rz(yaw) Ry(pitch) Rx(roll), angles in rad: URDF's fixed-axis roll, pitch, yaw.
 [[nodiscard]] Eigen::Matrix3d rotation_from_rpy(const Eigen::Vector3d& rpy);
 

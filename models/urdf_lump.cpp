@@ -13,6 +13,9 @@
 namespace shapeid::urdf {
 namespace {
 
+/// Rows and columns of the regressor grow with the links, and so do 80 MB a sample.
+constexpr int most_links = 1000;
+
 class Lumper {
  public:
   Lumper(const Document& document, const Tree& tree, const UrdfOptions& options)
@@ -29,6 +32,11 @@ class Lumper {
       const DocumentJoint& written = joint(j);
       const int above = tree_.parent[static_cast<std::size_t>(j)];
       const Place parent = place_[static_cast<std::size_t>(above)];
+      if (robot_.link_count() == most_links) {
+        throw InputError({document_.file, written.line, {}},
+                         fmt::format("more than {} links that move", most_links),
+                         "write joints that do not move as fixed");
+      }
       Joint moving = written.joint;
       moving.placement = parent.pose * moving.placement;
       open_link(tree_.child[static_cast<std::size_t>(j)], parent.link, moving);

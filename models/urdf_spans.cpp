@@ -27,8 +27,18 @@ std::size_t after_tag(std::string_view text, std::size_t begin) {
   return text.size();
 }
 
+/// Where the name of a tag begins. tinyxml2 takes blanks before it, which XML forbids.
+std::size_t after_blanks(std::string_view text, std::size_t tag) {
+  return std::min(text.find_first_not_of(" \t\r\n\v\f", tag + 1), text.size());
+}
+
 bool starts_with(std::string_view text, std::size_t at, std::string_view what) {
   return text.substr(at, what.size()) == what;
+}
+
+/// Whether a tag closes an element. tinyxml2 takes </a/>, which is no XML, for an element <a/>.
+bool is_closing(std::string_view text, std::size_t begin, std::size_t end) {
+  return starts_with(text, begin, "/") && text[end - 2] != '/';
 }
 
 }  // namespace
@@ -42,23 +52,25 @@ std::vector<LinkSpan> find_links(std::string_view text) {
   std::size_t at = text.find('<');
   while (at != std::string_view::npos) {
     std::size_t end = 0;
+    const std::size_t begin = after_blanks(text, at);
     if (starts_with(text, at, "<!--")) {
       end = after(text, at, "-->");
     } else if (starts_with(text, at, "<![CDATA[")) {
       end = after(text, at, "]]>");
     } else if (starts_with(text, at, "<?")) {
       end = after(text, at, "?>");
-    } else if (starts_with(text, at, "</")) {
+    } else if (is_closing(text, begin, after_tag(text, at))) {
       end = after_tag(text, at);
       --depth;
       if (depth == inside_robot) in_link = false;
-      if (in_link && depth == inside_link && starts_with(text, at, "</inertial")) {
+      if (in_link && depth == inside_link && starts_with(text, begin, "/inertial")) {
         links.back().inertial->end = end;
       }
     } else {
       end = after_tag(text, at);
-      const std::size_t name_end = std::min(text.find_first_of(" \t\r\n/>", at), end);
-      const std::string_view name = text.substr(at + 1, name_end - at - 1);
+      const std::size_t name_begin = begin + (starts_with(text, begin, "/") ? 1 : 0);
+      const std::size_t name_end = std::min(text.find_first_of(" \t\r\n\v\f/>", name_begin), end);
+      const std::string_view name = text.substr(name_begin, name_end - name_begin);
       const bool self_closed = text[end - 2] == '/';
       if (depth == inside_robot && name == "link") {
         links.push_back({{at, end}, self_closed, std::nullopt});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "shapeid/models/number.hpp"
 #include "shapeid/models/text.hpp"
@@ -15,13 +16,15 @@ constexpr std::size_t largest_yaml = std::size_t{1} << 20;
 
 }  // namespace
 
-YamlInput::YamlInput(std::string path) : path_(std::move(path)) {
+YAML::Node load_yaml(const std::string& path) {
   try {
-    root_ = YAML::Load(read_small_file(path_, largest_yaml));
+    return YAML::Load(read_small_file(path, largest_yaml));
   } catch (const YAML::Exception& error) {
-    throw InputError({path_, error.mark.line + 1, {}}, "not YAML: " + error.msg, "write YAML");
+    throw InputError({path, error.mark.line + 1, {}}, "not YAML: " + error.msg, "write YAML");
   }
 }
+
+YamlInput::YamlInput(std::string path) : path_(std::move(path)), root_(load_yaml(path_)) {}
 
 void YamlInput::refuse(const YAML::Node& node, const std::string& wrong,
                        const std::string& right) const {
@@ -31,9 +34,10 @@ void YamlInput::refuse(const YAML::Node& node, const std::string& wrong,
 std::vector<std::string> YamlInput::keys(const YAML::Node& node, const std::string& what) const {
   if (!node.IsMap()) refuse(node, what + " is not a map", "write lines of key: value");
   std::vector<std::string> result;
+  std::set<std::string> seen;  // a megabyte of keys must not take a minute
   for (const auto& entry : node) {
     const std::string key = text(entry.first, "a key of " + what);
-    if (std::find(result.begin(), result.end(), key) != result.end()) {
+    if (!seen.insert(key).second) {
       refuse(entry.first, fmt::format("{} is named twice in {}", key, what), "name it once");
     }
     result.push_back(key);

@@ -13,9 +13,13 @@
 
 namespace shapeid {
 
+/// The file's root node. Throws InputError if it cannot be read, is no YAML, or is larger than 1
+/// MiB.
+[[nodiscard]] YAML::Node load_yaml(const std::string& path);
+
 class YamlInput {
  public:
-  /// Reads the file. Throws InputError if it cannot be read, is no YAML, or is larger than 1 MiB.
+  /// Throws InputError as load_yaml() does.
   explicit YamlInput(std::string path);
 
   [[nodiscard]] const std::string& path() const { return path_; }

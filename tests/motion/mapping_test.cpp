@@ -105,7 +105,7 @@ TEST(Mapping, SaysWhatIsWrongWithBrokenFiles) {
     std::string text, message;
   };
   const Broken table[] = {
-      {"columns: [", "m.yaml:1: end of sequence flow not found; write YAML"},
+      {"columns: [", "m.yaml:1: not YAML: end of sequence flow not found; write YAML"},
       {"- a", "m.yaml:1: the mapping is not a map; write key: value"},
       {"colums: {}",
        "m.yaml:1: the mapping has no key colums; the keys are columns, keep_rows, torque"},
@@ -148,7 +148,7 @@ TEST(Mapping, SaysWhatIsWrongWithBrokenFiles) {
   }
   const auto none = scratch.path("none.yaml");
   EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(read_mapping_yaml(none)); }, none),
-            "none.yaml: cannot be opened; give a readable YAML file");
+            "none.yaml: no such file, or not a regular one; check the path");
 }
 
 /// Reads all rows of a log and says how it went.

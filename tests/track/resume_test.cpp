@@ -179,7 +179,7 @@ TEST(TrackResume, RefusesWhatDoesNotBelongTogether) {
   scratch_file("short.csv", joined({trot_log()[0], trot_log()[1]}));
   expect_refused("--checkpoint state.json --resume short.csv", "bytes");
   scratch_file("broken.json", read_file(scratch() + "/state.json").substr(0, 5000));
-  expect_refused("--checkpoint broken.json --resume whole.csv", "no whole checkpoint");
+  expect_refused("--checkpoint broken.json --resume whole.csv", "is not JSON");
   scratch_file("other.json", "{\"format\": \"shapeid-checkpoint-0\"}");
   expect_refused("--checkpoint other.json --resume whole.csv", "format");
 }

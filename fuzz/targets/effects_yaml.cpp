@@ -1,0 +1,26 @@
+// effects.yaml: what is read is written and read back the same.
+#include <cstdint>
+#include <string>
+
+#include "shapeid/diagnosis/effects_yaml.hpp"
+#include "shapeid/fuzz/support/check.hpp"
+#include "shapeid/fuzz/support/memory_file.hpp"
+#include "shapeid/fuzz/support/robots.hpp"
+
+using namespace shapeid;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Robot robot = fuzz::hopper();
+  const fuzz::MemoryFile file(data, size);
+  fuzz::taken([&] {
+    const auto effects = diagnosis::read_effects_yaml(file.path(), robot);
+    for (const auto& effect : effects) {
+      fuzz::check(effect.shape.allFinite() && effect.value.allFinite(), "values are finite");
+    }
+    const std::string text = diagnosis::write_effects_yaml(robot, effects);
+    const fuzz::MemoryFile written(text);
+    const auto again = diagnosis::read_effects_yaml(written.path(), robot);
+    fuzz::check(diagnosis::write_effects_yaml(robot, again) == text, "effects read back the same");
+  });
+  return 0;
+}

@@ -1,0 +1,68 @@
+// The command on inputs that would take all memory, or that recurse: one line, exit status 2 or 1.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/hostile/refused.hpp"
+
+namespace shapeid::test {
+namespace {
+
+void expect_one_line(const CommandRun& run, int status, const std::string& words) {
+  EXPECT_EQ(run.status, status) << run.err.substr(0, 1000);
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err.substr(0, 1000);
+  EXPECT_TRUE(says(run.err, words)) << run.err.substr(0, 1000);
+}
+
+TEST(HostileCommand, CertifyDeepAnswers) {
+  scratch_file("deep.json", repeated("[", 1000000));
+  expect_one_line(shapeid("certify deep.json deep.json"), 2, "nested deeper than 64");
+}
+
+// A foreign program may print what it likes.
+TEST(HostileCommand, VectorsOfAProgramThatMeansHarm) {
+  scratch_file("deep.txt", repeated("{\"v\":", 500000) + "\n");
+  const CommandRun deep =
+      shapeid("vectors --kind existence --check \"while read x; do cat deep.txt; done\"");
+  EXPECT_EQ(deep.status, 1) << deep.err;
+  expect_one_line(shapeid("vectors --kind existence --check \"tr '\\\\0' x </dev/zero\""), 2,
+                  "endless line");
+}
+
+TEST(HostileCommand, VectorsOfAFolderThatMeansHarm) {
+  const std::string head =
+      "{\"format\":\"shapeid-vectors-1\",\"made_by\":\"x\",\"flags\":{},\"files\":";
+  std::filesystem::create_directories(scratch() + "/bad");
+  scratch_file("bad/index.json", head + "{\"../../etc/passwd\":\"0\"}}");
+  expect_one_line(shapeid("vectors --check cat --vectors bad"), 2, "leads out of the folder");
+  scratch_file("bad/index.json", head + "[1,2]}");
+  expect_one_line(shapeid("vectors --check cat --vectors bad"), 2, "bad/");
+}
+
+TEST(HostileCommand, CheckpointsThatAreDamaged) {
+  const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/quadruped";
+  const std::string track = fmt::format(
+      "track --robot {0}.urdf --shapes {0}.shapes.yaml --checkpoint state.json", robots);
+  ASSERT_EQ(shapeid("simulate --seconds 1 --out trot.csv").status, 0);
+  ASSERT_EQ(shapeid(track + " trot.csv").status, 0);
+  const std::string good = read_file(scratch() + "/state.json");
+  const auto expect_refused = [&](const std::string& text, const std::string& words) {
+    scratch_file("state.json", text);
+    expect_one_line(shapeid(track + " --resume trot.csv"), 2, words);
+  };
+  nlohmann::json changed = nlohmann::json::parse(good);
+  changed["state"]["calm"] = 7;
+  expect_refused(changed.dump(), "is damaged");
+  expect_refused(good.substr(0, good.size() / 2), "is not JSON");
+  expect_refused(repeated("[", 1000000), "nested deeper than 64");
+  expect_refused("", "is not JSON");
+  expect_refused("{\"format\":\"shapeid-checkpoint-3\"}", "is no whole checkpoint");
+}
+
+}  // namespace
+}  // namespace shapeid::test

@@ -1,0 +1,118 @@
+// Places that cannot be written to: full disks, links, devices, folders. What was there before
+// stays whole, and the command says in one line what went wrong.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/file_output.hpp"
+#include "shapeid/models/log_writer.hpp"
+#include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/hostile/refused.hpp"
+
+namespace shapeid::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* ten_numbers =
+    "convert --from pinocchio --to drake 2 0.2 -0.4 0.6 1 0.1 1.2 "
+    "-0.2 0.3 1.4";
+
+void expect_one_line(const CommandRun& run, const std::string& words) {
+  EXPECT_EQ(run.status, 2) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_TRUE(says(run.err, words)) << run.err;
+}
+
+/// Whether something half-written was left behind.
+bool leftovers() {
+  return std::any_of(fs::directory_iterator(scratch()), fs::directory_iterator(),
+                     [](const auto& entry) { return says(entry.path().string(), ".part"); });
+}
+
+/// The command with its standard output elsewhere, or limited, as the shell can do it.
+CommandRun run_in_shell(const std::string& before, const std::string& arguments,
+                        const std::string& after) {
+  const std::string err = scratch() + "/err";
+  const int status =
+      std::system(fmt::format("bash -c \"{} cd '{}' && '{}/shapeid' {} {} 2>'{}'\"", before,
+                              scratch(), SHAPEID_BUILD_DIR, arguments, after, err)
+                      .c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", read_file(err)};
+}
+
+TEST(HostileOutputs, StandardOutputThatIsFull) {
+  expect_one_line(run_in_shell("", ten_numbers, ">/dev/full"), "standard output");
+  expect_one_line(run_in_shell("", ten_numbers, ">&-"), "standard output");
+  expect_one_line(run_in_shell("", "--help", ">/dev/full"), "standard output");
+}
+
+// A limit on the size of files stands for a full disk: writing stops in the middle.
+TEST(HostileOutputs, ADiskThatIsFull) {
+  for (const std::string name : {"full.csv", "full.csv.gz"}) {
+    scratch_file(name, "the one from before\n");
+    const CommandRun run = run_in_shell("trap '' XFSZ; ulimit -f 2;",
+                                        "simulate --seconds 0.2 --out " + name, ">/dev/null");
+    expect_one_line(run, name + ": cannot be written");
+    EXPECT_EQ(read_file(scratch() + "/" + name), "the one from before\n");
+    EXPECT_FALSE(leftovers());
+  }
+}
+
+TEST(HostileOutputs, LinksAreFollowedAndStay) {
+  const std::string target = scratch_file("target.txt", "old");
+  const std::string link = scratch() + "/link.txt";
+  fs::create_symlink("target.txt", link);
+  write_file(link, "new");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(read_file(target), "new");
+
+  const std::string nowhere = scratch() + "/nowhere.txt";
+  fs::create_symlink(scratch() + "/none/there.txt", nowhere);
+  write_file(nowhere, "new");
+  EXPECT_EQ(read_file(nowhere), "new");
+}
+
+TEST(HostileOutputs, DevicesAreWrittenToAndNotReplaced) {
+  write_file("/dev/null", "anything");
+  struct stat now {};
+  ASSERT_EQ(stat("/dev/null", &now), 0);
+  EXPECT_TRUE(S_ISCHR(now.st_mode));
+  LogWriter log("/dev/null", {"a"});
+  log.write({1.0});
+  log.close();
+  ASSERT_EQ(stat("/dev/null", &now), 0);
+  EXPECT_TRUE(S_ISCHR(now.st_mode));
+
+  EXPECT_TRUE(says(refusal([] { write_file("/dev/full", "anything"); }), "cannot be written"));
+  EXPECT_TRUE(says(refusal([] {
+                     LogWriter full("/dev/full", {"a"});
+                     full.close();
+                   }),
+                   "cannot be written"));
+  ASSERT_EQ(stat("/dev/full", &now), 0);
+  EXPECT_TRUE(S_ISCHR(now.st_mode));
+}
+
+TEST(HostileOutputs, FoldersAreNoFiles) {
+  EXPECT_TRUE(says(refusal([] { write_file(scratch(), "anything"); }), "is a folder"));
+  EXPECT_TRUE(
+      says(refusal([] { write_file(scratch() + "/none/file", "anything"); }), "cannot be written"));
+  EXPECT_TRUE(says(refusal([] { write_file("", "anything"); }), "cannot be "));
+  EXPECT_TRUE(says(refusal([] { LogWriter(scratch(), {"a"}); }), "is a folder"));
+}
+
+// What a user types may hold anything as well.
+TEST(HostileOutputs, ArgumentsInMessages) {
+  expect_one_line(shapeid("inspect \"$(printf 'a\\nb.csv')\""), "a\\x0ab.csv");
+}
+
+}  // namespace
+}  // namespace shapeid::test
