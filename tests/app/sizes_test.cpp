@@ -1,0 +1,133 @@
+// Robots of other sizes through the command: one joint, chains and trees of sixty.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/log_writer.hpp"
+#include "shapeid/models/urdf.hpp"
+#include "shapeid/reference/regressor.hpp"
+#include "shapeid/tests/app/command.hpp"
+
+namespace shapeid::test {
+namespace {
+
+using nlohmann::json;
+
+// What lambda, 1e-12 of the squared torques, may leave of them.
+constexpr double left_by_density_term = 1e-6;
+
+/// Each link a box of uniform density, so that one shape of the right mass is the whole truth.
+std::string link_text(int i) {
+  const double mass = 0.5 + 0.1 * (i % 7), x = 0.06, y = 0.04 + 0.001 * (i % 5), z = 0.09;
+  const double along_x = mass * (y * y + z * z) / 12.0, along_y = mass * (x * x + z * z) / 12.0,
+               along_z = mass * (x * x + y * y) / 12.0;
+  const char* origin = R"(<origin xyz="0.02 -0.01 0.04"/>)";
+  return fmt::format(
+      R"(<link name="l{}"><inertial>{}<mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}" ixy="0"
+ ixz="0" iyz="0"/></inertial><collision>{}<geometry><box size="{} {} {}"/></geometry></collision></link>)",
+      i, origin, mass, along_x, along_y, along_z, origin, x, y, z);
+}
+
+/// Links l0, ..., l<joints>; `parent` says where each hangs.
+template <class Parent>
+std::string urdf(int joints, Parent parent) {
+  constexpr std::array<const char*, 3> axes = {"1 0 0", "0 1 0", "0 0.6 0.8"};
+  std::string text = R"(<robot name="sized">)" + link_text(0);
+  for (int i = 1; i <= joints; ++i) {
+    text += link_text(i);
+    text += fmt::format(
+        R"(<joint name="j{0}" type="continuous"><parent link="l{1}"/><child link="l{0}"/>
+<origin xyz="0.01 0 0.05"/><axis xyz="{2}"/></joint>)",
+        i, parent(i), axes.at(static_cast<std::size_t>(i % 3)));
+  }
+  return text + "</robot>";
+}
+
+struct Column {
+  std::string name;
+  double value;
+};
+
+/// What an arm on a fixed base would log.
+void write_log(const std::string& path, const Robot& robot) {
+  std::unique_ptr<LogWriter> out;
+  for (int k = 0; k < 3000; ++k) {
+    const double t = 0.002 * k;
+    Sample s;
+    s.time = t;
+    const Eigen::Index n = robot.joint_count();
+    s.q.resize(n);
+    s.dq.resize(n);
+    s.ddq.resize(n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const double w = 3.0 + 0.37 * static_cast<double>(j % 11), a = 0.5;
+      s.q[j] = a * std::sin(w * t + static_cast<double>(j));
+      s.dq[j] = a * w * std::cos(w * t + static_cast<double>(j));
+      s.ddq[j] = -w * w * s.q[j];
+    }
+    const Eigen::VectorXd force = reference::regressor(robot, s) * stacked_parameters(robot);
+    std::vector<Column> row = {{"time", t}};
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const std::string name = robot.joint(static_cast<int>(j)).name;
+      row.push_back({"q." + name, s.q[j]});
+      row.push_back({"dq." + name, s.dq[j]});
+      row.push_back({"ddq." + name, s.ddq[j]});
+      row.push_back({"tau." + name, force[j]});
+    }
+    if (!out) {
+      std::vector<std::string> names;
+      for (const Column& column : row) names.push_back(column.name);
+      out = std::make_unique<LogWriter>(path, names);
+    }
+    std::vector<double> values;
+    for (const Column& column : row) values.push_back(column.value);
+    out->write(values);
+  }
+  out->close();
+}
+
+json identified(const std::string& name, const std::string& text, const std::string& options) {
+  const std::string robot_file = scratch_file(name + ".urdf", text);
+  UrdfOptions as;
+  as.root = Root::fixed;
+  const Robot robot = read_urdf(robot_file, as).robot;
+  write_log(scratch() + "/" + name + ".csv", robot);
+  const CommandRun run = shapeid(fmt::format(
+      "identify --robot {0}.urdf --log {0}.csv --test {0}.csv --exact --json --divisions 2 {1}",
+      name, options));
+  EXPECT_EQ(run.status, 0) << name << ": " << run.err;
+  return run.status == 0 ? json::parse(run.out) : json();
+}
+
+void expect_explained(const json& result) {
+  ASSERT_FALSE(result.is_null());
+  const auto zero = result.at("heldout").at("rms_zero").get<std::vector<double>>();
+  const auto after = result.at("heldout").at("rms_after").get<std::vector<double>>();
+  const double size = Eigen::Map<const Eigen::VectorXd>(zero.data(), std::ssize(zero)).norm();
+  const double left = Eigen::Map<const Eigen::VectorXd>(after.data(), std::ssize(after)).norm();
+  EXPECT_GT(size, 0.1);
+  EXPECT_LT(left, left_by_density_term * size);
+}
+
+TEST(Sizes, OneJoint) {
+  expect_explained(identified("one", urdf(1, [](int) { return 0; }), "--whole-body"));
+}
+
+TEST(Sizes, AChainOfSixty) {
+  expect_explained(
+      identified("chain", urdf(60, [](int i) { return i - 1; }), "--free l1 l17 l59 l60"));
+}
+
+TEST(Sizes, ATreeOfSixty) {
+  expect_explained(
+      identified("tree", urdf(60, [](int i) { return (i - 1) / 2; }), "--free l1 l2 l31 l60"));
+}
+
+}  // namespace
+}  // namespace shapeid::test
