@@ -1,0 +1,188 @@
+"""Which test kills which mutant."""
+import collections
+import hashlib
+import json
+import os
+import pathlib
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+
+SLOW = 3.0  # seconds: such tests come last
+ALONE = 3  # tests that are asked one by one
+TOGETHER = 2.0  # seconds of tests that are asked in one process
+GIGABYTE = 1 << 30
+
+
+def limits():
+    """A mutant may ask for anything."""
+    resource.setrlimit(resource.RLIMIT_AS, (6 * GIGABYTE, 6 * GIGABYTE))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (GIGABYTE, GIGABYTE))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def run(program, tests, seconds, **variables):
+    """Runs tests of one program until one fails. Its exit status, or None after `seconds`; the test
+    that ran last; how long all took."""
+    scratch = tempfile.mkdtemp(prefix="mutant-")
+    seeds = {"RC_PARAMS": "seed=20240611 noshrink=1", "TMPDIR": scratch}
+    began = time.monotonic()
+    said = pathlib.Path(scratch) / "said"
+    with open(said, "wb") as out:
+        process = subprocess.Popen([program, "--gtest_fail_fast", "--gtest_filter=" + ":".join(tests)],
+                                   cwd=program.parent, preexec_fn=limits, stdin=subprocess.DEVNULL, stdout=out,
+                                   stderr=subprocess.DEVNULL, start_new_session=True,
+                                   env=os.environ | seeds | variables)
+    try:
+        status = process.wait(seconds)
+    except subprocess.TimeoutExpired:
+        status = None
+    finally:
+        try:
+            os.killpg(process.pid, signal.SIGKILL)  # and what it started
+        except ProcessLookupError:
+            pass
+        process.wait()
+        started = re.findall(rb"^\[ RUN      \] (\S+)", said.read_bytes(), re.M)
+        shutil.rmtree(scratch, ignore_errors=True)
+    return status, started[-1].decode() if started else "", time.monotonic() - began
+
+
+def in_parallel(work, items, jobs):
+    """Calls work(item) for every item, in order, on `jobs` threads."""
+    waiting, failures = collections.deque(items), []
+
+    def worker():
+        while waiting and not failures:
+            try:
+                work(waiting.popleft())
+            except IndexError:
+                return
+            except BaseException as failure:
+                failures.append(failure)
+
+    threads = [threading.Thread(target=worker) for _ in range(jobs)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    if failures:
+        raise failures[0]
+
+
+def tests_of(program):
+    """Names of the tests of a program."""
+    listed = subprocess.run([program, "--gtest_list_tests"], check=True, capture_output=True, text=True)
+    names, suite = [], ""
+    for line in listed.stdout.splitlines():
+        word = line.split("#")[0].rstrip()
+        if word.startswith("  "):
+            names.append(suite + word.strip())
+        elif word.endswith("."):
+            suite = word
+    return names
+
+
+def passed_by(programs, kept, jobs):
+    """For every test: its program, its seconds, and the mutants that it comes past. Tests that fail
+    although no mutant lives are left out, and returned by name. `kept` (a file) remembers what was
+    measured of a program until it changes."""
+    known = json.loads(kept.read_text()) if kept.exists() else {}
+    measured, lock = {}, threading.Lock()
+
+    def measure(item):
+        program, test = item
+        passed = pathlib.Path(tempfile.mkstemp(prefix="passed-")[1])
+        status, _, seconds = run(program, [test], 900, SHAPEID_PASSED=str(passed))
+        numbers = sorted({int(line) for line in passed.read_text().split()})
+        passed.unlink()
+        with lock:
+            measured[program.name][test] = {"status": status, "seconds": seconds, "passed": numbers}
+
+    items, stamps = [], {}
+    for program in programs:
+        stamps[program.name] = hashlib.sha256(program.read_bytes()).hexdigest()
+        if known.get(program.name, {}).get("stamp") != stamps[program.name]:
+            measured[program.name] = {}
+            items += [(program, test) for test in tests_of(program)]
+    in_parallel(measure, items, jobs)
+    for name, tests in measured.items():
+        known[name] = {"stamp": stamps[name], "tests": tests}
+    kept.write_text(json.dumps(known))
+    places = {program.name: program for program in programs}
+    good, failing = {}, []
+    for name, program in known.items():
+        for test, record in program["tests"].items():
+            if record["status"] == 0:
+                good[test] = {"program": places[name], **record}
+            else:
+                failing.append(test)
+    return good, failing
+
+
+class Campaign:
+    """Runs the tests that come past a mutant until one fails; appends each verdict to a file."""
+
+    def __init__(self, tests, results, budget):
+        self.tests, self.results, self.budget = tests, results, budget
+        self.reaching = collections.defaultdict(list)
+        for name, test in tests.items():
+            for number in test["passed"]:
+                self.reaching[number].append(name)
+        self.killers = collections.defaultdict(collections.Counter)  # by file
+        self.lock = threading.Lock()
+
+    def order(self, number, file):
+        """First what killed most mutants of this file, then the quick ones."""
+        kills = self.killers[file]
+
+        def key(name):
+            seconds = self.tests[name]["seconds"]
+            return (seconds > SLOW, -kills[name], seconds)
+
+        return sorted(self.reaching[number], key=key)
+
+    def rounds(self, names):
+        """Tests of one program together, a few seconds of them: a process takes time to start. The
+        first ones, most likely to kill, alone. Not what would exceed the budget."""
+        together, spent = [], 0.0
+        for at, name in enumerate(names):
+            test = self.tests[name]
+            if spent + test["seconds"] > self.budget and at > 0:
+                continue
+            spent += test["seconds"]
+            for group in together[ALONE:]:
+                if group["program"] == test["program"] and group["seconds"] + test["seconds"] < TOGETHER:
+                    break
+            else:
+                group = {"program": test["program"], "names": [], "seconds": 0.0}
+                together.append(group)
+            group["names"].append(name)
+            group["seconds"] += test["seconds"]
+        return together
+
+    def judge(self, item):
+        number, key, file = item
+        with self.lock:
+            names = self.order(number, file)
+        verdict = {"key": key, "verdict": "survived" if names else "not reached", "tried": 0}
+        began = time.monotonic()
+        for group in self.rounds(names):
+            status, last, _ = run(group["program"], group["names"], 2.0 + 10.0 * group["seconds"],
+                                  SHAPEID_MUTANT=str(number))
+            verdict["tried"] += len(group["names"])
+            if status != 0:
+                how = "too long" if status is None else "failed" if status == 1 else f"status {status}"
+                verdict |= {"verdict": "killed", "by": last or group["names"][0], "how": how}
+                break
+        verdict |= {"reaching": len(names), "seconds": round(time.monotonic() - began, 2)}
+        with self.lock:
+            if verdict["verdict"] == "killed":
+                self.killers[file][verdict["by"]] += 1
+            with open(self.results, "a", encoding="utf-8") as out:
+                out.write(json.dumps(verdict) + "\n")

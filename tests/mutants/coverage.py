@@ -1,0 +1,41 @@
+"""Lines and branches of the four folders that the same tests come past."""
+import collections
+import json
+import subprocess
+
+import build
+import campaign
+import collect
+
+SUMMARY = "build/mutants/coverage.json"
+
+
+def measure(root, jobs):
+    """Builds the preset `coverage`, runs the tests, and keeps what gcov says of each source."""
+    folder = root / "build/coverage"
+    programs = build.programs(root, "coverage", jobs)
+    for counts in folder.rglob("*.gcda"):
+        counts.unlink()
+    campaign.in_parallel(lambda program: campaign.run(program, ["*"], 3600), programs, jobs)
+    filters = [word for name in collect.FOLDERS for word in ("--filter", f"{root}/{name}/[a-z_0-9]+[.]cpp")]
+    subprocess.run(["gcovr", "--root", str(root), *filters, "--exclude-throw-branches", "--json-summary",
+                    str(root / SUMMARY), str(folder)], cwd=folder, check=True)
+
+
+def section(root):
+    """A table, or what is missing."""
+    if not (root / SUMMARY).exists():
+        return "Not measured (`./run mutants --coverage`)."
+    sums = collections.defaultdict(collections.Counter)
+    for file in json.loads((root / SUMMARY).read_text())["files"]:
+        name = file["filename"].rsplit("/", 1)[0]
+        for kind in ("line", "branch"):
+            for what in ("covered", "total"):
+                sums[name][f"{kind}_{what}"] += file[f"{kind}_{what}"]
+                sums["all"][f"{kind}_{what}"] += file[f"{kind}_{what}"]
+    rows = ["| folder | lines | come past | branches | come past |", "|---|---|---|---|---|"]
+    for name in [*sorted(set(sums) - {"all"}), "all"]:
+        s = sums[name]
+        rows.append(f"| {name} | {s['line_total']} | {100 * s['line_covered'] / s['line_total']:.1f} % | "
+                    f"{s['branch_total']} | {100 * s['branch_covered'] / s['branch_total']:.1f} % |")
+    return "\n".join(rows)

@@ -1,0 +1,93 @@
+"""docs/mutants.md: how many mutants died, and why the others did not."""
+import collections
+import math
+import pathlib
+
+import yaml
+
+import coverage
+import sample
+
+HERE = pathlib.Path(__file__).parent
+
+
+def wilson(hits, count):
+    """95 % interval of a share."""
+    if count == 0:
+        return 0.0, 1.0
+    z, p = 1.959964, hits / count
+    centre = p + z * z / (2 * count)
+    half = z * math.sqrt(p * (1 - p) / count + z * z / (4 * count * count))
+    return (centre - half) / (1 + z * z / count), (centre + half) / (1 + z * z / count)
+
+
+def share(hits, count):
+    if count == 0:
+        return "none"
+    low, high = wilson(hits, count)
+    return f"{hits} of {count}, {100 * hits / count:.1f} % ({100 * low:.1f} to {100 * high:.1f})"
+
+
+def reasons():
+    """{(file, source line, change): (kind, why)}, from reasons.yaml."""
+    listed = yaml.safe_load((HERE / "reasons.yaml").read_text()) or []
+    return {(r["file"], r["line"], r["change"]): (r["kind"], r["why"]) for r in listed}
+
+
+def source_line(root, place):
+    return (root / place.file).read_text().splitlines()[place.line - 1].strip()
+
+
+def table(title, keys, judged):
+    rows = [f"| {title} | mutants | died | share, 95 % interval |", "|---|---|---|---|"]
+    for key in sorted({keys(place) for place, _ in judged}):
+        mine = [v for place, v in judged if keys(place) == key]
+        died = sum(v["verdict"] == "killed" for v in mine)
+        low, high = wilson(died, len(mine))
+        rows.append(f"| {key} | {len(mine)} | {died} | {100 * died / len(mine):.0f} % "
+                    f"({100 * low:.0f} to {100 * high:.0f}) |")
+    return "\n".join(rows)
+
+
+def survivors(root, alive, explained):
+    rows = ["| place | source | change | kind | reason |", "|---|---|---|---|---|"]
+    for place, verdict in alive:
+        line = source_line(root, place)
+        kind, why = explained.get((place.file, line, place.says), ("?", "no reason yet"))
+        if verdict["verdict"] == "not reached":
+            kind += ", not reached"
+        code = line.replace("|", "\\|")
+        says = place.says.replace("|", "\\|")
+        rows.append(f"| {place.file}:{place.line} | `{code}` | {says} | {kind} | {why} |")
+    return "\n".join(rows)
+
+
+def written(judged, places, root, options, commit, tests, failing):
+    explained = reasons()
+    alive = [(p, v) for p, v in judged if v["verdict"] != "killed"]
+    dead = len(judged) - len(alive)
+
+    def is_equal(place):
+        return explained.get((place.file, source_line(root, place), place.says), ("?",))[0] == "equivalent"
+
+    equal = sum(is_equal(p) for p, _ in alive)
+    ways = collections.Counter(v["how"].split()[0] for _, v in judged if v["verdict"] == "killed")
+    text = (HERE / "page.md.in").read_text()
+    values = {
+        "command": f"./run mutants --count {options.count} --seed {options.seed} --budget {options.budget:g}",
+        "commit": commit,
+        "places": f"{len(places):,}", "count": str(len(judged)), "tests": f"{len(tests):,}",
+        "failing": ", ".join(failing) or "none",
+        "died": share(dead, len(judged)), "without_equal": share(dead, len(judged) - equal),
+        "equal": str(equal), "alive": str(len(alive)),
+        "unreached": str(sum(v["verdict"] == "not reached" for _, v in alive)),
+        "failed": str(ways["failed"]), "crashed": str(ways["status"]), "late": str(ways["too"]),
+        "partly": str(sum(v["tried"] < v["reaching"] for _, v in alive)),
+        "by_folder": table("folder", sample.folder, judged),
+        "by_operator": table("operator", lambda place: place.operator, judged),
+        "survivors": survivors(root, alive, explained),
+        "coverage": coverage.section(root),
+    }
+    for name, value in values.items():
+        text = text.replace(f"@{name}@", value)
+    return text

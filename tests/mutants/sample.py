@@ -1,0 +1,45 @@
+"""A seeded sample of places, in proportion to how many each folder has of each operator."""
+import collections
+import hashlib
+
+NUMBERS = 99999  # switch.cpp has room for these
+
+
+def folder(place):
+    return place.file.rsplit("/", 1)[0]
+
+
+def lots(places, seed):
+    """[(lot, place)]. A place's lot hangs on the seed and on what is changed, not on where it stands:
+    where a line is added elsewhere, the sample stays."""
+    seen = collections.Counter()
+    drawn = []
+    for place in places:
+        text = f"{seed} {place.file} {place.original} {place.form} {place.changed}"
+        seen[text] += 1
+        drawn.append((hashlib.sha256(f"{text} {seen[text]}".encode()).hexdigest(), place))
+    return drawn
+
+
+def stratified(places, count, seed):
+    """[(number, place)]: `count` of `places`, in the order of their lots, so that the first ones are a
+    sample, too. Each stratum (folder, operator) gives its share, rounded by the largest remainder.
+    Numbers come from the lots, so that sources whose sample stays need not be compiled again."""
+    strata = collections.defaultdict(list)
+    for lot, place in lots(places, seed):
+        strata[folder(place), place.operator].append((lot, place))
+    shares = {key: count * len(members) / len(places) for key, members in strata.items()}
+    taken = {key: int(share) for key, share in shares.items()}
+    rest = sorted(shares, key=lambda key: (taken[key] - shares[key], key))
+    for key in rest[:count - sum(taken.values())]:
+        taken[key] += 1
+    sample = []
+    for key, members in strata.items():
+        sample += sorted(members, key=lambda m: m[0])[:taken[key]]
+    numbered = {}
+    for lot, place in sorted(sample, key=lambda m: m[0]):
+        number = 1 + int(lot[-8:], 16) % NUMBERS
+        while number in numbered:
+            number = 1 + number % NUMBERS
+        numbered[number] = place
+    return list(numbered.items())
