@@ -5,7 +5,6 @@ import json
 import os
 import pathlib
 import re
-import resource
 import shutil
 import signal
 import subprocess
@@ -16,26 +15,19 @@ import time
 SLOW = 3.0  # seconds: such tests come last
 ALONE = 3  # tests that are asked one by one
 TOGETHER = 2.0  # seconds of tests that are asked in one process
-GIGABYTE = 1 << 30
-
-
-def limits():
-    """A mutant may ask for anything."""
-    resource.setrlimit(resource.RLIMIT_AS, (6 * GIGABYTE, 6 * GIGABYTE))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (GIGABYTE, GIGABYTE))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+LIMITS = ("prlimit", "--as=6000000000", "--fsize=1000000000", "--core=0")  # a mutant may ask for anything
 
 
 def run(program, tests, seconds, **variables):
     """Runs tests of one program until one fails. Its exit status, or None after `seconds`; the test
-    that ran last; how long all took."""
+    that failed, or ran last; how long all took."""
     scratch = tempfile.mkdtemp(prefix="mutant-")
     seeds = {"RC_PARAMS": "seed=20240611 noshrink=1", "TMPDIR": scratch}
     began = time.monotonic()
     said = pathlib.Path(scratch) / "said"
     with open(said, "wb") as out:
-        process = subprocess.Popen([program, "--gtest_fail_fast", "--gtest_filter=" + ":".join(tests)],
-                                   cwd=program.parent, preexec_fn=limits, stdin=subprocess.DEVNULL, stdout=out,
+        process = subprocess.Popen([*LIMITS, program, "--gtest_fail_fast", "--gtest_filter=" + ":".join(tests)],
+                                   cwd=program.parent, stdin=subprocess.DEVNULL, stdout=out,
                                    stderr=subprocess.DEVNULL, start_new_session=True,
                                    env=os.environ | seeds | variables)
     try:
@@ -48,9 +40,10 @@ def run(program, tests, seconds, **variables):
         except ProcessLookupError:
             pass
         process.wait()
-        started = re.findall(rb"^\[ RUN      \] (\S+)", said.read_bytes(), re.M)
+        text = said.read_text(errors="replace")
+        named = re.findall(r"^\[  FAILED  \] ([\w./]+)", text, re.M)[:1] or re.findall(r"^\[ RUN      \] (\S+)", text, re.M)
         shutil.rmtree(scratch, ignore_errors=True)
-    return status, started[-1].decode() if started else "", time.monotonic() - began
+    return status, named[-1] if named else tests[0], time.monotonic() - began
 
 
 def in_parallel(work, items, jobs):
@@ -178,7 +171,7 @@ class Campaign:
             verdict["tried"] += len(group["names"])
             if status != 0:
                 how = "too long" if status is None else "failed" if status == 1 else f"status {status}"
-                verdict |= {"verdict": "killed", "by": last or group["names"][0], "how": how}
+                verdict |= {"verdict": "killed", "by": last, "how": how}
                 break
         verdict |= {"reaching": len(names), "seconds": round(time.monotonic() - began, 2)}
         with self.lock:

@@ -280,7 +280,7 @@ class Finder:
         start, end = self.span(cursor)
         if name.startswith("operator"):
             self.overloaded(cursor, operands, name[8:], above, function)
-        elif name in CALL_SWAPS and not (name in ("rows", "cols", "front", "back") and self.dependent(cursor)):
+        elif name in CALL_SWAPS and self.keeps_type(cursor, name):
             called = self.span(operands[0]) if operands else (start, start)
             uses = [m for m in re.finditer(rf"\b{name}\b", self.text[called[0]:called[1]])]
             if uses:
@@ -291,9 +291,12 @@ class Finder:
             inner = self.text[start:end]
             self.propose(start, end, "expression", inner[inner.index("("):], "call", "`abs` dropped")
 
-    @staticmethod
-    def dependent(cursor):
-        return cursor.type.kind in (Type.INVALID, Type.DEPENDENT)
+    def keeps_type(self, cursor, name):
+        """The call that is swapped in gives the same type: not in templates, nor of all columns at once."""
+        if name.lower().endswith(("norm", "coeff")):
+            return self.arithmetic(cursor)
+        return (name not in ("rows", "cols", "front", "back")
+                or cursor.type.kind not in (Type.INVALID, Type.DEPENDENT))
 
     def overloaded(self, cursor, operands, token, above, function):
         start, end = self.span(cursor)
