@@ -4,10 +4,10 @@ import subprocess
 
 import rewrite
 
-# They link the four libraries, or call a program that does. Left out, for what they take to build and to
-# run: blind, experiments, track; and house, which links nothing.
+# They link the four libraries. Left out, for what they take to build and to run: app and track, which call
+# the command; blind and experiments. house links nothing.
 SUBJECTS = ("inertia", "orders", "robot", "shapes", "motion", "physics", "masses", "division", "identify",
-            "recovery", "simulation", "fast", "certificate", "diagnosis", "app")
+            "recovery", "simulation", "fast", "certificate", "diagnosis")
 
 
 def write(path, text):

@@ -295,8 +295,10 @@ class Finder:
         """The call that is swapped in gives the same type: not in templates, nor of all columns at once."""
         if name.lower().endswith(("norm", "coeff")):
             return self.arithmetic(cursor)
-        return (name not in ("rows", "cols", "front", "back")
-                or cursor.type.kind not in (Type.INVALID, Type.DEPENDENT))
+        if name in ("rows", "cols"):
+            owners = [o for member in list(cursor.get_children())[:1] for o in member.get_children()]
+            return any("Eigen::" in o.type.get_canonical().spelling for o in owners)
+        return name not in ("front", "back") or cursor.type.kind not in (Type.INVALID, Type.DEPENDENT)
 
     def overloaded(self, cursor, operands, token, above, function):
         start, end = self.span(cursor)
@@ -311,7 +313,7 @@ class Finder:
                          f"`{token}` to `{new}`")
         elif token in ("+", "-", "+=", "-="):
             spelled = cursor.type.get_canonical().spelling
-            if "basic_string" in spelled or "iterator" in spelled:
+            if "iterator" in spelled or not ("Eigen::" in spelled or "__gmp_expr" in spelled):
                 return
             new = (ARITHMETIC_SWAPS | ASSIGNMENT_SWAPS)[token]
             self.in_statement(above + [cursor], function, at, token, new)
