@@ -43,6 +43,28 @@ TEST(Certify, AcceptsBothPathsAndKnowsTheOptimum) {
   }
 }
 
+TEST(Certify, NamesEveryNegativeMass) {
+  const StatedProblem p = test::load_problem();
+  const Eigen::VectorXd m = reference::solve_masses(p.masses).m;
+  for (const Eigen::Index j : {Eigen::Index{0}, m.size() / 2, m.size() - 1}) {
+    Eigen::VectorXd wrong = m;
+    wrong[j] = -0.125;
+    const Certified c = certify(p, honest_answer(p, wrong));
+    EXPECT_FALSE(c.proof.feasible);
+    EXPECT_EQ(first_reason(c), "mass " + std::to_string(j) + " is negative: -0.125 kg");
+  }
+}
+
+TEST(Certify, JudgesTheBodyOfEveryLink) {
+  const StatedProblem p = test::body_problem(2);
+  Eigen::VectorXd m = Eigen::VectorXd::Constant(p.masses.U.cols(), 0.5);
+  m.tail<2>().setZero();  // the last link has no mass
+  const Certified c = certify(p, honest_answer(p, m));
+  std::vector<Existence> bodies(12, Existence::definite);
+  bodies.push_back(Existence::semidefinite);
+  EXPECT_EQ(c.proof.bodies, bodies);
+}
+
 /// The interval holds the optimum of all active sets, whatever is answered.
 RC_GTEST_PROP(Certify, IntervalHoldsTheOptimumWhateverIsAnswered, ()) {
   StatedProblem p = *test::small_problem(*rc::gen::arbitrary<bool>());

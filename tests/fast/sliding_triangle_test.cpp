@@ -52,6 +52,7 @@ RC_GTEST_PROP(SlidingTriangle, HoldsTheLastBlocksAtEveryMoment, ()) {
     }
     sliding.clear();
     RC_ASSERT(sliding.blocks() == 0U);
+    RC_ASSERT(sliding.last_merges() == 0);
     RC_ASSERT(sliding.triangle().R().isZero(0.0));
   }
 }

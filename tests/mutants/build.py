@@ -4,10 +4,10 @@ import subprocess
 
 import rewrite
 
-# They link the four libraries. Left out, for what they take to build and to run: app and track, which call
-# the command; blind and experiments. house links nothing.
+# They link the four libraries, or call the command, which does. Left out, for what they take to build and to
+# run: blind and experiments; and house, which links nothing.
 SUBJECTS = ("inertia", "orders", "robot", "shapes", "motion", "physics", "masses", "division", "identify",
-            "recovery", "simulation", "fast", "certificate", "diagnosis")
+            "recovery", "simulation", "fast", "certificate", "diagnosis", "app", "track")
 
 
 def write(path, text):

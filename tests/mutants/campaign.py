@@ -128,17 +128,19 @@ class Campaign:
             for number in test["passed"]:
                 self.reaching[number].append(name)
         self.killers = collections.defaultdict(collections.Counter)  # by file
+        self.asked_before = collections.defaultdict(list)  # by key: the tests that a mutant survived
         self.lock = threading.Lock()
 
-    def order(self, number, file):
-        """First what killed most mutants of this file, then the quick ones."""
-        kills = self.killers[file]
+    def order(self, number, key, file):
+        """First what was not asked before, then what killed most mutants of this file, then the quick
+        ones."""
+        kills, before = self.killers[file], set(self.asked_before[key])
 
-        def key(name):
+        def rank(name):
             seconds = self.tests[name]["seconds"]
-            return (seconds > SLOW, -kills[name], seconds)
+            return (name in before, seconds > SLOW, -kills[name], seconds)
 
-        return sorted(self.reaching[number], key=key)
+        return sorted(self.reaching[number], key=rank)
 
     def rounds(self, names):
         """Tests of one program together, a few seconds of them: a process takes time to start. The
@@ -162,20 +164,21 @@ class Campaign:
     def judge(self, item):
         number, key, file = item
         with self.lock:
-            names = self.order(number, file)
-        verdict = {"key": key, "verdict": "survived" if names else "not reached", "tried": 0}
+            names = self.order(number, key, file)
+        verdict = {"key": key, "verdict": "survived" if names else "not reached", "asked": []}
         began = time.monotonic()
         for group in self.rounds(names):
             status, last, _ = run(group["program"], group["names"], 2.0 + 10.0 * group["seconds"],
                                   SHAPEID_MUTANT=str(number))
-            verdict["tried"] += len(group["names"])
+            verdict["asked"] += group["names"]
             if status != 0:
                 how = "too long" if status is None else "failed" if status == 1 else f"status {status}"
                 verdict |= {"verdict": "killed", "by": last, "how": how}
                 break
-        verdict |= {"reaching": len(names), "seconds": round(time.monotonic() - began, 2)}
+        verdict |= {"tried": len(verdict["asked"]), "reaching": len(names), "seconds": round(time.monotonic() - began, 2)}
         with self.lock:
             if verdict["verdict"] == "killed":
+                del verdict["asked"]
                 self.killers[file][verdict["by"]] += 1
             with open(self.results, "a", encoding="utf-8") as out:
                 out.write(json.dumps(verdict) + "\n")

@@ -144,6 +144,16 @@ TEST(InertiaLint, CentreInMillimetres) {
   EXPECT_EQ(found.likely_cause, "the centre of mass is in mm, not m");
 }
 
+// Drawn as a sheet: a tenth of its length is taken for its thickness, and its length once more in
+// every direction is forgiven.
+TEST(InertiaLint, CentreFarFromASheet) {
+  const std::string sheet = box(0.3, 0.2, 0.0);
+  const std::array<double, 6> small = {0.001, 0, 0, 0.001, 0, 0.001};
+  EXPECT_TRUE(findings(link_text({1.0, {0, 0, 0.31}, small}, sheet)).empty());
+  const auto found = only(link_text({1.0, {0, 0, 0.32}, small}, sheet));
+  EXPECT_EQ(found.wrong, "the centre of mass (0, 0, 0.32) m is far outside the collision geometry");
+}
+
 TEST(InertiaLint, Placeholders) {
   const auto identity = only(link_text({1.0, {0, 0, 0}, {1, 0, 0, 1, 0, 1}}));
   EXPECT_FALSE(identity.fatal);

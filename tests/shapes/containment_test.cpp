@@ -88,6 +88,19 @@ TEST(Containment, SlackIsADistance) {
   EXPECT_FALSE(contains(ball, outside));
   EXPECT_FALSE(contains(ball, outside, 0.0099));
   EXPECT_TRUE(contains(ball, outside, 0.0101));
+  // Of a box of triangles: from the middle of a face, an edge and a corner, one after the other.
+  const Shape box = make_convex_hull(
+      {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}, {3, 2, 0}, {3, 0, 1}, {0, 2, 1}, {3, 2, 1}},
+      Eigen::Isometry3d::Identity());
+  for (const Eigen::Vector3d& out :
+       {Eigen::Vector3d(1, 0.5, 1.1), Eigen::Vector3d(2, 1.6, -0.1),
+        Eigen::Vector3d(3.06, 1.1, 1.08), Eigen::Vector3d(-0.1, 0.9, 0.4)}) {
+    EXPECT_FALSE(contains(box, out, 0.0999));
+    EXPECT_TRUE(contains(box, out, 0.1001));
+  }
+  const Eigen::Vector3d off_the_corner(3.02, 2.03, 1.06);
+  EXPECT_FALSE(contains(box, off_the_corner, 0.0699));
+  EXPECT_TRUE(contains(box, off_the_corner, 0.0701));
   const Shape point = make_point({0.1, 0.0, 0.0}, 1e-6);
   EXPECT_TRUE(contains(point, {0.1, 0.0, 0.0}));
   EXPECT_FALSE(contains(point, {0.11, 0.0, 0.0}, 0.0099));
