@@ -61,6 +61,31 @@ expected_mass: {plate: [1, 4], load: [0, 10]}
   EXPECT_EQ(notes.expected_mass.at("load").upper, 10.0);
 }
 
+TEST(RobotYaml, NoiseMayBeGivenForEachComponentOfAVector) {
+  const test::ScratchFolder folder;
+  const auto takes = [&](const std::string& channel) {
+    const std::string path = folder.write("robot.yaml", "noise: {" + channel + ": 1}");
+    Robot robot = test::two_link_robot();
+    try {
+      return read_robot_yaml(path, robot).noise_sigma.contains(channel);
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  for (const char* vector : {"base.gyro.", "base.accel.", "force.leg."}) {
+    for (const char* component : {"x", "y", "z"})
+      EXPECT_TRUE(takes(vector + std::string(component)));
+    for (const char* component : {"w", "a", "", "xy"}) {
+      EXPECT_FALSE(takes(vector + std::string(component)));
+    }
+  }
+  for (const char* component : {"w", "x", "y", "z"}) {
+    EXPECT_TRUE(takes(std::string("base.quat.") + component));
+  }
+  for (const char* component : {"v", "a"})
+    EXPECT_FALSE(takes(std::string("base.quat.") + component));
+}
+
 // Every direction is a rotation's x axis, also the one opposite to x.
 TEST(RobotYaml, LineContactPointsAlongItsAxis) {
   const test::ScratchFolder folder;
