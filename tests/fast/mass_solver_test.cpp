@@ -56,6 +56,9 @@ void expect_right(const PlantedProblem& planted, Tally& tally) {
   }
   ++tally.compared;
   RC_ASSERT(!(fast->m.array() < 0.0).any());
+  for (Eigen::Index j = 0; j < p.shapes(); ++j) {
+    RC_ASSERT(fast->active[static_cast<std::size_t>(j)] == !(fast->m[j] > 0.0));
+  }
   // What the solver checks of every answer before it gives it out, here from the rows themselves.
   RC_ASSERT(reference::kkt_residual(p, fast->m).worst() < promised_slope);
   const double terms = test::objective_terms(p, fast->m);
