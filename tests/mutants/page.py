@@ -51,10 +51,10 @@ def table(title, keys, judged):
 
 def survivors(root, alive, explained):
     rows = ["| place | source | change | kind | reason |", "|---|---|---|---|---|"]
-    for place, verdict in alive:
+    for place, verdict in sorted(alive, key=lambda pair: (pair[0].file, pair[0].line, pair[0].start)):
         line = source_line(root, place)
         kind, why = explained.get((place.file, line, place.says), ("?", "no reason yet"))
-        if verdict["verdict"] == "not reached":
+        if not verdict["reaching"]:
             kind += ", not reached"
         code = line.replace("|", "\\|")
         says = place.says.replace("|", "\\|")
@@ -80,7 +80,7 @@ def written(judged, places, root, options, commit, tests, failing):
         "failing": ", ".join(failing) or "none",
         "died": share(dead, len(judged)), "without_equal": share(dead, len(judged) - equal),
         "equal": str(equal), "alive": str(len(alive)),
-        "unreached": str(sum(v["verdict"] == "not reached" for _, v in alive)),
+        "unreached": str(sum(not v["reaching"] for _, v in alive)),
         "failed": str(ways["failed"]), "crashed": str(ways["status"]), "late": str(ways["too"]),
         "partly": str(sum(v["tried"] < v["reaching"] for _, v in alive)),
         "by_folder": table("folder", sample.folder, judged),
