@@ -41,9 +41,10 @@ def run(program, tests, seconds, **variables):
             pass
         process.wait()
         text = said.read_text(errors="replace")
-        named = re.findall(r"^\[  FAILED  \] ([\w./]+)", text, re.M)[:1] or re.findall(r"^\[ RUN      \] (\S+)", text, re.M)
+        failed = re.findall(r"^\[  FAILED  \] ([\w./]+)", text, re.M)
+        begun = re.findall(r"^\[ RUN      \] (\S+)", text, re.M)
         shutil.rmtree(scratch, ignore_errors=True)
-    return status, named[-1] if named else tests[0], time.monotonic() - began
+    return status, [*failed[:1], *reversed(begun), tests[0]][0], time.monotonic() - began
 
 
 def in_parallel(work, items, jobs):
@@ -175,7 +176,8 @@ class Campaign:
                 how = "too long" if status is None else "failed" if status == 1 else f"status {status}"
                 verdict |= {"verdict": "killed", "by": last, "how": how}
                 break
-        verdict |= {"tried": len(verdict["asked"]), "reaching": len(names), "seconds": round(time.monotonic() - began, 2)}
+        verdict |= {"tried": len(verdict["asked"]), "reaching": len(names),
+                    "seconds": round(time.monotonic() - began, 2)}
         with self.lock:
             if verdict["verdict"] == "killed":
                 del verdict["asked"]

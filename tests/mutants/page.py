@@ -56,7 +56,7 @@ def survivors(root, alive, explained):
         kind, why = explained.get((place.file, line, place.says), ("?", "no reason yet"))
         if not verdict["reaching"]:
             kind += ", not reached"
-        code = line.replace("|", "\\|")
+        code = line.replace("|", "\\|").replace("](", "] (")  # a lambda is no link
         says = place.says.replace("|", "\\|")
         rows.append(f"| {place.file}:{place.line} | `{code}` | {says} | {kind} | {why} |")
     return "\n".join(rows)
