@@ -122,6 +122,24 @@ TEST(Geometry, CornersDecideInOtherKindsOfRegions) {
   EXPECT_FALSE(inside(make_ellipsoid({0.01, 0.01, 0.01}, at(0.0)), cube));
 }
 
+/// A turned region off the link's origin holds what lies in it, and not what lies in its image.
+TEST(Geometry, RegionsLieWhereTheirFramesAre) {
+  const Eigen::Vector3d centre(0.3, -0.2, 0.1);
+  Eigen::Isometry3d frame(Eigen::Translation3d{centre});
+  frame.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()));
+  const Eigen::Vector3d off = frame.linear() * Eigen::Vector3d(0.045, 0.0, 0.02);
+  for (const Shape& region :
+       {make_cuboid({0.1, 0.02, 0.06}, frame), make_cylinder(0.05, 0.06, frame),
+        make_ellipsoid({0.06, 0.01, 0.05}, frame)}) {
+    const auto holds = [&](const Eigen::Vector3d& x) {
+      return check_geometry(of_shapes({make_point(x, 1e-6)}, region), rounding).inside == 1;
+    };
+    EXPECT_TRUE(holds(centre + off));
+    EXPECT_FALSE(holds(-centre + off));
+    EXPECT_FALSE(holds(centre + 1.5 * off));
+  }
+}
+
 /// Another link's region does not count, nor an entry on another link's rows.
 TEST(Geometry, LinksAreKeptApart) {
   const Shape cube = make_cuboid({0.1, 0.1, 0.1}, Eigen::Isometry3d::Identity());

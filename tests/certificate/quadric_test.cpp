@@ -61,6 +61,27 @@ RC_GTEST_PROP(Quadric, LowestIsReachedInCuboidsAndPolyhedra, ()) {
   RC_ASSERT(contains(shape, x, 1e-9 * test::reach(shape)));
 }
 
+/// The squared distance from a point beyond a face is least within the face, not on its edges.
+TEST(Quadric, IsLowestWithinAFace) {
+  const double reach = 0.2;
+  const Shape octahedron = make_convex_hull({{reach, 0.0, 0.0},
+                                             {-reach, 0.0, 0.0},
+                                             {0.0, reach, 0.0},
+                                             {0.0, -reach, 0.0},
+                                             {0.0, 0.0, reach},
+                                             {0.0, 0.0, -reach}},
+                                            Eigen::Isometry3d::Identity());
+  for (const Eigen::Vector3d& signs :
+       {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(-1, 1, 1), Eigen::Vector3d(1, -1, -1)}) {
+    const Eigen::Vector3d p = signs.cwiseProduct(Eigen::Vector3d(0.3125, 0.25, 0.1875));
+    Eigen::VectorXd g(10);  // of (x - p)^2: half the trace of the tensor is x^2
+    g << p.squaredNorm(), -2.0 * p, 0.5, 0.0, 0.0, 0.5, 0.0, 0.5;
+    const Lowest lowest = lowest_in(cost_of_point(exact(g)), octahedron);
+    const Rational beyond = exact(p.cwiseAbs().sum()) - exact(reach);
+    EXPECT_EQ(lowest.value, beyond * beyond / 3);
+  }
+}
+
 /// On balls and cylinders the bound is met to what the enclosing solid costs.
 TEST(Quadric, BallsAndCylindersAreNearlyReached) {
   const Eigen::Isometry3d pose(Eigen::Translation3d(0.3, -0.2, 0.1));

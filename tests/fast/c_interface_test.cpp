@@ -27,15 +27,17 @@ shapeid_settings defaults() {
   return settings;
 }
 
-Handle bundled(const shapeid_settings& settings) {
+Handle bundled_with(const shapeid_settings* settings) {
   std::array<char, 200> error{};
   Handle made(shapeid_create(
                   test::bundled_file("urdf").c_str(), test::bundled_file("robot.yaml").c_str(),
-                  test::bundled_file("shapes.yaml").c_str(), &settings, error.data(), error.size()),
+                  test::bundled_file("shapes.yaml").c_str(), settings, error.data(), error.size()),
               &shapeid_destroy);
   EXPECT_NE(made, nullptr) << error.data();
   return made;
 }
+
+Handle bundled(const shapeid_settings& settings) { return bundled_with(&settings); }
 
 /// A sample as C has it; valid as long as both arguments.
 shapeid_sample plain(const Sample& s, std::vector<unsigned char>& flags) {
@@ -136,6 +138,19 @@ TEST(CInterface, DefaultsAreThoseOfTheIdentifier) {
   fast::IdentifierSettings same;
   same.expected_mass = 6.0;  // the middle of the range in quadruped.robot.yaml
   compare(defaults(), same, trot_of(200), 5);
+}
+
+TEST(CInterface, NoSettingsAreTheDefaults) {
+  const Handle without = bundled_with(nullptr), with = bundled(defaults());
+  std::vector<unsigned char> flags;
+  for (const Sample& s : trot_of(20)) {
+    const shapeid_sample sample = plain(s, flags);
+    ASSERT_EQ(shapeid_feed(without.get(), &sample), shapeid_feed(with.get(), &sample));
+  }
+  shapeid_answer answer;
+  ASSERT_EQ(shapeid_get_answer(without.get(), &answer), SHAPEID_ANSWERED);
+  EXPECT_EQ(ten(shapeid_filtered_parameters(without.get(), 0)),
+            ten(shapeid_filtered_parameters(with.get(), 0)));
 }
 
 TEST(CInterface, PassesEverySetting) {

@@ -224,6 +224,19 @@ TEST(Channels, SayWhatALogLacks) {
             "nothing for not known");
 }
 
+TEST(Mapping, FlagsMayBeTurnedRound) {
+  Robot foot = chain(1, Root::fixed);
+  foot.contacts.push_back({"l0", 1, ContactKind::point, Eigen::Isometry3d::Identity()});
+  const Scratch scratch;
+  const auto log = scratch.file("a.csv", "time,q.j0,tau.j0,in_air\n0,1,1,1\n1,1,1,0\n2,1,1,\n");
+  const Mapping mapping = read_mapping_yaml(
+      scratch.file("m.yaml", "columns:\n  contact.l0: {from: in_air, scale: -1, offset: 1}\n"));
+  MeasuredRows rows(log, foot, mapping);
+  std::vector<int> flags;
+  for (const MeasuredRow& row : rows_of(rows)) flags.push_back(row.contacts.at(0));
+  EXPECT_EQ(flags, (std::vector<int>{0, 1, -1}));
+}
+
 TEST(DefaultContacts, SitAtTheOriginOfTheNamedLinkAlsoWhenLumped) {
   Robot robot = chain(2, Root::floating);
   Member foot;

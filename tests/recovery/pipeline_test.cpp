@@ -159,11 +159,15 @@ TEST(ContactDetection, AgreesWithTheGround) {
   double worst = 0.0;
   for (const Sample& sample : trot_samples(q, 2.0, 0.0)) {
     const Eigen::VectorXd force = reference::supporting_forces(q.robot, sample, Phi);
-    const std::vector<bool> found = reference::detect_contacts(q.robot, sample, Phi, 0.15);
+    constexpr double threshold = 0.15;
+    const std::vector<bool> found = reference::detect_contacts(q.robot, sample, Phi, threshold);
+    double mass = 0.0;
+    for (Eigen::Index i = 0; i < Phi.size(); i += 10) mass += Phi[i];
     const Eigen::Vector3d up = sample.base_specific_force.normalized();
     for (std::size_t c = 0; c < found.size(); ++c) {
       worst = std::max(
           worst, std::abs(force[static_cast<Eigen::Index>(c)] - sample.contact_force[c].dot(up)));
+      EXPECT_EQ(found[c], force[static_cast<Eigen::Index>(c)] > threshold * mass * 9.81);
       same += found[c] == sample.in_contact[c] ? 1 : 0;
       ++all;
     }

@@ -159,6 +159,20 @@ TEST(UrdfLump, LockedJointsStandWhereTheyAreTold) {
                              "hand also carries what is fixed to it: finger, tip"}));
 }
 
+TEST(UrdfLump, SlowJointsAndMimicsWithoutAnOffset) {
+  std::string text = gripper;
+  const std::string offset = " offset=\"0.05\"", fast = "velocity=\"1\"";
+  text.erase(text.find(offset), offset.size());
+  text.replace(text.find(fast), fast.size(), "velocity=\"0.25\"");
+  UrdfOptions options;
+  options.lock_mimic = true;
+  const Robot robot = parse_urdf(text, "gripper.urdf", options).robot;
+  ASSERT_EQ(robot.joint_count(), 1);
+  EXPECT_EQ(robot.joint(0).velocity, 0.25);
+  ASSERT_GE(robot.notes.size(), 2u);
+  EXPECT_EQ(robot.notes[1], "mimic joints locked at 0: slide");
+}
+
 TEST(UrdfLump, LockOfAnUnknownJointIsRefused) {
   UrdfOptions options;
   options.locked = {{"opne", 0.0}};
