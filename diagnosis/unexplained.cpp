@@ -147,11 +147,11 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
       for (const std::size_t i : places) x.push_back(of(recording[series.index[i]], i));
       return x;
     };
-    const auto best_of = [&](auto&& candidates, Folds folds = Folds::stretches) {
+    const auto best_of = [&](auto&& candidates, Folds kind = Folds::stretches) {
       std::optional<Structure> best;
       for (const auto& [name, x] : candidates) {
         if (std::any_of(x.begin(), x.end(), [](double v) { return std::isnan(v); })) continue;
-        std::optional<Structure> c = curve(x, y, least_t, folds);
+        std::optional<Structure> c = curve(x, y, least_t, kind);
         if (!c || (best && best->share >= c->share)) continue;
         best = c;
         best->joint = robot.joint(j).name;
