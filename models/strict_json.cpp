@@ -160,7 +160,12 @@ json vector_json(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(
 
 json matrix_json(const Eigen::MatrixXd& M) {
   json rows = json::array();
-  for (Eigen::Index i = 0; i < M.rows(); ++i) rows.push_back(vector_json(M.row(i).transpose()));
+  for (Eigen::Index i = 0; i < M.rows(); ++i) {
+    // By entries: Eigen's row(i) counts from the data's address, and without columns there is none.
+    json row = json::array();
+    for (Eigen::Index k = 0; k < M.cols(); ++k) row.push_back(M(i, k));
+    rows.push_back(std::move(row));
+  }
   return rows;
 }
 
