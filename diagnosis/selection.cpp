@@ -264,10 +264,32 @@ class Search {
                nested_share;
       };
       const bool nested = within(k, other) && !within(other, k);
-      if (!nested) verdict.ambiguous.push_back(other);
+      if (!nested || does_without(k, other)) verdict.ambiguous.push_back(other);
     }
     result_.hidden = hidden;
     return verdict;
+  }
+
+  /// Whether a rival that contains k does as well without the part that contains it: a spring
+  /// contains an offset, its torque at rest, but far from rest its stiffness alone may be what
+  /// looks like one. It then is a cause of its own, not k with a number on top.
+  [[nodiscard]] bool does_without(std::size_t k, std::size_t rival) const {
+    const Candidate& whole = candidates_[rival];
+    if (whole.effect.effect->is_payload || whole.term.columns.size() < 2) return false;
+    const Eigen::VectorXd without = fits_.held_out(terms(accepted_));
+    for (std::size_t i = 0; i < whole.term.columns.size(); ++i) {
+      Term part = whole.term;
+      part.columns.erase(part.columns.begin() + static_cast<std::ptrdiff_t>(i));
+      part.nonnegative.erase(part.nonnegative.begin() + static_cast<std::ptrdiff_t>(i));
+      if (fits_.contained(terms(accepted_), candidates_[k].term, part) > nested_share) continue;
+      std::vector<Term> list = terms(accepted_);
+      list.push_back(part);
+      const Eigen::VectorXd instead = fits_.held_out(list);
+      const Gain own = gain_of(without, instead);
+      if (!(own.t > rival_t && own.share > 0.0)) continue;
+      if (gain_of(instead, result_.error_end).t <= separable) return true;
+    }
+    return false;
   }
 
   const BlockFits& fits_;

@@ -2,6 +2,7 @@
 // robot has.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -81,6 +82,27 @@ TEST(Names, DoNotStandWhereTheNumberFollowsTime) {
       (curve.value.back() - curve.value.front()) / (curve.at.back() - curve.at.front());
   constexpr double a_fifth = 0.2;  // masses took a little of the drift
   EXPECT_LT(std::abs(slope / -0.05 - 1.0), a_fifth);
+}
+
+/// Far from its rest a spring hardly differs from an offset, and both names are said. (Gravity and
+/// inertia do not feel the angle of the upright first joint, which may so turn about any place.)
+TEST(Names, OffsetThatMayBeASpringSaysSo) {
+  const Recording log = with({}, [](Sample& s) {
+    s.q[0] = 1.5 + 0.05 * s.q[0];
+    s.tau[0] += 0.05 * s.q[0];
+  });
+  const LoopResult result = loop_of(log);
+  const Found* offset = found(result, "torque_offset@joint1");
+  ASSERT_NE(offset, nullptr);
+  const auto& names = offset->ambiguous_with;
+  EXPECT_EQ(std::count(names.begin(), names.end(), "joint_spring@joint1"), 1);
+  // A true offset about which the joint turns widely is told from it.
+  const LoopResult wide = loop_of(record({{effect("torque_offset", 0, {0.2})}}));
+  const Found* plain = found(wide, "torque_offset@joint1");
+  ASSERT_NE(plain, nullptr);
+  EXPECT_EQ(
+      std::count(plain->ambiguous_with.begin(), plain->ambiguous_with.end(), "joint_spring@joint1"),
+      0);
 }
 
 /// A torque that follows another joint's velocity: nothing that is worth less is believed.
