@@ -81,8 +81,8 @@ Identifier::Fed Estimates::feed(const Sample& sample) {
   const Identifier::Fed fed = identifier_.feed(sample);
   if (fed == Identifier::Fed::sample_declined) return fed;
   rows_ += rows_of(robot_, sample, settings_.identifier.contacts);
-  if (fed != Identifier::Fed::answered) return fed;
-  take_window(sample.time);
+  if (fed == Identifier::Fed::kept) return fed;
+  if (fed == Identifier::Fed::answered) take_window(sample.time);
   rows_ = 0.0;
   return fed;
 }

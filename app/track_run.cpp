@@ -36,6 +36,8 @@ const char* name(fast::Outcome outcome) {
       return "ill-conditioned";
     case fast::Outcome::too_many_steps:
       return "too many steps";
+    case fast::Outcome::out_of_scale:
+      return "forces that no robot has";
   }
   return "";
 }

@@ -17,7 +17,8 @@ enum class Outcome {
   solved,
   not_finite,       ///< a number of the rows is not finite
   ill_conditioned,  ///< the answer does not pass its own check: its gradient is not small enough
-  too_many_steps  ///< the bound on the steps of one call is reached, and shapes should still enter
+  too_many_steps,  ///< the bound on the steps of one call is reached, and shapes should still enter
+  out_of_scale     ///< from Identifier: forces that no robot has
 };
 
 /// Minimises  || R U m - c ||^2 + lambda sum_j m_j^2 / V_j  over m >= 0: from given masses toward

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numeric>
 
 #include "shapeid/models/error.hpp"
@@ -44,6 +45,17 @@ Eigen::VectorXd weight_of(const Robot& robot, const IdentifierSettings& settings
   return weight;
 }
 
+/// || b ||^2 beyond which forces are none of a robot's, see Identifier. Legs carry and throw some
+/// weights of their robot; the rest is for links whose masses are unknown or expected wrongly.
+double most_squares(const Robot& robot, const BodyModel& model,
+                    const IdentifierSettings& settings) {
+  constexpr double times = 100.0, gravity = 9.81;
+  double mass = settings.expected_mass;
+  for (Eigen::Index i = 0; i < model.known.size(); i += 10) mass += std::abs(model.known[i]);
+  const double force = times * gravity * mass;
+  return force * force * static_cast<double>(settings.window) * weight_of(robot, settings).sum();
+}
+
 DivisionOptions options_of(const IdentifierSettings& settings) {
   DivisionOptions options = settings.division;
   options.expected_mass = settings.expected_mass;
@@ -65,6 +77,7 @@ Identifier::Identifier(const Robot& robot, const BodyModel& model,
       expected_mass_(settings.expected_mass),
       mass_bound_(settings.mass_bound.value_or(10.0 * settings.expected_mass)),
       lambda_(settings.lambda),
+      most_(most_squares(robot, model, settings)),
       volume_(shape_volumes(model).sum()),
       rows_(robot, model, settings.contacts, weight_of(robot, settings)),
       last_window_(10 * static_cast<Eigen::Index>(model.free_links.size())),
@@ -119,15 +132,20 @@ void Identifier::forget_samples() noexcept {
 }
 
 bool Identifier::solve(const Eigen::MatrixXd& R) noexcept {
-  if (!lambda_) {
-    // default_lambda(), from the triangle: || b ||^2 is the sum of squares of its last column.
-    lambda_ =
-        1e-12 * R.col(R.cols() - 1).squaredNorm() * volume_ / (expected_mass_ * expected_mass_);
+  // || b ||^2 is the sum of squares of the triangle's last column.
+  const double squares = R.col(R.cols() - 1).squaredNorm();
+  if (!(squares <= most_)) {
+    outcome_ = Outcome::out_of_scale;
+    return false;
   }
-  division_.set_lambda(*lambda_);
+  // default_lambda()
+  const double lambda =
+      lambda_.value_or(1e-12 * squares * volume_ / (expected_mass_ * expected_mass_));
+  division_.set_lambda(lambda);
   if (!warm_) division_.forget_masses();
   outcome_ = division_.start(R);
   if (outcome_ != Outcome::solved) return false;
+  lambda_ = lambda;
   int iterations = division_.masses().iterations();
   answer_.stopped_by = division_.run();
   for (const Division::Cut& cut : division_.history()) iterations += cut.iterations;

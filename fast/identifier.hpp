@@ -25,7 +25,7 @@ struct IdentifierSettings {
   std::size_t stride = 10;           ///< samples from one window to the next: 10 at 500 Hz is 20 ms
   double alpha = 0.5;                ///< equation (17), in (0, 1]
   double expected_mass = 0.0;        ///< M0 > 0, kg, of all free shapes together
-  std::optional<double> lambda;      ///< default: default_lambda() of the first window, then kept
+  std::optional<double> lambda;      ///< default: default_lambda() of the first answer, then kept
   std::optional<double> mass_bound;  ///< kg, for the gap; default: ten times M0
   /// Windows start at the masses of the one before. If not, an answer depends on its window alone,
   /// to the last bit: what a restart in the middle of a stream needs.
@@ -48,7 +48,9 @@ struct WindowAnswer {
 };
 
 /// What `reference::OnlineIdentifier` does, on compressed windows. After construction nothing
-/// throws or allocates (but see PartTree for polyhedra), and the work of a call is bounded.
+/// throws or allocates (but see PartTree for polyhedra), and the work of a call is bounded. Unlike
+/// there, a window is declined whose forces and torques are, as a root mean square, beyond a
+/// hundred times the weight of all links (torques: at a metre): it would leave its scale to lambda.
 class Identifier {
  public:
   /// Copies what it needs. Throws InputError for settings that make no sense.
@@ -82,7 +84,7 @@ class Identifier {
   [[nodiscard]] const Eigen::VectorXd& filtered() const noexcept { return filtered_; }
   /// How the last window's solve ended.
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
-  /// lambda in use; empty before the first window.
+  /// lambda in use; empty before the first answer.
   [[nodiscard]] std::optional<double> lambda() const noexcept { return lambda_; }
   /// The divided shapes of the last window.
   [[nodiscard]] const Division& division() const noexcept { return division_; }
@@ -114,6 +116,7 @@ class Identifier {
   bool warm_;
   double alpha_, expected_mass_, mass_bound_;
   std::optional<double> lambda_;
+  double most_;  ///< of || b ||^2
   double volume_ = 0.0;
   Window rows_;                             ///< of the present block
   std::optional<SlidingTriangle> sliding_;  ///< the last blocks, if windows overlap

@@ -61,8 +61,6 @@ RC_GTEST_PROP(FastHostileWindows, AllocateNothingAndStayBounded, ()) {
 
   fast::IdentifierSettings settings;
   settings.expected_mass = 6.0;
-  // Stated, because by default it comes from the first window, good or bad, and is kept.
-  settings.lambda = 1e-8;
   settings.stride = *rc::gen::element<std::size_t>(1, 3, 10);
   settings.warm = warm;
   settings.division.most_divisions = divisions;
@@ -90,6 +88,34 @@ RC_GTEST_PROP(FastHostileWindows, AllocateNothingAndStayBounded, ()) {
   }
   RC_ASSERT(answered >= 4);
   RC_ASSERT(identifier.Phi().allFinite());
+}
+
+// Lambda comes from the first answer and stays: a window whose torques are out of scale gives none,
+// and what follows is as if the stream had begun there.
+TEST(FastHostileWindows, AFirstOneOutOfScaleSpoilsNoOther) {
+  const Robot robot = test::bundled_quadruped();
+  const BodyModel model = test::bundled_shapes(robot);
+  fast::IdentifierSettings settings;
+  settings.expected_mass = 6.0;
+  const std::vector<Sample> samples =
+      test::trot(robot, stacked_parameters(robot), 7, 60, test::Noise::sensors);
+  Identifier clean(robot, model, settings);
+  for (const Sample& s : samples) clean.feed(s);
+  for (const double factor : {1e5, 1e12, 1e100}) {
+    Identifier identifier(robot, model, settings);
+    for (std::size_t k = 0; k < settings.window; ++k) {
+      Sample spoilt = samples[k];
+      spoilt.tau *= factor;
+      const Fed fed = identifier.feed(spoilt);
+      ASSERT_EQ(fed, k + 1 < settings.window ? Fed::kept : Fed::window_declined) << factor;
+    }
+    EXPECT_EQ(identifier.outcome(), fast::Outcome::out_of_scale);
+    EXPECT_FALSE(identifier.lambda());
+    for (const Sample& s : samples) identifier.feed(s);
+    EXPECT_EQ(identifier.lambda(), clean.lambda());
+    EXPECT_EQ(identifier.Phi(), clean.Phi());
+    EXPECT_EQ(identifier.filtered(), clean.filtered());
+  }
 }
 
 }  // namespace

@@ -70,6 +70,23 @@ TEST(TrackEvents, OutliersAreLeftOut) {
   EXPECT_LT(std::abs(tracked_mass(lines.back()) - tracked_mass(without.back())), 0.1 * near);
 }
 
+// The guard learns from the first second what is ordinary: until then only the scale can be judged.
+TEST(TrackEvents, TorquesOutOfScaleAtFirstSpoilNoLaterWindow) {
+  Lines log = trot_log();
+  for (const char* joint : {"FR_hip", "RL_knee"}) {
+    change(log, std::string("tau.") + joint, 0, 60, [](double tau) { return 1e9 * tau; });
+  }
+  const std::vector<json> lines = tracked(log);
+  EXPECT_EQ(lines.front().at("why"), "window declined: forces that no robot has");
+  const std::vector<json> without = tracked(trot_log());
+  ASSERT_EQ(lines.size(), without.size());
+  for (const char* estimate : {"window", "filtered", "recent"}) {
+    EXPECT_NEAR(lines.back().at("mass").at(estimate).get<double>(),
+                without.back().at("mass").at(estimate).get<double>(), 0.1 * near)
+        << estimate;
+  }
+}
+
 TEST(TrackEvents, DroppedAndRepeatedRows) {
   Lines log = trot_log();
   log.insert(log.begin() + 900, log[900]);            // twice
