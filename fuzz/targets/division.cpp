@@ -100,10 +100,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
              {.step = 0.0, .most_divisions = divisions, .expected_mass = given.expected_mass});
   if (!(given.problem.lambda > 0.0)) return 0;  // only then is there one answer
   const test::RunComparison run = test::compare_runs(given, divisions);
-  // The bounds of FastDivision.WholeRunsOfAnyModel, with their reasons there.
+  // The bounds of FastDivision.WholeRunsOfAnyModel, with their reasons there. But rows of any
+  // numbers leave masses less determined than bodies do, by roundings (which the last check bounds)
+  // over lambda: then each run divides by its own v, and what one sees ahead the other sees at most
+  // twice their distance behind.
   constexpr double tie = 2e-9;
-  fuzz::check(!run.tie_at_difference || *run.tie_at_difference <= tie,
-              "both divide the same shapes, or there is a tie");
+  fuzz::check(
+      !run.tie_at_difference || *run.tie_at_difference <= tie + 2.0 * run.v_apart_at_difference,
+      "both divide the same shapes, or there is a tie");
   fuzz::check(run.worst_objective < few_hundred_eps, "both have the same objective");
   fuzz::check(run.worst_scaled_mass < few_hundred_eps, "both have the same masses");
   return 0;

@@ -119,6 +119,9 @@ RunComparison compare_runs(const ModelWithRows& given, int most_divisions) {
         const double va = criterion(m[a], V[a], V0, options);
         const double vb = criterion(m[b], V[b], V0, options);
         result.tie_at_difference = std::max(in_reference, std::abs(va - vb) / std::max(va, vb));
+        result.v_apart_at_difference =
+            std::max(std::abs(va - snapshot.v[a]), std::abs(vb - snapshot.v[b])) /
+            std::min(std::max(va, vb), snapshot.v.maxCoeff());
       }
       result.first_difference = fmt::format(
           "division {}: fast cuts '{}', reference '{}', v apart by {:g}; {} shapes, {} "

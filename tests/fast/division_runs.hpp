@@ -16,6 +16,8 @@ struct RunComparison {
   /// Where they first divide different shapes: the largest difference of the two shapes' v, over
   /// the larger v, in either run. Empty if they never do.
   std::optional<double> tie_at_difference;
+  /// There: how far the runs' v of one of the two shapes are apart, over the larger v of the two.
+  double v_apart_at_difference = 0.0;
   double worst_objective = 0.0;    ///< in roundings of the problem's terms
   double worst_scaled_mass = 0.0;  ///< in roundings of the gradient's terms
   double worst_mass = 0.0;         ///< over the largest mass
