@@ -7,6 +7,7 @@
 #include <memory>
 #include <thread>
 
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 
@@ -68,10 +69,10 @@ void BatchOptions::add_to(CLI::App& verb) {
   add_solver_options(verb, settings);
   sought.add_to(verb);
   verb.add_option("--min-mass", least_mass, "kg: a link found lighter keeps its given inertia")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_above())
       ->capture_default_str();
   verb.add_option("--threads", threads, "logs that are read at once, by each process")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb.add_option("--blocks", most_blocks,
                   "most blocks of neighbouring logs, by whose spread errors are judged")

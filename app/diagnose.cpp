@@ -7,6 +7,7 @@
 #include "shapeid/app/diagnosis_report.hpp"
 #include "shapeid/app/diagnosis_result.hpp"
 #include "shapeid/app/identification.hpp"
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
@@ -92,10 +93,10 @@ void add_diagnose(CLI::App& app) {
   whole->excludes(shapes);
   verb->add_option("--expected-mass", d.expected_mass,
                    "kg, of all sought links (default: as given)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb->add_option("--least-t", d.rule.least_t,
                    "standard errors by which an effect must lower the held-out error")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->add_flag("--strict", options->strict, "exit status 1 if structure stays unexplained");
   verb->callback([options] { diagnose(*options); });

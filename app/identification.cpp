@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shapeid/app/certificate_text.hpp"
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
 #include "shapeid/diagnosis/series.hpp"
@@ -189,20 +190,20 @@ void add_solver_options(CLI::App& verb, RunOptions& options) {
 void add_solver_options(CLI::App& verb, reference::IdentifySettings& settings) {
   DivisionOptions& division = settings.division;
   verb.add_option("--divisions", division.most_divisions, "most divisions; 0 does not divide")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_above())
       ->capture_default_str();
   verb.add_option("--k1", division.k1, "equation (16): weight of large heavy shapes")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_above())
       ->capture_default_str();
   verb.add_option("--k2", division.k2, "equation (16): weight of dense shapes")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_above())
       ->capture_default_str();
   verb.add_option("--eps", division.step, "stop when a division changes Phi by less, relatively")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_above())
       ->capture_default_str();
   verb.add_option("--lambda", settings.lambda,
                   "weight of the density term (default: docs/derivations/mass-problem.md)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
 }
 
 }  // namespace shapeid::app

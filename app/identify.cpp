@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "shapeid/app/identification.hpp"
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/sought.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
@@ -84,17 +85,17 @@ void add_identify(CLI::App& app) {
                    "effects.yaml of diagnose: friction and the like, taken as known");
   verb->add_option("--min-mass", options->run.least_mass,
                    "kg: a link found lighter keeps its given inertia")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_above())
       ->capture_default_str();
   verb->add_flag(
       "--online", options->online,
       "a JSON line per window, as on the robot: smoothed forward in time, filter (17), no "
       "divisions");
   verb->add_option("--window", options->window, "samples a window (--online)")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->add_option("--stride", options->stride, "samples from window to window (--online)")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->add_option("--alpha", options->alpha, "filter (17) (--online)")
       ->check(CLI::Range(0.0, 1.0))

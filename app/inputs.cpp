@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/reference/contact_detection.hpp"
@@ -68,7 +69,7 @@ void MotionInputs::add_smoothing_to(CLI::App& verb) {
   verb.add_option("--row-cutoff", row_cutoff,
                   "Hz: filter the rows of the equations as well; then --cutoff can be high, which "
                   "distorts less (docs/recovery.md)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb.add_option("--rate", rate, "Hz, of the regular grid (default: the log's)");
   verb.add_flag("--exact", exact, "take dq, ddq and base.gyrodot from the log (simulations)");
 }

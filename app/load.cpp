@@ -6,6 +6,7 @@
 
 #include "shapeid/app/identification.hpp"
 #include "shapeid/app/load_text.hpp"
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
@@ -75,7 +76,7 @@ void add_load(CLI::App& app) {
       ->expected(7);
   verb->add_option("--expected-mass", options->expected_mass,
                    "kg, roughly: it scales the criterion")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   add_delivery_options(*verb, options->delivery);
   verb->callback([options] { load(*options); });

@@ -1,5 +1,6 @@
 #include "shapeid/app/sought.hpp"
 
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
 
@@ -29,7 +30,7 @@ void SoughtLinks::add_to(CLI::App& verb) {
   named->excludes(of_shapes);
   verb.add_option("--expected-mass", expected_mass,
                   "kg, of all sought links together (default: as given)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 BodyModel sought_bodies(const SoughtLinks& sought, const Robot& robot) {

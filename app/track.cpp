@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/sought.hpp"
 #include "shapeid/app/track_checkpoint.hpp"
 #include "shapeid/app/track_lines.hpp"
@@ -160,32 +161,32 @@ void add_track(CLI::App& app) {
   verb->add_option("log", options->inputs.log, "log, CSV; - reads standard input")->required();
   options->sought.add_to(*verb);
   verb->add_option("--cutoff", options->cutoff, "Hz, of the causal filter over every channel")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->add_option("--rate", options->inputs.rate, "Hz, of the regular grid (default: the log's)");
   fast::IdentifierSettings& identifier = options->settings.estimates.identifier;
   verb->add_option("--window", identifier.window, "samples a window")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->add_option("--alpha", identifier.alpha, "filter (17)")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   verb->add_option("--recent", options->settings.estimates.recent, "s, of the longer window")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->add_option("--wander", options->settings.estimates.wander,
                    "share of its size by which a parameter may wander in a second")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_above())
       ->capture_default_str();
   verb->add_flag("--follow", options->follow.follow, "at the end of the file wait for more");
   verb->add_option("--patience", options->follow.patience,
                    "s without a new byte after which following ends; 0 never")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_above())
       ->capture_default_str();
   auto* checkpoint = verb->add_option("--checkpoint", options->checkpoint,
                                       "file that always holds a state to go on from");
   verb->add_option("--checkpoint-every", options->checkpoint_every, "lines between checkpoints")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str()
       ->needs(checkpoint);
   verb->add_flag("--resume", options->resume, "go on from the checkpoint, if there is one")
