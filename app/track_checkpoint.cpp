@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* format = "shapeid-checkpoint-3";
+constexpr const char* format = "shapeid-checkpoint-4";
 constexpr const char* what_is_right = "give a checkpoint that --checkpoint wrote";
 
 /// Bytes: an hour of windows of a whole robot fits; beyond it something else was named.

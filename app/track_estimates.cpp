@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace shapeid::app {
 namespace {
@@ -27,6 +28,9 @@ constexpr std::size_t certain_windows = 3;
 // Of the expected mass: smaller loads are left to the Kalman filter. Errors of the model make the
 // mass of a third of a second wander by a tenth of this (docs/tracking.md).
 constexpr double least_load = 0.08;
+
+// Relative, of all that a window's right-hand side went through.
+constexpr double rounding = 100.0 * std::numeric_limits<double>::epsilon();
 
 std::size_t windows_in(double seconds, double window) {
   return std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(seconds / window)));
@@ -65,7 +69,9 @@ Estimates::Estimates(const Robot& robot, const BodyModel& model, const EstimateS
       window_seconds_(static_cast<double>(settings.identifier.window) / rate),
       correlation_(std::max(1.0, rate * stance)),
       windows_in_recent_(windows_in(settings.recent, window_seconds_)),
+      noise_(windows_in(noise_memory, window_seconds_)),
       identifier_(robot, model, settings.identifier),
+      recent_block_(settings.natural_size.size()),
       sliding_(settings.natural_size.size(), windows_in_recent_),
       tracker_(Eigen::VectorXd::Zero(settings.natural_size.size()), settings.natural_size,
                settings.wander * settings.natural_size),
@@ -96,8 +102,10 @@ void Estimates::forget_samples() {
 
 void Estimates::take_window(double time) {
   learn_noise();
-  const fast::Triangle& window = identifier_.window();
-  sliding_.push(window);
+  recent_block_.assign(identifier_.window());
+  // One that stands out weighs as much less as it is noisier.
+  recent_block_.forget(noise_.last() > 0.0 ? noise_.usual() / noise_.last() : 1.0);
+  sliding_.push(recent_block_);
   tracker_.drift(window_seconds_);
   learn_correlation();
   measure();
@@ -111,11 +119,10 @@ void Estimates::learn_noise() {
   const Eigen::MatrixXd& R = identifier_.window().R();
   const Eigen::Index n = R.cols() - 1;
   const double left = std::max(rows_ - static_cast<double>(n), 1.0);
-  const double variance = R(n, n) * R(n, n) / left;
+  // Samples that never change leave rounding errors, of which no window is made certain.
+  const double error = std::max(R(n, n) * R(n, n), rounding * rounding * R.col(n).squaredNorm());
+  noise_.learn(error / left);
   ++windows_;
-  const double most = noise_memory / window_seconds_;
-  const double share = 1.0 / std::min(static_cast<double>(windows_), most);
-  noise_ += share * (variance - noise_);
 }
 
 /// How far a window pulls at the total mass is a sum over its rows, measured here by the standard
@@ -130,7 +137,7 @@ void Estimates::learn_correlation() {
   Eigen::VectorXd total = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = 0; i < n; i += 10) total[i] = 1.0;
   const Eigen::VectorXd v = R.topLeftCorner(n, n) * (tracker_.covariance() * total);
-  const double white = noise_ * v.squaredNorm();
+  const double white = noise_.last() * v.squaredNorm();
   if (!(white > 0.0)) return;
   const double raw = v.dot(R.col(n).head(n) - R.topLeftCorner(n, n) * tracker_.mean());
   const double limit = outstanding * std::sqrt(correlation_);
@@ -184,7 +191,7 @@ double Estimates::total_variance() const {
 /// before counts by 1 - g, and the window's noise by g.
 void Estimates::measure() {
   const double before = total_variance();
-  tracker_.measure(identifier_.window(), noise_ * correlation_);
+  tracker_.measure(identifier_.window(), noise_.last() * correlation_);
   const double after = total_variance();
   const double kept = after / before;
   mass_variance_ = kept * kept * mass_variance_ + (1.0 - kept) * after;
@@ -201,7 +208,7 @@ void Estimates::pass(double seconds) {
 double Estimates::recent_variance() const {
   const Eigen::Index n = recent_.size();
   const auto scaled =
-      (sliding_.triangle().R().topLeftCorner(n, n) / std::sqrt(noise_ * correlation_)) *
+      (sliding_.triangle().R().topLeftCorner(n, n) / std::sqrt(noise_.usual() * correlation_)) *
       settings_.natural_size.asDiagonal();
   const Eigen::MatrixXd A = scaled;
   const Eigen::MatrixXd information = A.transpose() * A + Eigen::MatrixXd::Identity(n, n);
@@ -210,41 +217,43 @@ double Estimates::recent_variance() const {
   return total.dot(information.llt().solve(total));
 }
 
+/// kg, below which a change is not told from errors.
+double Estimates::least_change(double error) const {
+  return std::max(certain * error, least_load * settings_.identifier.expected_mass);
+}
+
 /// The longer window against the tracked mass from before its first row: no row is in both.
 void Estimates::watch_load(double time) {
   const double now = total_mass(recent_);
-  const double error = std::sqrt(recent_variance() + total_variance());
-  const double least = std::max(certain * error, least_load * settings_.identifier.expected_mass);
   if (found_) {
     if (--settles_in_ > 0) return;
+    const double error = std::sqrt(recent_variance() + found_->variance);
     const double change = now - found_->before;
     // The window was mixed by as much as the first change fell short of the whole.
     const double share = std::clamp(found_->change / change, 0.0, 1.0);
     change_ = {found_->time - share * settings_.recent, change, error, true,
-               std::abs(change) > least};
+               std::abs(change) > least_change(error)};
     found_.reset();
     return;
   }
-  masses_.push_back(total_mass(tracked_));
-  mean_squares_.push_back(mean_square_);
-  if (masses_.size() <= windows_in_recent_) return;
-  const double before = masses_.front(), square_before = mean_squares_.front();
-  masses_.pop_front();
-  mean_squares_.pop_front();
-  disagreeing_ = std::abs(now - before) > least ? disagreeing_ + 1 : 0;
+  past_.push_back({total_mass(tracked_), total_variance(), mean_square_});
+  if (past_.size() <= windows_in_recent_) return;
+  const Past before = past_.front();
+  past_.pop_front();
+  const double change = now - before.mass;
+  const double error = std::sqrt(recent_variance() + before.variance);
+  disagreeing_ = std::abs(change) > least_change(error) ? disagreeing_ + 1 : 0;
   if (disagreeing_ < certain_windows) return;
-  const double change = now - before;
   change_ = {time - static_cast<double>(certain_windows) * window_seconds_, change, error, false,
              true};
-  found_ = {before, change, time};
+  found_ = {before.mass, before.variance, change, time};
   settles_in_ = windows_in_recent_;
   disagreeing_ = 0;
-  masses_.clear();
-  mean_squares_.clear();
+  past_.clear();
   sliding_.clear();
   // What the load did to the pulls is no noise.
   pulls_.clear();
-  mean_square_ = square_before;
+  mean_square_ = before.mean_square;
   set_correlation();
   tracker_.loosen();
   mass_variance_ = total_variance();

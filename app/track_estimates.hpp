@@ -9,10 +9,12 @@
 #include <deque>
 #include <optional>
 
+#include "shapeid/app/track_noise.hpp"
 #include "shapeid/fast/identifier.hpp"
 #include "shapeid/fast/mass_solver.hpp"
 #include "shapeid/fast/parameter_tracker.hpp"
 #include "shapeid/fast/sliding_triangle.hpp"
+#include "shapeid/fast/triangle.hpp"
 #include "shapeid/models/body_model.hpp"
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
@@ -73,8 +75,7 @@ class Estimates {
     archive("mean_square", mean_square_);
     archive("pulls", pulls_);
     archive("rows", rows_);
-    archive("masses", masses_);
-    archive("mean_squares", mean_squares_);
+    archive("past", past_);
     archive("disagreeing", disagreeing_);
     archive("found", found_);
     archive("settles_in", settles_in_);
@@ -89,16 +90,32 @@ class Estimates {
   [[nodiscard]] double total_variance() const;
   [[nodiscard]] bool solve(const Eigen::MatrixXd& R, Eigen::VectorXd& Phi);
   [[nodiscard]] double recent_variance() const;
+  [[nodiscard]] double least_change(double error) const;
   void watch_load(double time);
+
+  /// What was believed behind a window.
+  struct Past {
+    double mass = 0.0;         ///< kg, tracked
+    double variance = 0.0;     ///< kg^2, by the filter's own covariance
+    double mean_square = 0.0;  ///< of pulls
+    template <class Archive>
+    void state(Archive& archive) {
+      archive("mass", mass);
+      archive("variance", variance);
+      archive("mean_square", mean_square);
+    }
+  };
 
   /// A change that has not settled.
   struct Found {
-    double before = 0.0;  ///< kg, tracked mass
-    double change = 0.0;  ///< kg, as first seen
-    double time = 0.0;    ///< s
+    double before = 0.0;    ///< kg, tracked mass
+    double variance = 0.0;  ///< kg^2, of before
+    double change = 0.0;    ///< kg, as first seen
+    double time = 0.0;      ///< s
     template <class Archive>
     void state(Archive& archive) {
       archive("before", before);
+      archive("variance", variance);
       archive("change", change);
       archive("time", time);
     }
@@ -109,20 +126,20 @@ class Estimates {
   double window_seconds_;
   double correlation_;  ///< samples that say as much as one
   std::size_t windows_in_recent_;
+  TrackNoise noise_;
   fast::Identifier identifier_;
+  fast::Triangle recent_block_;  ///< the last window as sliding_ got it
   fast::SlidingTriangle sliding_;
   fast::ParameterTracker tracker_;
   fast::MassSolver solver_;
   Eigen::VectorXd recent_, tracked_;
-  double mass_variance_;             ///< kg^2, mass_error()
-  double noise_ = 0.0;               ///< variance of a row, running mean
-  std::size_t windows_ = 0;          ///< that noise_ is made of
-  double mean_square_ = 0.0;         ///< of the pulls of windows, running: learn_correlation()
-  std::deque<double> pulls_;         ///< of the windows of a stance, newest first
-  double rows_ = 0.0;                ///< free of contact forces, since the window began
-  std::deque<double> masses_;        ///< kg, tracked, of as many windows as the longer one has
-  std::deque<double> mean_squares_;  ///< of the same windows
-  std::size_t disagreeing_ = 0;      ///< windows in a row
+  double mass_variance_;         ///< kg^2, mass_error()
+  std::size_t windows_ = 0;      ///< that were answered
+  double mean_square_ = 0.0;     ///< of the pulls of windows, running: learn_correlation()
+  std::deque<double> pulls_;     ///< of the windows of a stance, newest first
+  double rows_ = 0.0;            ///< free of contact forces, since the window began
+  std::deque<Past> past_;        ///< of as many windows as the longer one has
+  std::size_t disagreeing_ = 0;  ///< windows in a row
   std::optional<Found> found_;
   std::size_t settles_in_ = 0;  ///< windows
   std::optional<LoadChange> change_;

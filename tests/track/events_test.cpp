@@ -87,6 +87,24 @@ TEST(TrackEvents, TorquesOutOfScaleAtFirstSpoilNoLaterWindow) {
   }
 }
 
+// What the limit of scale lets through (a filter spreads it over good windows, too) weighs as
+// little as it is noisy, and says nothing about the noise of what follows.
+TEST(TrackEvents, TorquesFarOffAtFirstAreForgotten) {
+  for (const double factor : {1e2, 1e4, 1e6}) {
+    Lines log = trot_log();
+    for (const char* joint : {"FR_hip", "RL_knee"}) {
+      change(log, std::string("tau.") + joint, 0, 60, [&](double tau) { return factor * tau; });
+    }
+    const std::vector<json> lines = tracked(log);
+    for (const json& line : lines) EXPECT_TRUE(line.at("load").is_null()) << line.at("load");
+    EXPECT_LT(std::abs(tracked_mass(lines.back()) - true_mass), near) << factor;
+    EXPECT_LT(
+        std::abs(lines.at(lines.size() / 2).at("mass").at("recent").get<double>() - true_mass),
+        2.0 * near)
+        << factor;
+  }
+}
+
 TEST(TrackEvents, DroppedAndRepeatedRows) {
   Lines log = trot_log();
   log.insert(log.begin() + 900, log[900]);            // twice
