@@ -15,12 +15,14 @@ import time
 SLOW = 3.0  # seconds: such tests come last
 ALONE = 3  # tests that are asked one by one
 TOGETHER = 2.0  # seconds of tests that are asked in one process
+# What a contract, an array of the standard library's and one of Eigen's say before they end a program.
+CHECKS = re.compile(r"contract broken|: Assertion [`']")
 LIMITS = ("prlimit", "--as=6000000000", "--fsize=1000000000", "--core=0")  # a mutant may ask for anything
 
 
 def run(program, tests, seconds, **variables):
     """Runs tests of one program until one fails. Its exit status, or None after `seconds`; the test
-    that failed, or ran last; how long all took."""
+    that failed, or ran last; how long all took; whether a contract or a bound did not hold."""
     scratch = tempfile.mkdtemp(prefix="mutant-")
     seeds = {"RC_PARAMS": "seed=20240611 noshrink=1", "TMPDIR": scratch}
     began = time.monotonic()
@@ -28,7 +30,7 @@ def run(program, tests, seconds, **variables):
     with open(said, "wb") as out:
         process = subprocess.Popen([*LIMITS, program, "--gtest_fail_fast", "--gtest_filter=" + ":".join(tests)],
                                    cwd=program.parent, stdin=subprocess.DEVNULL, stdout=out,
-                                   stderr=subprocess.DEVNULL, start_new_session=True,
+                                   stderr=subprocess.STDOUT, start_new_session=True,
                                    env=os.environ | seeds | variables)
     try:
         status = process.wait(seconds)
@@ -44,7 +46,8 @@ def run(program, tests, seconds, **variables):
         failed = re.findall(r"^\[  FAILED  \] ([\w./]+)", text, re.M)
         begun = re.findall(r"^\[ RUN      \] (\S+)", text, re.M)
         shutil.rmtree(scratch, ignore_errors=True)
-    return status, [*failed[:1], *reversed(begun), tests[0]][0], time.monotonic() - began
+    is_check = CHECKS.search(text) is not None
+    return status, [*failed[:1], *reversed(begun), tests[0]][0], time.monotonic() - began, is_check
 
 
 def in_parallel(work, items, jobs):
@@ -92,7 +95,7 @@ def passed_by(programs, kept, jobs):
     def measure(item):
         program, test = item
         passed = pathlib.Path(tempfile.mkstemp(prefix="passed-")[1])
-        status, _, seconds = run(program, [test], 900, SHAPEID_PASSED=str(passed))
+        status, _, seconds, _ = run(program, [test], 900, SHAPEID_PASSED=str(passed))
         numbers = sorted({int(line) for line in passed.read_text().split()})
         passed.unlink()
         with lock:
@@ -169,12 +172,12 @@ class Campaign:
         verdict = {"key": key, "verdict": "survived" if names else "not reached", "asked": []}
         began = time.monotonic()
         for group in self.rounds(names):
-            status, last, _ = run(group["program"], group["names"], 2.0 + 10.0 * group["seconds"],
+            status, last, _, is_check = run(group["program"], group["names"], 2.0 + 10.0 * group["seconds"],
                                   SHAPEID_MUTANT=str(number))
             verdict["asked"] += group["names"]
             if status != 0:
                 how = "too long" if status is None else "failed" if status == 1 else f"status {status}"
-                verdict |= {"verdict": "killed", "by": last, "how": how}
+                verdict |= {"verdict": "killed", "by": last, "how": how, "check": is_check}
                 break
         verdict |= {"tried": len(verdict["asked"]), "reaching": len(names),
                     "seconds": round(time.monotonic() - began, 2)}

@@ -62,7 +62,7 @@ def survivors(root, alive, explained):
     return "\n".join(rows)
 
 
-def written(judged, places, root, options, commit, tests, failing):
+def written(judged, fresh, places, root, options, commit, tests, failing):
     explained = reasons()
     alive = [(p, v) for p, v in judged if v["verdict"] != "killed"]
     dead = len(judged) - len(alive)

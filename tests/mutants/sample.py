@@ -21,10 +21,13 @@ def lots(places, seed):
     return drawn
 
 
-def stratified(places, count, seed):
-    """[(number, place)]: `count` of `places`, in the order of their lots, so that the first ones are a
-    sample, too. Each stratum (folder, operator) gives its share, rounded by the largest remainder.
-    Numbers come from the lots, so that sources whose sample stays need not be compiled again."""
+def stratified(places, count, seed, before=()):
+    """[(number, place)]: `count` of `places` without those of `before`, another such list. In the order
+    of their lots, so that the first ones are a sample, too. Each stratum (folder, operator) gives its share,
+    rounded by the largest remainder. Numbers come from the lots, so that sources whose sample stays need
+    not be compiled again."""
+    taken_before = {(place.file, place.start, place.end, place.form, place.changed) for _, place in before}
+    places = [p for p in places if (p.file, p.start, p.end, p.form, p.changed) not in taken_before]
     strata = collections.defaultdict(list)
     for lot, place in lots(places, seed):
         strata[folder(place), place.operator].append((lot, place))
@@ -36,10 +39,10 @@ def stratified(places, count, seed):
     sample = []
     for key, members in strata.items():
         sample += sorted(members, key=lambda m: m[0])[:taken[key]]
-    numbered = {}
+    numbered, used = {}, {number for number, _ in before}
     for lot, place in sorted(sample, key=lambda m: m[0]):
         number = 1 + int(lot[-8:], 16) % NUMBERS
-        while number in numbered:
+        while number in numbered or number in used:
             number = 1 + number % NUMBERS
         numbered[number] = place
     return list(numbered.items())
