@@ -69,8 +69,9 @@ Eigen::Index Butterworth::samples_to_decay(double fraction) const {
         discriminant < 0.0 ? std::sqrt(s.a2) : std::abs(s.a1) / 2.0 + std::sqrt(discriminant);
     slowest = std::max(slowest, radius);
   }
-  if (slowest == 0.0) return 1;
-  return static_cast<Eigen::Index>(std::ceil(std::log(fraction) / std::log(slowest)));
+  // All poles at zero: forgotten at once.
+  const double samples = std::ceil(std::log(fraction) / std::log(slowest));
+  return std::max(Eigen::Index{1}, static_cast<Eigen::Index>(samples));
 }
 
 FilterState::FilterState(const Butterworth& design, Eigen::Index channels)

@@ -76,7 +76,7 @@ json parse_json(const std::string& text, const JsonSource& source) {
 json parse_document(const std::string& text, const JsonSource& source, const std::string& format,
                     const std::set<std::string>& keys) {
   json document = parse_json(text, source);
-  if (!document.is_object() || !document.contains("format") || document["format"] != format) {
+  if (!document.contains("format") || document["format"] != format) {
     throw InputError({source.name}, "has no or another format",
                      fmt::format("\"format\" must be \"{}\"", format));
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
 #include <optional>
 
 #include "shapeid/proofs/certificate/bound.hpp"
@@ -35,6 +36,32 @@ RC_GTEST_PROP(DualBound, IsTheOptimumAtTheOptimum, ()) {
   const ExactProblem p(stated);
   const Vector r = p.residual(p.U.times(truth.m), truth.x);
   RC_ASSERT(lower_bound(p, r, std::nullopt) == std::optional<Rational>(truth.value));
+}
+
+/// What settled_columns() promises, one by one.
+RC_GTEST_PROP(DualBound, SettledColumnsHaveNoSlopeWithoutEnd, ()) {
+  StatedProblem stated = *test::small_problem(*rc::gen::arbitrary<bool>());
+  const Eigen::Index k = stated.others.values.cols();
+  RC_PRE(k > 0 && stated.masses.F.size() >= k);
+  const Eigen::VectorXd given = *test::vector(k, 2.0);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    stated.others.lower[i] = *rc::gen::element(-HUGE_VAL, given[i] - 1.0, given[i]);
+    stated.others.upper[i] = *rc::gen::element(HUGE_VAL, given[i] + 1.0, given[i]);
+  }
+  const ExactProblem p(stated);
+  const Vector Phi = exact(*test::vector(stated.masses.U.rows(), 2.0)), before = exact(given);
+  const Vector x = settled_columns(p, Phi, before);
+  const Vector c = p.C.transposed_times(products(p.W, p.residual(Phi, x)));
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const bool ends_below = p.lower[i].has_value(), ends_above = p.upper[i].has_value();
+    RC_ASSERT(ends_below || sgn(c[i]) <= 0);
+    RC_ASSERT(ends_above || sgn(c[i]) >= 0);
+    if (ends_below && ends_above) RC_ASSERT(x[i] == before[i]);
+    const bool at_an_end =
+        (ends_below && before[i] == *p.lower[i]) || (ends_above && before[i] == *p.upper[i]);
+    if (!at_an_end && !(ends_below && ends_above)) RC_ASSERT(c[i] == 0);
+    if (x[i] != before[i]) RC_ASSERT(c[i] == 0);
+  }
 }
 
 /// The sum of 2 a t + lambda t^2 / V at drawn points of { t >= 0, sum t <= M }.

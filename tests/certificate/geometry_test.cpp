@@ -175,5 +175,36 @@ TEST(ExactMoments, OfAQuarterCylinder) {
   EXPECT_LT(distance(exact(2.0), found->parameters[9]), close);  // R^2 / 2
 }
 
+/// All numbers dyadic, so that points lie on the surfaces exactly, and no rounding is allowed.
+TEST(Geometry, TheSurfaceBelongsToTheRegion) {
+  const Rational none = 0;
+  const Eigen::Isometry3d pose(Eigen::Translation3d(0.25, -0.5, 2.0));
+  const auto moved = [&](double x, double y, double z) {
+    return make_point(pose * Eigen::Vector3d(x, y, z), 1e-3);
+  };
+  const std::vector<Eigen::Vector3d> corners = {{0, 0, 0}, {0.5, 0, 0}, {0, 0.25, 0}, {0, 0, 1}};
+  struct Case {
+    Shape region, on, outside;
+  };
+  const double more = std::ldexp(1.0, -40);
+  for (const Case& c :
+       {Case{make_cuboid({1.0, 0.5, 0.25}, pose), moved(0.5, -0.25, 0.125),
+             moved(0.5, -0.25, 0.125 + more)},
+        Case{make_cuboid({1.0, 0.5, 0.25}, pose), moved(-0.5, 0.25, -0.125),
+             moved(-0.5 - more, 0.25, -0.125)},
+        Case{make_ellipsoid({0.5, 0.25, 1.0}, pose), moved(0.0, -0.25, 0.0),
+             moved(0.0, -0.25 - more, 0.0)},
+        Case{make_cylinder(0.5, 1.0, pose), moved(0.5, 0.0, -0.5), moved(0.5, 0.0, -0.5 - more)},
+        Case{make_cylinder(0.5, 1.0, pose), moved(0.0, 0.5, 0.25), moved(0.0, 0.5 + more, 0.25)},
+        Case{make_convex_hull(corners, pose), moved(0.25, 0.125, 0.0),
+             moved(0.25, 0.125 + more, 0.0)}}) {
+    EXPECT_EQ(check_geometry(of_shapes({c.on}, c.region), none).inside, 1) << kind_name(c.region);
+    EXPECT_EQ(check_geometry(of_shapes({c.outside}, c.region), none).inside, 0)
+        << kind_name(c.region);
+    EXPECT_EQ(check_geometry(of_shapes({c.outside}, c.region), rounding).inside, 1)
+        << kind_name(c.region);
+  }
+}
+
 }  // namespace
 }  // namespace shapeid::certificate

@@ -106,6 +106,26 @@ TEST(Relaxations, MeetWithoutNoise) {
   EXPECT_LE(of.masses.upper, of.bodies.upper);
 }
 
+/// A column that is the forces themselves explains as much of them as its bound lets it; the
+/// optimum over masses is of degree two in what is left.
+TEST(Relaxations, OtherColumnsKeepTheirBounds) {
+  const StatedProblem alone = noisy_load(0, 0.05);
+  const Guess guess = app::least_over_masses(alone);
+  const Interval least = relaxations(alone, {{}, {}, guess}, {}).masses;
+  ASSERT_GT(least.lower, 0);
+  const double most = 0.3;
+  const Rational left = 1 - exact(most);
+  for (const double sign : {-1.0, 1.0}) {
+    StatedProblem p = alone;
+    p.others.values = sign * alone.masses.F;
+    p.others.lower = Eigen::VectorXd::Constant(1, sign > 0.0 ? 0.0 : -most);
+    p.others.upper = Eigen::VectorXd::Constant(1, sign > 0.0 ? most : 0.0);
+    const Guess beside{(1.0 - most) * guess.parameters, Eigen::VectorXd::Constant(1, sign * most)};
+    const Interval found = relaxations(p, {{}, {}, beside}, {}).masses;
+    EXPECT_EQ(found.lower, Rational(left * left * least.lower));
+  }
+}
+
 /// Thirteen coupled links: the barrier's path and the exact elimination at the size of a robot.
 TEST(Relaxations, OfAWholeBody) {
   const StatedProblem p = test::body_problem(3);

@@ -59,6 +59,21 @@ TEST(HostileJson, NumbersAtTheEndsOfDouble) {
   }
 }
 
+TEST(HostileJson, ListsWhereObjectsBelong) {
+  for (const char* other : {"[]", "[1]", "1", "null", "\"a\""}) {
+    EXPECT_TRUE(says(problem(other), "p.json: has no or another format")) << other;
+    const std::string claim =
+        std::string("{\"format\":\"shapeid-certificate-2\",\"claim\":") + other;
+    EXPECT_TRUE(says(certificate_of(claim + ",\"evidence\":{}}"), "column claim: not an object"))
+        << other;
+    const std::string problem_with_columns =
+        "{\"format\":\"shapeid-problem-1\",\"free_links\":0,\"Y\":[],\"F\":[],\"W\":[],\"U\":[],"
+        "\"V\":[],\"mass_bound\":0,\"lambda\":0,\"columns\":";
+    EXPECT_TRUE(says(problem(problem_with_columns + other + "}"), "column columns: not an object"))
+        << other;
+  }
+}
+
 TEST(HostileJson, KeysThatNoTerminalShouldSee) {
   EXPECT_EQ(problem("{\"format\":\"shapeid-problem-1\",\"a\\u001b[2J\\nb\":1}"),
             "p.json, column a\\x1b[2J\\x0ab: unknown key; see docs/formats/problem.md");

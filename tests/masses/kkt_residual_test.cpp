@@ -54,6 +54,15 @@ TEST(KktResidual, DensityTermCounts) {
   EXPECT_GT(kkt_residual(p, Eigen::Vector2d(2.0, 0.0)).complementarity, 0.1);
 }
 
+// At mass 2: gradient 2 lambda m / V = 12, of terms 2 (2 + 2) + 12 = 20.
+TEST(KktResidual, TheDensityTermIsATermLikeOthers) {
+  MassProblem p = two_apart();
+  p.lambda = 3.0;
+  const KktResidual residual = kkt_residual(p, Eigen::Vector2d(2.0, 0.0));
+  EXPECT_EQ(residual.complementarity, 0.6);
+  EXPECT_EQ(residual.dual, 0.0);
+}
+
 RC_GTEST_PROP(KktResidual, IsFreeOfUnits, ()) {
   const MassProblem p = (*test::planted_problem({.badly_scaled = true})).problem;
   const Eigen::VectorXd m = (*test::vector(p.shapes(), 1.0)).cwiseAbs();

@@ -100,6 +100,29 @@ TEST(SegmentFilter, RampsAreLateByTheGroupDelay) {
   }
 }
 
+// The bilinear transform takes a pole s of the prototype to (1 + K s) / (1 - K s); what is left of
+// a start shrinks by the largest of their magnitudes a row.
+RC_GTEST_PROP(Butterworth, DecaysAsItsSlowestPole, ()) {
+  const Drawn f = draw_filter();
+  const double K = std::tan(pi * f.cutoff / f.rate), fraction = *test::magnitude(1e-12, 0.5);
+  double radius = 0.0;
+  for (int k = 1; k <= f.order; ++k) {
+    const std::complex<double> s = std::polar(1.0, pi * (2 * k + f.order - 1) / (2.0 * f.order));
+    radius = std::max(radius, std::abs((1.0 + K * s) / (1.0 - K * s)));
+  }
+  const auto rows =
+      static_cast<double>(Butterworth(f.order, f.cutoff, f.rate).samples_to_decay(fraction));
+  const double wanted = std::log(fraction) / std::log(radius);
+  // A section's pole is the root of its coefficients, whose roundings the slow ones double.
+  constexpr double roundings = 1e-6;
+  RC_ASSERT(rows >= wanted * (1.0 - roundings));
+  RC_ASSERT(rows <= wanted * (1.0 + roundings) + 1.0);
+}
+
+TEST(Butterworth, APoleNearZeroIsForgottenAtOnce) {
+  EXPECT_EQ(Butterworth(1, 125.0, 500.0).samples_to_decay(1e-3), 1);
+}
+
 /// The textbook: extend by reflection, forward over all, backward over all.
 Eigen::MatrixXd whole_segment(const Butterworth& design, const Eigen::MatrixXd& x,
                               Eigen::Index reflected) {

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 
 #include "shapeid/models/contract.hpp"
@@ -173,6 +174,51 @@ TEST(LogWriter, RefusesWhatItCouldNotReadBack) {
   LogWriter writer(path, {"a", "b"});
   EXPECT_THROW(writer.write({1.0}), Defect);
   EXPECT_THROW(writer.write({1.0, std::numeric_limits<double>::infinity()}), Defect);
+}
+
+std::size_t open_files() {
+  const std::filesystem::directory_iterator files("/proc/self/fd");
+  return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+TEST(Log, FilesAreClosed) {
+  const Scratch scratch;
+  const std::size_t before = open_files();
+  for (const char* name : {"x.csv", "x.csv.gz"}) {
+    const auto path = scratch.path(name);
+    LogWriter writer(path, {"a"});
+    writer.write({1.0});
+    writer.close();
+    EXPECT_EQ(read_all(path).size(), 1u);
+    EXPECT_EQ(open_files(), before);
+    {
+      const LogReader begun(path);
+      EXPECT_EQ(open_files(), before + 1);
+      LogWriter given_up(path, {"b"});
+      given_up.write({2.0});
+    }
+    EXPECT_EQ(open_files(), before);
+  }
+  EXPECT_THROW(LogReader(scratch.file("y.csv", "1,2\n")), InputError);
+  EXPECT_EQ(open_files(), before);
+}
+
+// Wherever the blocks in which a file is read end, nothing of it is lost.
+TEST(LogReader, FilesOfEveryLengthAreReadToTheirLastByte) {
+  const Scratch scratch;
+  for (const std::size_t block : {std::size_t{1} << 14, std::size_t{1} << 16}) {
+    for (std::size_t length = block - 2; length <= block + 2; ++length) {
+      std::string text = "a\n";
+      while (text.size() + 20 < length) text += "12345\n";
+      text += "0.";
+      while (text.size() + 1 < length) text += "0";
+      text += "7";  // the last byte
+      const auto rows = read_all(scratch.file("x.csv", text));
+      ASSERT_EQ(text.size(), length);
+      ASSERT_EQ(rows.size(), 1 + (length - 22 + 5) / 6) << length;
+      EXPECT_GT(rows.back().values[0], 0.0) << length;
+    }
+  }
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "shapeid/models/plausibility.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <numbers>
 
@@ -149,6 +151,28 @@ TEST(Plausibility, EveryBlockIsJudged) {
     if (s.time > 8.0) s.dq *= radian;
   };
   EXPECT_NE(reception(late, chain(3, Root::fixed)).find("is 57.3 times"), std::string::npos);
+}
+
+// Of many lines with the same value, the first: there the log can be looked at.
+TEST(Plausibility, TheFirstLineOfAnExtremeIsNamed) {
+  const Robot robot = chain(3, Root::fixed);
+  constexpr double stop = 25.0;
+  for (const double sign : {-1.0, 1.0}) {
+    int first = 0;
+    for (int k = 0; first == 0; ++k) {
+      if (sign * radian * smooth_motion(robot, k / 500.0).q[0] > stop) first = k;
+    }
+    const auto stopped = [&](Sample& s) {
+      const double q = sign * radian * s.q[0];
+      s.q[0] = sign * (q > stop ? stop : std::max(q, 0.0));
+      s.dq.setZero();
+    };
+    const std::string message = reception(stopped, robot);
+    EXPECT_EQ(message.rfind(
+                  fmt::format("x.csv:{}, column q.j0: {} lies outside", first + 2, sign * stop), 0),
+              0U)
+        << message;
+  }
 }
 
 }  // namespace

@@ -161,5 +161,35 @@ RC_GTEST_PROP(Division, ArbitraryDescentsStayBodies, ()) {
   }
 }
 
+// Halves of halves end with a refusal, not with a part that is none.
+TEST(Division, EndsWhereDoublesDo) {
+  const Eigen::Isometry3d pose(Eigen::Translation3d(0.3, -0.7, 0.5) *
+                               Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, -1).normalized()));
+  std::vector<Eigen::Vector3d> corners;
+  for (int k = 0; k < 8; ++k) {
+    corners.emplace_back(0.1 * (k & 1), 0.2 * ((k >> 1) & 1), 0.3 * (k >> 2));
+  }
+  for (const Shape& whole :
+       {make_cuboid({0.1, 0.2, 0.3}, pose), make_cylinder(0.1, 0.3, pose),
+        make_ellipsoid({0.1, 0.2, 0.3}, pose), make_convex_hull(corners, pose)}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Shape part = whole;
+      int cuts = 0;
+      // A corner shrinks in all directions at once, a pole as the square of its angle.
+      constexpr int more_than_digits = 3 * 80;
+      try {
+        for (; cuts < more_than_digits; ++cuts) {
+          part = divide(part, axis, 0.5).second;
+          ASSERT_FALSE(why_malformed(part)) << kind_name(whole) << " " << axis << " " << cuts;
+        }
+        ADD_FAILURE() << kind_name(whole) << " is divided for ever across " << axis;
+      } catch (const std::invalid_argument& refused) {
+        EXPECT_STREQ(refused.what(), "the shape is too thin to be divided in double precision");
+        EXPECT_GT(cuts, 30) << kind_name(whole) << " " << axis;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace shapeid
