@@ -223,5 +223,28 @@ TEST(FastMassEdges, ClearedIsAsNew) {
   EXPECT_EQ(State(solver), State(fresh));
 }
 
+/// Rows that measure each parameter alone, and a shape for each: one step for every shape that
+/// enters, and one that finds nothing left to do. Numbers are dyadic, so that nothing is refined.
+TEST(FastMassEdges, StepsAreCounted) {
+  constexpr int shapes = 6;
+  MassSolver solver(1, shapes);
+  MatrixXd R = MatrixXd::Identity(11, 11);
+  R(10, 10) = 0.0;
+  for (int j = 0; j < shapes; ++j) {
+    ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(j), 1.0));
+    R(j, 10) = 1.0 + 0.25 * j;
+  }
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  EXPECT_EQ(VectorXd(solver.m()), R.col(10).head(shapes));
+  EXPECT_EQ(solver.iterations(), shapes + 1);
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  EXPECT_EQ(solver.iterations(), 1);
+  // One shape too heavy to stay: a step takes it out, the next one finds nothing.
+  R(2, 10) = -1.0;
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  EXPECT_EQ(solver.m()[2], 0.0);
+  EXPECT_EQ(solver.iterations(), 2);
+}
+
 }  // namespace
 }  // namespace shapeid::fast

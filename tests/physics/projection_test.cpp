@@ -175,5 +175,25 @@ RC_GTEST_PROP(EliminateContacts, ObjectiveIsTheMinimumOverForces, ()) {
             few_hundred_eps);
 }
 
+// Levers are metres: a picometre is none, nor are as many digits of longer ones, whatever the
+// weights.
+TEST(ContactFreeBasis, ALeverBelowAPicometreIsNone) {
+  for (const double weight : {1.0, 1e-4, 1e4}) {
+    const VectorXd weights = VectorXd::Constant(8, weight);
+    const auto rank = [&](double first, double second) {
+      MatrixXd J = MatrixXd::Zero(2, 8);
+      J(0, 2) = first;
+      J(1, 5) = second;
+      return contact_free_basis(J, weights).rank;
+    };
+    EXPECT_EQ(rank(0.3, 0.3), 2);
+    EXPECT_EQ(rank(0.3, 2e-12), 2);
+    EXPECT_EQ(rank(0.3, 0.5e-12), 1);
+    EXPECT_EQ(rank(0.0, 0.5e-12), 0);
+    EXPECT_EQ(rank(1e3, 2e-9), 2);
+    EXPECT_EQ(rank(1e3, 0.5e-9), 1);
+  }
+}
+
 }  // namespace
 }  // namespace shapeid
