@@ -62,6 +62,19 @@ def survivors(root, alive, explained):
     return "\n".join(rows)
 
 
+def fresh_section(root, fresh, explained, options):
+    """What the second sample says, or that there is none."""
+    if not fresh:
+        return "None was drawn (`./run mutants --fresh 200`)."
+    alive = [(p, v) for p, v in fresh if v["verdict"] != "killed"]
+    checked = sum(v.get("check", False) for _, v in fresh if v["verdict"] == "killed")
+    asked = "all were asked about" if len(fresh) == options.fresh else (
+        f"{len(fresh)} of {options.fresh} were asked about, in the order of their lots")
+    return (f"Seed {options.fresh_seed}; {asked}. **{share(len(fresh) - len(alive), len(fresh))} died**, {checked} of "
+            f"them through a contract or a bound.\n\n{table('folder', sample.folder, fresh)}\n\n"
+            f"Its survivors:\n\n{survivors(root, alive, explained)}")
+
+
 def written(judged, fresh, places, root, options, commit, tests, failing):
     explained = reasons()
     alive = [(p, v) for p, v in judged if v["verdict"] != "killed"]
@@ -71,21 +84,25 @@ def written(judged, fresh, places, root, options, commit, tests, failing):
         return explained.get((place.file, source_line(root, place), place.says), ("?",))[0] == "equivalent"
 
     equal = sum(is_equal(p) for p, _ in alive)
-    ways = collections.Counter(v["how"].split()[0] for _, v in judged if v["verdict"] == "killed")
+    killed = [v for _, v in judged if v["verdict"] == "killed"]
+    ways = collections.Counter(v["how"].split()[0] for v in killed)
     text = (HERE / "page.md.in").read_text()
     values = {
-        "command": f"./run mutants --count {options.count} --seed {options.seed} --budget {options.budget:g}",
+        "command": f"./run mutants --count {options.count} --seed {options.seed} --budget {options.budget:g}" +
+                   (f" --fresh {options.fresh} --fresh-seed {options.fresh_seed}" if options.fresh else ""),
         "commit": commit,
         "places": f"{len(places):,}", "count": str(len(judged)), "tests": f"{len(tests):,}",
         "failing": ", ".join(failing) or "none",
         "died": share(dead, len(judged)), "without_equal": share(dead, len(judged) - equal),
         "equal": str(equal), "alive": str(len(alive)),
         "unreached": str(sum(not v["reaching"] for _, v in alive)),
+        "before": str(ways["before"]), "checked": str(sum(v.get("check", False) for v in killed)),
         "failed": str(ways["failed"]), "crashed": str(ways["status"]), "late": str(ways["too"]),
         "partly": str(sum(v["tried"] < v["reaching"] for _, v in alive)),
         "by_folder": table("folder", sample.folder, judged),
         "by_operator": table("operator", lambda place: place.operator, judged),
         "survivors": survivors(root, alive, explained),
+        "fresh": fresh_section(root, fresh, explained, options),
         "coverage": coverage.section(root),
     }
     for name, value in values.items():

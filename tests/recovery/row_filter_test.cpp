@@ -109,27 +109,34 @@ TEST(RowFilter, BeginsAnewAfterAGap) {
   }
 }
 
-// What does not change in time passes as it is: the rows of a Window, in other words.
+// What does not change in time passes as it is: the rows of a Window, in other words. With one free
+// link and with two.
 TEST(RowFilter, LeavesStandstillAlone) {
   const Quadruped quadruped = bundled_quadruped();
   const Eigen::VectorXd weight = uneven_weight(quadruped.robot);
-  Sample sample = test::trot(quadruped.robot, {0.6, 500.0, 1, {}}).back().sample;
-  reference::Window window(quadruped.robot, quadruped.base, project, weight);
-  window.add(sample);
-  const Eigen::MatrixXd YtY = window.Y().transpose() * window.Y();
-  const Eigen::VectorXd YtF = window.Y().transpose() * window.F();
+  BodyModel two = quadruped.base;
+  two.free_links = {0, 3};
+  two.known.segment<10>(30).setZero();
+  two.shapes.push_back({3, make_point({0.1, 0.0, -0.05}, 1e-3), "knee"});
+  for (const BodyModel& model : {quadruped.base, two}) {
+    Sample sample = test::trot(quadruped.robot, {0.6, 500.0, 1, {}}).back().sample;
+    reference::Window window(quadruped.robot, model, project, weight);
+    window.add(sample);
+    const Eigen::MatrixXd YtY = window.Y().transpose() * window.Y();
+    const Eigen::VectorXd YtF = window.Y().transpose() * window.F();
 
-  std::vector<Sample> samples;
-  for (int i = 0; i < 300; ++i) {
-    sample.time = 0.002 * i;
-    samples.push_back(sample);
-  }
-  RowFilter filter(quadruped.robot, quadruped.base, project, weight, {20.0, 2, 500.0, 7});
-  const auto rows = all_of(filter, samples);
-  EXPECT_EQ(rows.size(), 43u);  // 300 / 7, the first one included
-  for (const FilteredRows& row : rows) {
-    ASSERT_LT(scaled_difference(row.Y.transpose() * row.Y, YtY, 18), few_hundred_eps);
-    ASSERT_LT(scaled_difference(row.Y.transpose() * row.F, YtF, 18), few_hundred_eps);
+    std::vector<Sample> samples;
+    for (int i = 0; i < 300; ++i) {
+      sample.time = 0.002 * i;
+      samples.push_back(sample);
+    }
+    RowFilter filter(quadruped.robot, model, project, weight, {20.0, 2, 500.0, 7});
+    const auto rows = all_of(filter, samples);
+    EXPECT_EQ(rows.size(), 43u);  // 300 / 7, the first one included
+    for (const FilteredRows& row : rows) {
+      ASSERT_LT(scaled_difference(row.Y.transpose() * row.Y, YtY, 18), few_hundred_eps);
+      ASSERT_LT(scaled_difference(row.Y.transpose() * row.F, YtF, 18), few_hundred_eps);
+    }
   }
 }
 
