@@ -31,6 +31,10 @@ constexpr double smallest_distance = 1e-2;
 /// dozen terms.
 constexpr double few_roundings = 32.0 * std::numeric_limits<double>::epsilon();
 
+/// Of a slope's rounding: a density's share lambda m / V that is so much larger is known to six
+/// digits, as many as a step of refinement gains.
+constexpr double certainly_felt = 1e6;
+
 /// Rows of the damped least-squares problem that a link has: ten of R, ten of damping.
 constexpr Eigen::Index rows_of_link = 20;
 
@@ -300,13 +304,15 @@ EvenDensity::Ten EvenDensity::share_of(const Density& density, const Ten& slopes
 // The residual of the damped problem: slopes are those of the masses, to the last digits, and y is
 // kept as the sum of its corrections. (From Phi it would be lost where columns of X nearly depend
 // on each other.) Its correction solves the normal equations by the triangle that is there. Masses
-// are corrected, not made anew from w: there w is large, and u_j . w loses digits.
+// are corrected, not made anew from w: there w is large, and u_j . w loses digits. What they lost
+// before, each shape's slope tells: it is left of it beyond what y's residual explains.
 void EvenDensity::refine(const Eigen::VectorXd& slopes) noexcept {
   for (int l = 0; l < columns_->links(); ++l) {
-    const Density& density = densities_[static_cast<std::size_t>(l)];
-    const Ten share = share_of(density, slopes.segment<10>(Eigen::Index{10} * l));
-    correction_.segment(density.first, density.rank) =
-        share.head(density.rank) - lambda_ * y_.segment(density.first, density.rank);
+    Density& density = densities_[static_cast<std::size_t>(l)];
+    Ten missing = share_of(density, slopes.segment<10>(Eigen::Index{10} * l));
+    missing.head(density.rank) -= lambda_ * y_.segment(density.first, density.rank);
+    correction_.segment(density.first, density.rank) = missing.head(density.rank);
+    density.missing = weights(density, density.rank, missing, Ten::Zero());
   }
   qr_.solve_normal(correction_);
   y_.head(qr_.size()) += correction_.head(qr_.size());
@@ -318,8 +324,20 @@ void EvenDensity::refine(const Eigen::VectorXd& slopes) noexcept {
   }
   for (std::size_t i = 0; i < passive_.size(); ++i) {
     const int j = passive_[i];
-    const Ten& change = densities_[static_cast<std::size_t>(columns_->link(j))].change;
-    target_[static_cast<Eigen::Index>(i)] += (*V_)[j] * columns_->column(j).dot(change);
+    const int link = columns_->link(j);
+    const Density& density = densities_[static_cast<std::size_t>(link)];
+    const auto u = columns_->column(j);
+    const double V = (*V_)[j];
+    double& mass = target_[static_cast<Eigen::Index>(i)];
+    const double held = lambda_ * mass / V;
+    const double rounding = u.cwiseAbs().dot(noise_.segment<10>(Eigen::Index{10} * link));
+    if (held > certainly_felt * rounding) {
+      const double slope = u.dot(slopes.segment<10>(Eigen::Index{10} * link)) - held;
+      const double lost = slope - u.dot(density.missing);
+      const double more_rounding = few_roundings * u.cwiseAbs().dot(density.missing.cwiseAbs());
+      if (std::abs(lost) > rounding + more_rounding) mass += V / lambda_ * lost;
+    }
+    mass += V * u.dot(density.change);
   }
 }
 

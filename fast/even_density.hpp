@@ -53,6 +53,7 @@ class EvenDensity final : public PassiveSet {
     int certain = 0;         ///< of these, directions in which the shapes spread well
     Eigen::Index first = 0;  ///< of its unknowns y
     Ten w, change;           ///< density u_j . w of passive shapes, and its last correction
+    Ten missing;             ///< slopes u_j . missing, what y left before that correction
   };
 
   void add_row(Density& density, Ten row) noexcept;

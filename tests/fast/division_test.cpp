@@ -23,10 +23,11 @@ constexpr double tie = 2e-9;
 /// by up to 1e12 roundings of the largest: 1e-4. A wrong active set is seen at 1e-3.
 constexpr double mass_bound = 1e-4;
 
-/// Of a run; SHAPEID_DIVISIONS asks for more (./run agreement).
+/// Of a run: mostly few; deep runs cut the same place until twins have 1e-13 of the volume.
+/// SHAPEID_DIVISIONS asks for another number (./run agreement).
 int most_divisions() {
   const char* asked = std::getenv("SHAPEID_DIVISIONS");
-  return asked != nullptr ? std::stoi(asked) : 20;
+  return asked != nullptr ? std::stoi(asked) : *rc::gen::weightedElement<int>({{19, 20}, {1, 120}});
 }
 
 struct Totals {
@@ -78,12 +79,12 @@ void expect_equal(const test::RunComparison& run) {
 
 RC_GTEST_PROP(FastDivision, WholeRunsOfAnyModel, ()) {
   static Totals totals;
-  const test::RunComparison run = test::compare_runs(*test::model_with_rows(), most_divisions());
+  const auto model = *test::model_with_rows();
+  const test::RunComparison run = test::compare_runs(model, most_divisions());
   totals.add(run);
   if (run.declined) fmt::print("{}\n", run.first_difference);
-  // A shape of 1e-8 of the volume beside the whole costs the density term's digits: the deeper, the
-  // more runs end so. 0 of 1000 runs of 20 divisions, 5 of 40 of a hundred (docs/agreement.md).
-  RC_ASSERT(totals.declined <= 1 + totals.divisions / 200);
+  // Nothing promises that none ever is; none of the published runs was (docs/agreement.md).
+  RC_ASSERT(totals.declined <= totals.divisions / 2000);
   expect_equal(run);
 }
 
