@@ -209,8 +209,10 @@ ChannelPlan plan_channels(const LogTable& log, const Robot& robot,
     plan.gyrodot = finder.append(with_axes("base.gyrodot"), false, plan.channels);
   }
   plan.q = finder.append(per_joint("q"), true, plan.channels);
-  plan.dq = finder.append(per_joint("dq"), false, plan.channels);
-  plan.ddq = finder.append(per_joint("ddq"), false, plan.channels);
+  // Without joints there is nothing to miss.
+  const bool has_all = robot.joint_count() == 0;
+  plan.dq = finder.append(per_joint("dq"), has_all, plan.channels);
+  plan.ddq = finder.append(per_joint("ddq"), has_all, plan.channels);
   plan.tau = finder.append(per_joint("tau"), true, plan.channels);
   plan.force = finder.append(force, false, plan.channels);
   finder.append(contact, false, plan.contacts);

@@ -1,6 +1,8 @@
-// Robots of other sizes through the command: one joint, chains and trees of sixty.
+// Robots of other sizes through the command: no joint, one joint, chains and trees of sixty.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/QR>
 
 #include <array>
 #include <cmath>
@@ -10,7 +12,9 @@
 #include <vector>
 
 #include "shapeid/models/log_writer.hpp"
+#include "shapeid/models/robot_yaml.hpp"
 #include "shapeid/models/urdf.hpp"
+#include "shapeid/reference/contact.hpp"
 #include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/app/command.hpp"
 
@@ -113,6 +117,67 @@ void expect_explained(const json& result) {
   const double left = Eigen::Map<const Eigen::VectorXd>(after.data(), std::ssize(after)).norm();
   EXPECT_GT(size, 0.1);
   EXPECT_LT(left, left_by_density_term * size);
+}
+
+/// One body that three feet push about, each force measured: what a plate on three load cells logs.
+std::string write_plate_log(const std::string& name, const Robot& robot) {
+  LogWriter out(
+      scratch() + "/" + name + ".csv",
+      {"time",           "base.gyro.x",    "base.gyro.y",  "base.gyro.z",  "base.gyrodot.x",
+       "base.gyrodot.y", "base.gyrodot.z", "base.accel.x", "base.accel.y", "base.accel.z",
+       "force.f1.x",     "force.f1.y",     "force.f1.z",   "force.f2.x",   "force.f2.y",
+       "force.f2.z",     "force.f3.x",     "force.f3.y",   "force.f3.z",   "contact.f1",
+       "contact.f2",     "contact.f3"});
+  const Eigen::Vector3d rates(7.0, 5.0, 6.1), sizes(0.8, 0.5, 0.6);
+  for (int k = 0; k < 3000; ++k) {
+    Sample s;
+    s.time = 0.002 * k;
+    for (int i = 0; i < 3; ++i) {
+      s.base_angular_velocity[i] = sizes[i] * std::sin(rates[i] * s.time);
+      s.base_angular_acceleration[i] = sizes[i] * rates[i] * std::cos(rates[i] * s.time);
+      s.base_specific_force[i] += 2.0 * std::sin((rates[i] + 1.3) * s.time + i);
+    }
+    s.in_contact.assign(3, true);
+    const Eigen::MatrixXd J = reference::contact_jacobian(robot, s);
+    const Eigen::VectorXd wrench = reference::regressor(robot, s) * stacked_parameters(robot);
+    const Eigen::VectorXd f = J.transpose().completeOrthogonalDecomposition().solve(wrench);
+    std::vector<double> row = {s.time};
+    for (const auto& v :
+         {s.base_angular_velocity, s.base_angular_acceleration, s.base_specific_force}) {
+      row.insert(row.end(), v.begin(), v.end());
+    }
+    row.insert(row.end(), f.begin(), f.end());
+    row.insert(row.end(), 3, 1.0);
+    out.write(row);
+  }
+  out.close();
+  return name + ".csv";
+}
+
+TEST(Sizes, NoJoint) {
+  std::string text = R"(<robot name="plate">)" + link_text(0);
+  for (int i = 1; i <= 3; ++i) {
+    text += fmt::format(
+        R"(<link name="f{0}"/><joint name="j{0}" type="fixed"><parent link="l0"/><child link="f{0}"/>
+<origin xyz="{1} {2} -0.05"/></joint>)",
+        i, 0.1 * i - 0.2, 0.04 * i * i - 0.2);
+  }
+  const std::string file = scratch_file("plate.urdf", text + "</robot>");
+  const std::string yaml =
+      scratch_file("plate.robot.yaml", "contacts: [{link: f1}, {link: f2}, {link: f3}]\n");
+  Robot robot = read_urdf(file).robot;
+  static_cast<void>(read_robot_yaml(yaml, robot));
+  const std::string log = write_plate_log("plate", robot);
+  const CommandRun run =
+      shapeid("identify --robot plate.urdf --contacts measured --exact --json --log " + log);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const json link = json::parse(run.out).at("links").at(0);
+  const auto Phi = link.at("parameters").get<std::vector<double>>();
+  ASSERT_EQ(Phi.size(), 10U);
+  const auto truth = stacked_parameters(robot);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_NEAR(Phi[static_cast<std::size_t>(i)], truth[i], left_by_density_term * truth[0]) << i;
+  }
 }
 
 TEST(Sizes, OneJoint) {
