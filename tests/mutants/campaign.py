@@ -90,7 +90,7 @@ def passed_by(programs, kept, jobs):
     although no mutant lives are left out, and returned by name. `kept` (a file) remembers what was
     measured of a program until it changes."""
     known = json.loads(kept.read_text()) if kept.exists() else {}
-    measured, lock = {}, threading.Lock()
+    lock = threading.Lock()
 
     def measure(item):
         program, test = item
@@ -99,22 +99,20 @@ def passed_by(programs, kept, jobs):
         numbers = sorted({int(line) for line in passed.read_text().split()})
         passed.unlink()
         with lock:
-            measured[program.name][test] = {"status": status, "seconds": seconds, "passed": numbers}
+            measured[test] = {"status": status, "seconds": seconds, "passed": numbers}
 
-    items, stamps = [], {}
     for program in programs:
-        stamps[program.name] = hashlib.sha256(program.read_bytes()).hexdigest()
-        if known.get(program.name, {}).get("stamp") != stamps[program.name]:
-            measured[program.name] = {}
-            items += [(program, test) for test in tests_of(program)]
-    in_parallel(measure, items, jobs)
-    for name, tests in measured.items():
-        known[name] = {"stamp": stamps[name], "tests": tests}
-    kept.write_text(json.dumps(known))
+        stamp = hashlib.sha256(program.read_bytes()).hexdigest()
+        if known.get(program.name, {}).get("stamp") == stamp:
+            continue
+        measured = {}
+        in_parallel(measure, [(program, test) for test in tests_of(program)], jobs)
+        known[program.name] = {"stamp": stamp, "tests": measured}
+        kept.write_text(json.dumps(known))
     places = {program.name: program for program in programs}
     good, failing = {}, []
-    for name, program in known.items():
-        for test, record in program["tests"].items():
+    for name in places:
+        for test, record in known[name]["tests"].items():
             if record["status"] == 0:
                 good[test] = {"program": places[name], **record}
             else:
