@@ -7,7 +7,7 @@ import rewrite
 # They link the four libraries, or call the command, which does. Left out, for what they take to build and to
 # run: blind and experiments; and house, which links nothing.
 SUBJECTS = ("inertia", "orders", "robot", "shapes", "motion", "physics", "masses", "division", "identify",
-            "recovery", "simulation", "fast", "certificate", "diagnosis", "app", "track")
+            "recovery", "simulation", "fast", "certificate", "diagnosis", "hostile", "app", "track")
 
 
 def write(path, text):
