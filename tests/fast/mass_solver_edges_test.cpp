@@ -6,6 +6,7 @@
 #include <limits>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shapeid/tests/fast/triangle_cases.hpp"
@@ -244,6 +245,28 @@ TEST(FastMassEdges, StepsAreCounted) {
   ASSERT_EQ(solver.solve(R), Outcome::solved);
   EXPECT_EQ(solver.m()[2], 0.0);
   EXPECT_EQ(solver.iterations(), 2);
+}
+
+/// Where the rows tell all shapes apart, the density term costs what refinement costs: nothing
+/// where it moves masses by less than their rounding, and one step where it moves them by its
+/// square root.
+TEST(FastMassEdges, ADensityTermOfShapesToldApartCostsNextToNothing) {
+  constexpr int shapes = 6;
+  MatrixXd R = MatrixXd::Identity(11, 11);
+  R(10, 10) = 0.0;
+  for (int j = 0; j < shapes; ++j) R(j, 10) = 1.0 + 0.25 * j;
+  for (const auto& [exponent, refined] : {std::pair(-60, 0), std::pair(-30, 1)}) {
+    MassSolver solver(1, shapes);
+    for (int j = 0; j < shapes; ++j) {
+      ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(j), 1.0));
+    }
+    const double lambda = std::ldexp(1.0, exponent);
+    solver.set_lambda(lambda);
+    ASSERT_EQ(solver.solve(R), Outcome::solved);
+    EXPECT_EQ(solver.iterations(), shapes + 1 + refined);
+    const VectorXd expected = R.col(10).head(shapes) / (1.0 + lambda);
+    EXPECT_LT((solver.m() - expected).norm(), 1e-15 * expected.norm()) << exponent;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "shapeid/fast/shape_columns.hpp"
@@ -218,6 +219,36 @@ TEST(ShapeColumns, ThresholdsBelowZeroFindWhatIsNotCertainlyHeld) {
   g[1] = -1e-14;
   EXPECT_EQ(stored.steepest(g, -1e-13), 1);
   EXPECT_NE(stored.steepest(VectorXd::Zero(10), -1e-13), -1);
+}
+
+/// Two links of twenty shapes, more than one group each: what enters beside the steepest.
+TEST(ShapeColumns, SteepOnesAreTheBestOfOtherLinksOrGroups) {
+  constexpr int each = 20;
+  ShapeColumns columns(2, 2 * each);
+  for (int j = 0; j < 2 * each; ++j) {
+    // The share of the first parameter is the price for each unit of its slope.
+    const double share = j == 3 || j == 25 ? 0.9 : j == 18 || j == 38 ? 0.8 : 0.3;
+    ShapeColumns::Column u = ShapeColumns::Column::Zero();
+    u[0] = share;
+    u[1] = 1.0 - share;
+    ASSERT_TRUE(columns.append(j / each, u));
+  }
+  using Among = ShapeColumns::Among;
+  const auto steep = [&](double second_link, Among among) {
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(20);
+    g[0] = 1.0;
+    g[10] = second_link;
+    const int steepest = columns.steepest(g, 0.0);
+    const std::vector<int>& found = columns.steep_ones(among);
+    EXPECT_EQ(found.front(), steepest);
+    return std::set<int>(found.begin(), found.end());
+  };
+  EXPECT_EQ(steep(0.5, Among::links), (std::set{3, 25}));
+  EXPECT_EQ(steep(2.0, Among::links), (std::set{3, 25}));
+  EXPECT_EQ(steep(0.5, Among::groups), (std::set{3, 18, 25, 38}));
+  // Less than a tenth of the largest price is not almost as large.
+  EXPECT_EQ(steep(0.05, Among::links), (std::set{3}));
+  EXPECT_EQ(steep(-0.5, Among::groups), (std::set{3, 18}));
 }
 
 }  // namespace
