@@ -92,8 +92,8 @@ std::string one_line(const std::string& text, std::size_t most) {
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     const bool control = byte < 0x20 || byte == 0x7F;
-    // Inside a character of UTF-8, which has four bytes at most, is no place to cut.
-    const bool inside_character = (byte & 0xC0U) == 0x80U && result.size() < most + 4;
+    // Inside a character of UTF-8, three bytes behind its first at most, is no place to cut.
+    const bool inside_character = (byte & 0xC0U) == 0x80U && result.size() < most + 3;
     if (result.size() >= most && !inside_character) return result + "...";
     result += control ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
   }

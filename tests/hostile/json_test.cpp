@@ -4,6 +4,8 @@
 #include <string>
 
 #include "shapeid/models/problem_json.hpp"
+#include "shapeid/models/shape_json.hpp"
+#include "shapeid/models/strict_json.hpp"
 #include "shapeid/proofs/certificate/certificate_json.hpp"
 #include "shapeid/tests/hostile/refused.hpp"
 
@@ -71,6 +73,28 @@ TEST(HostileJson, ListsWhereObjectsBelong) {
         "\"V\":[],\"mass_bound\":0,\"lambda\":0,\"columns\":";
     EXPECT_TRUE(says(problem(problem_with_columns + other + "}"), "column columns: not an object"))
         << other;
+  }
+}
+
+TEST(HostileJson, FacesThatAreNoTriangles) {
+  const auto with_face = [](const std::string& face) {
+    return refusal([&] {
+      const JsonSource source{"p.json", "docs/formats/problem.md"};
+      const std::string shape =
+          "{\"kind\":\"polyhedron\",\"link\":0,\"convex\":true,\"vertices\":[[0,0,0],[1,0,0],[0,1,"
+          "0],[0,0,1]],"
+          "\"faces\":[[0,2,1],[0,1,3],[0,3,2]," +
+          face + "]}";
+      static_cast<void>(shape_from_json(parse_json(shape, source), "shape", source));
+    });
+  };
+  EXPECT_EQ(with_face("[1,2,3]"), "accepted");
+  for (const char* bad : {"[]", "[1,2]", "[1,2,3,0]", "{\"a\":1,\"b\":2,\"c\":3}", "1", "null"}) {
+    EXPECT_EQ(with_face(bad), "p.json, column faces: not three numbers; indices of three vertices")
+        << bad;
+  }
+  for (const char* bad : {"[1,2,4]", "[1,2,-1]", "[1,2,0.5]", "[1,2,\"a\"]"}) {
+    EXPECT_TRUE(says(with_face(bad), "p.json, column faces: ")) << bad;
   }
 }
 

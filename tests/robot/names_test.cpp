@@ -1,6 +1,8 @@
 // Which bytes a name may hold: UTF-8 as RFC 3629 has it, to the last code point and no further.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "shapeid/models/text.hpp"
 
 namespace shapeid {
@@ -28,6 +30,21 @@ TEST(Names, HoldNothingElse) {
       "\xE2\x82x",         // a byte that does not follow
   };
   for (const char* name : refused) EXPECT_EQ(why_no_name(name), "is not UTF-8 text") << name;
+}
+
+// Messages quote files: whatever is there, one line of about the wanted length.
+TEST(OneLine, CutsBetweenCharactersOnly) {
+  EXPECT_EQ(one_line("abc", 3), "abc");
+  EXPECT_EQ(one_line("abcd", 3), "abc...");
+  EXPECT_EQ(one_line("a\nb\x7F\x1F", 20), "a\\x0ab\\x7f\\x1f");
+  // Two, three and four bytes; the cut falls behind each of their bytes in turn.
+  for (const std::string character : {"\xC3\xA4", "\xE2\x82\xAC", "\xF0\x9F\xA4\x96"}) {
+    for (std::size_t most = 1; most <= character.size(); ++most) {
+      EXPECT_EQ(one_line(character + "end", most), character + "...");
+    }
+  }
+  // What looks like the inside of one character without end is cut as well.
+  EXPECT_EQ(one_line(std::string(100, '\x80'), 10), std::string(13, '\x80') + "...");
 }
 
 }  // namespace
