@@ -69,6 +69,7 @@ void write_log(const std::string& path, const Robot& robot) {
     s.q.resize(n);
     s.dq.resize(n);
     s.ddq.resize(n);
+    s.tau.setZero(n);  // is what is sought
     for (Eigen::Index j = 0; j < n; ++j) {
       const double w = 3.0 + 0.37 * static_cast<double>(j % 11), a = 0.5;
       s.q[j] = a * std::sin(w * t + static_cast<double>(j));
