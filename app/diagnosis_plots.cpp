@@ -232,9 +232,12 @@ std::string structure_picture(const diagnosis::Structure& structure) {
         const auto k = static_cast<std::size_t>(i);
         return std::array{structure.at[k], structure.value[k]};
       });
-  return gnuplot(script + fmt::format("set xlabel '{}'\nset ylabel 'residual of {} (N m)'\n"
+  const std::string over = structure.law.empty()
+                               ? fmt::format("residual of {} (N m)", structure.joint)
+                               : fmt::format("number of {}", structure.law);
+  return gnuplot(script + fmt::format("set xlabel '{}'\nset ylabel '{}'\n"
                                       "plot $d with linespoints pt 7 ps 0.5 lc rgb '{}'\n",
-                                      structure.variable, structure.joint, blue));
+                                      structure.variable, over, blue));
 }
 
 }  // namespace shapeid::app

@@ -104,7 +104,11 @@ void add_undetermined(Page& page, const DiagnosisRun& run, const Robot& robot) {
   for (std::size_t i = 0; i < std::min(shown, run.structures.size()); ++i) {
     const diagnosis::Structure& s = run.structures[i];
     page.picture(structure_picture(s),
-                 s.under_name.empty()
+                 !s.law.empty()
+                     ? fmt::format("Unexplained: as {}, but its number follows {}; {:.1f} % of the "
+                                   "held-out error, {:.1f} standard errors",
+                                   s.law, s.variable, 100.0 * s.share, s.t)
+                 : s.under_name.empty()
                      ? fmt::format("Unexplained: {} over {}, {:.1f} % of its residual variance on "
                                    "blocks left out, {:.1f} standard errors",
                                    s.joint, s.variable, 100.0 * s.share, s.t)

@@ -167,7 +167,8 @@ std::string structures_text(const DiagnosisRun& run) {
                           s.under_name);
       continue;
     }
-    text += fmt::format("  {:<24}over {:<28}{:>5.1f} %  ({:.1f} standard errors)\n", s.joint,
+    const std::string what = s.law.empty() ? s.joint : "as " + s.law;
+    text += fmt::format("  {:<24}over {:<28}{:>5.1f} %  ({:.1f} standard errors)\n", what,
                         s.variable, 100.0 * s.share, s.t);
   }
   return text;
@@ -212,6 +213,8 @@ std::string doubt(const DiagnosisRun& run, const diagnosis::Found& f, const Robo
         "is itself: something else",
         variable_of(*f.varies, robot), f.varies->z, 100.0 * f.varies->share);
   }
+  if (f.displaced) return "a law without a name explains it better: something else";
+  if (f.faded) return "once the links are bodies it does not differ from zero by more than chance";
   if (f.beside_unknown) return "what else is at this joint is worth more and has no name";
   return fmt::format("a law that no robot has explains {:.1f} % here, this one less",
                      100.0 * run.loop.placebo);
@@ -230,6 +233,7 @@ json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseO
                           {"share", s.share},
                           {"share_over_its_error", s.t},
                           {"under_name", s.under_name},
+                          {"law", s.law},
                           {"curve", {{"at", s.at}, {"value", s.value}}}});
   }
   json wrong_signs = json::array();

@@ -238,6 +238,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   log.recording.set_correction(run.loop.correction);
   run.consistent =
       diagnosis::make_consistent(robot.robot, log.recording, reference, run.settings, run.loop);
+  diagnosis::mark_faded(log.recording, run.settings, run.consistent, run.loop);
   run.notes.insert(run.notes.end(), robot.warnings.begin(), robot.warnings.end());
   run.notes.insert(run.notes.end(), log.motion.notes.begin(), log.motion.notes.end());
   if (run.test.samples().empty()) {
@@ -256,6 +257,11 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
       diagnosis::series(robot.robot, run.settings.contacts, run.consistent.model, log.recording,
                         run.settings.stride));
   const auto unnamed_effects = unnamed(robot.robot, log.recording, run);
+  for (const diagnosis::Stranger& s : run.loop.strangers) {
+    run.structures.push_back(diagnosis::lawless(robot.robot, run.settings.contacts,
+                                                run.consistent.model, log.recording,
+                                                run.settings.stride, s));
+  }
   run.structures.insert(run.structures.begin(), unnamed_effects.begin(), unnamed_effects.end());
   note_rests(robot.robot, run);
   note_worse_joints(robot.robot, run);

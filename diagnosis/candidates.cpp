@@ -113,7 +113,7 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
     if (!rule.transformations && h.effect->transform.any()) continue;
     Candidate c{h, term_of(robot, tally, k), rule.came_since(h), {}, rule.choices(h)};
     if (!c.since_reference) list.push_back(c);
-    if (rule.has_reference) {
+    if (rule.has_reference && !h.effect->built_in) {
       c.since_reference = true;
       c.term.from_block = fits.first_block();
       list.push_back(c);

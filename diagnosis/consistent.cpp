@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 
 namespace shapeid::diagnosis {
@@ -262,6 +263,19 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     put_back(errors.tail(sums.effects()), linear, error_places);
     for (const AppliedEffect& a : error_places) result.effect_error.push_back(a.value);
     return result;
+  }
+}
+
+void mark_faded(const Recording& log, const LoopSettings& settings, const Consistent& consistent,
+                LoopResult& loop) {
+  for (std::size_t k = 0; k < consistent.model.effects.size(); ++k) {
+    const AppliedEffect& a = consistent.model.effects[k];
+    if (a.effect->transform.any()) continue;  // kept as screened
+    const double z = (a.value.array() / consistent.effect_error[k].array()).abs().maxCoeff();
+    const double tried = static_cast<double>(loop.hypotheses) * periods_told_apart(log, a);
+    for (Found& f : loop.found) {
+      if (same_place(f.effect, a)) f.faded = !(z > least_z(settings.rule.false_alarms, tried));
+    }
   }
 }
 

@@ -21,6 +21,12 @@ struct Consistent {
   std::vector<AppliedEffect> dropped;
 };
 
+/// Marks what does not differ from zero in the consistent model as it had to when it was accepted:
+/// none of its numbers is as many standard errors from zero as chance reaches in one log of a
+/// hundred, for any of the loop's hypotheses.
+void mark_faded(const Recording& log, const LoopSettings& settings, const Consistent& consistent,
+                LoopResult& loop);
+
 /// The effects' linear numbers are eliminated exactly (they are free columns), the masses of the
 /// settings' shapes solved and divided by the reference path, and the effects put back. Given
 /// inertias pull as strongly as screening found useful. Errors by leaving out tenths of the log

@@ -110,6 +110,8 @@ struct Effect {
   bool (*applies)(const Robot&, int site) = nullptr;
   /// What it adds per unit of each parameter: dof x parameters.
   Eigen::MatrixXd (*columns)(const Instant&, int site, const Eigen::VectorXd& shape) = nullptr;
+  /// What the robot is built of: it is not among what may have come since a reference log.
+  bool built_in = false;
   /// The columns use Instant::load_rate, which costs two more instants each.
   bool needs_load_rate = false;
   /// Instead of columns.

@@ -17,6 +17,9 @@
 namespace shapeid::diagnosis {
 namespace {
 
+// Errors closer than this many standard errors of their difference are not told apart.
+constexpr double not_worse_t = 2.0;
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -60,6 +63,7 @@ class Loop {
       result_.refit_seconds += seconds_since(start);
       if (round_ > 0 && ids() == before) break;
     }
+    try_large_transformation();
     question_names();
     return std::move(result_);
   }
@@ -172,8 +176,60 @@ class Loop {
     const std::vector<Candidate> list = listed(fits);
     // From the beginning each time: what was accepted with worse weights has to prove itself again.
     const Selection selection = select(fits, fixed, list, settings_.rule);
+    note_large_transformation(fits, fixed, list, selection);
     result_.prior = choose_prior(fits, chosen_terms(fixed, list, selection));
     take(fits, fixed, list, selection);
+  }
+
+  /// The transformation that, as its derivative, takes away most of what all that was accepted
+  /// does, alone or beside the strongest of these, if there is one.
+  void note_large_transformation(const BlockFits& fits, const Term& fixed,
+                                 const std::vector<Candidate>& list, const Selection& selection) {
+    large_.reset();
+    if (selection.accepted.size() < 2) return;
+    const auto strongest = std::max_element(
+        selection.accepted.begin(), selection.accepted.end(),
+        [](const Verdict& one, const Verdict& other) { return one.gain < other.gain; });
+    for (const std::vector<Term>& beside :
+         {std::vector<Term>{fixed}, std::vector<Term>{fixed, list[strongest->candidate].term}}) {
+      if (large_) return;
+      constexpr double most = 0.5;
+      const double before = fits.held_out(beside).sum();
+      double least = before - most * (before - selection.error_end.sum());
+      for (std::size_t k = 0; k < list.size(); ++k) {
+        const Candidate& c = list[k];
+        const bool accepted = std::any_of(selection.accepted.begin(), selection.accepted.end(),
+                                          [&](const Verdict& v) { return v.candidate == k; });
+        if (!c.effect.effect->transform.any() || c.since_reference || accepted) continue;
+        std::vector<Term> with = beside;
+        with.push_back(c.term);
+        const double error = fits.held_out(with).sum();
+        if (error >= least) continue;
+        least = error;
+        large_ = c;
+      }
+    }
+  }
+
+  /// What a large transformation leaves of its derivative looks like further effects. So one that
+  /// would explain most by itself is applied alone, exactly, and the others are sought beside it.
+  /// That stays if it needs fewer effects and predicts no worse.
+  void try_large_transformation() {
+    if (!large_ || result_.found.size() < 2) return;
+    const LoopResult several = result_;
+    const Eigen::VectorXd error = held_out_of_model();
+    const auto start = std::chrono::steady_clock::now();
+    result_.found = {
+        Found{large_->effect, large_->term.id, Eigen::VectorXd::Zero(large_->effect.value.size())}};
+    collect_effects();
+    refit();
+    screen();
+    refit();
+    prune_transformations();
+    const bool simpler = result_.found.size() < several.found.size() &&
+                         !(gain_of(held_out_of_model(), error).t > not_worse_t);
+    if (!simpler) result_ = several;
+    result_.refit_seconds += seconds_since(start);
   }
 
   [[nodiscard]] static std::vector<Term> chosen_terms(const Term& fixed,
@@ -196,7 +252,6 @@ class Loop {
       result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
       collect_effects();
       const Gain gain = gain_of(held_out_of_model(), with);
-      constexpr double keep_t = 2.0;  // as for columns
       if (gain.t > keep_t && gain.share > 0.0) {
         result_.found = all;
         result_.found[i].gain = gain.share;
@@ -209,35 +264,81 @@ class Loop {
     }
   }
 
-  /// Whether the names of what was found stand: more than any law that no robot has, and constant.
-  void question_names() {
+  /// Sums of the present effects, placebos and laws without a name, and products of all of these.
+  struct Questions {
+    BlockFits fits;
+    std::vector<Term> terms;  ///< masses and effects
+    std::size_t effects = 0, first_carrier = 0;
+  };
+  [[nodiscard]] Questions questions() {
     std::vector<AppliedEffect> all = result_.model.effects;
     const std::size_t effects = all.size();
-    if (effects == 0) return;
     for (const AppliedEffect& placebo : placebos(robot_)) all.push_back(placebo);
-    const BlockFits fits = tallied(all, modulations(robot_, result_.model.effects));
-    const std::vector<Term> terms = terms_of_model(fits, effects);
-    const double error = fits.held_out(terms).sum();
-    const double placebo = best_placebo(fits, terms, effects);
+    const std::size_t first_carrier = all.size();
+    for (const AppliedEffect& a : carriers(robot_, result_.model.effects)) all.push_back(a);
+    std::vector<Modulation> products = modulations(robot_, result_.model.effects);
+    for (const Modulation& m : modulated_carriers(all, first_carrier, all.size())) {
+      products.push_back(m);
+    }
+    BlockFits fits = tallied(all, products);
+    std::vector<Term> terms = terms_of_model(fits, effects);
+    return {std::move(fits), std::move(terms), effects, first_carrier};
+  }
+
+  /// Whether the names of what was found stand: more than any law that no robot has, constant, and
+  /// no worse than laws without a name.
+  void question_names() {
+    const Questions asked = questions();
+    const std::size_t effects = asked.effects;
+    const Eigen::VectorXd errors = asked.fits.held_out(asked.terms);
+    const double error = errors.sum();
+    const double placebo = best_placebo(asked.fits, asked.terms, effects, asked.first_carrier);
     result_.placebo = placebo / error;
     Eigen::VectorXd own_gain(static_cast<Eigen::Index>(effects));
     for (std::size_t k = 0; k < effects; ++k) {
       const double share = result_.found[k].gain;  // of the error without it
       own_gain[static_cast<Eigen::Index>(k)] = error * share / (1.0 - share);
     }
-    const auto varies = variations(fits, terms, own_gain);
+    const auto varies = variations(asked.fits, asked.terms, own_gain);
+    std::vector<std::optional<std::size_t>> own_term;
+    std::size_t next = 1;  // after the masses
+    for (const AppliedEffect& a : result_.model.effects) {
+      const bool column = !a.effect->transform.any();
+      own_term.push_back(column ? std::optional(next++) : std::nullopt);
+    }
+    const Contest against = contest(asked.fits, asked.terms, own_term, asked.first_carrier);
+    result_.strangers = against.strangers;
     for (std::size_t k = 0; k < effects; ++k) {
+      const double own = own_gain[static_cast<Eigen::Index>(k)];
       result_.found[k].varies = varies[k];
-      result_.found[k].drowned = own_gain[static_cast<Eigen::Index>(k)] < placebo;
+      result_.found[k].displaced = against.displaced[k];
+      result_.found[k].drowned = own < placebo;
       const auto joint = joint_of(robot_, result_.model.effects[k]);
       for (std::size_t other = 0; other < effects; ++other) {
         if (!joint || joint_of(robot_, result_.model.effects[other]) != joint) continue;
-        if (varies[other] &&
-            own_gain[static_cast<Eigen::Index>(other)] > own_gain[static_cast<Eigen::Index>(k)]) {
+        if (varies[other] && own_gain[static_cast<Eigen::Index>(other)] > own) {
           result_.found[k].beside_unknown = true;
         }
       }
+      if (!own_term[k]) {
+        result_.found[k].displaced = stranger_in_place_of(k, errors, own);
+      }
     }
+  }
+
+  /// Whether a law without a name predicts better than an applied transformation, which has no term
+  /// that could be left out: the sums are made once more without it.
+  [[nodiscard]] bool stranger_in_place_of(std::size_t k, const Eigen::VectorXd& named,
+                                          double own_gain) {
+    const std::vector<Found> all = result_.found;
+    result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(k));
+    collect_effects();
+    const Questions without = questions();
+    const auto instead =
+        with_best_stranger(without.fits, without.terms, without.effects, without.first_carrier);
+    result_.found = all;
+    collect_effects();
+    return instead && takes_the_place(named, *instead, own_gain);
   }
 
   /// Held-out error of the present effects, linear numbers refitted.
@@ -416,6 +517,7 @@ class Loop {
   Term masses_;
   TallyOptions tally_options_;
   std::vector<AppliedEffect> banned_;
+  std::optional<Candidate> large_;
   int round_ = 0;
   LoopResult result_;
 };

@@ -8,6 +8,7 @@
 
 #include "shapeid/diagnosis/constancy.hpp"
 #include "shapeid/diagnosis/selection.hpp"
+#include "shapeid/diagnosis/strangers.hpp"
 #include "shapeid/models/body_model.hpp"
 
 namespace shapeid::diagnosis {
@@ -38,16 +39,22 @@ struct Found {
   Eigen::VectorXd standard_error;
   double gain = 0.0, t = 0.0;    ///< of having it, all others in
   bool since_reference = false;  ///< not there in the reference log
-  std::vector<std::string> ambiguous_with;
+  std::vector<std::string> ambiguous_with = {};
   /// Its number follows a signal: something is there, but not what the name says.
-  std::optional<Variation> varies;
+  std::optional<Variation> varies = {};
   /// It is worth less than the best placebo: laws that no robot has explain as much.
   bool drowned = false;
   /// It is worth less than another at its joint whose number follows a signal, and may be a part of
   /// the same unknown.
   bool beside_unknown = false;
+  /// A law without a name predicts better in its place, or leaves it nothing to explain.
+  bool displaced = false;
+  /// With masses that are bodies it does not differ from zero by what chance may make of none.
+  bool faded = false;
   /// Else it only describes: it predicts, and says nothing about the cause.
-  [[nodiscard]] bool name_stands() const { return !varies && !drowned && !beside_unknown; }
+  [[nodiscard]] bool name_stands() const {
+    return !varies && !drowned && !beside_unknown && !displaced && !faded;
+  }
 };
 
 /// A hypothesis that was looked at, for the ranking.
@@ -63,6 +70,7 @@ struct LoopResult {
   std::vector<Ranked> last_ranking;   ///< of what was left out
   std::vector<std::string> hidden;    ///< cannot be told from masses and what was found
   std::vector<std::pair<std::string, double>> wrong_signs;  ///< id, its parameter over its error
+  std::vector<Stranger> strangers;  ///< laws without a name that explain what is left
   Eigen::VectorXd weight;
   std::vector<Eigen::VectorXd> correction;  ///< of the log, by the last round's model; or none
   double placebo = 0.0;  ///< share of the held-out error that the best law no robot has takes away

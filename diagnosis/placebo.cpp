@@ -62,12 +62,13 @@ std::vector<AppliedEffect> placebos(const Robot& robot) {
   return list;
 }
 
-double best_placebo(const BlockFits& fits, const std::vector<Term>& terms, std::size_t first) {
+double best_placebo(const BlockFits& fits, const std::vector<Term>& terms, std::size_t first,
+                    std::size_t last) {
   constexpr double more_than_chance = 2.0;  // standard errors, as for what is kept
   const Tally& tally = fits.tally();
   const Eigen::VectorXd without = fits.held_out(terms);
   double best = 0.0;
-  for (std::size_t k = first; k < tally.hypotheses.size(); ++k) {
+  for (std::size_t k = first; k < last; ++k) {
     std::vector<Term> with = terms;
     with.push_back({"placebo", {tally.first[k]}, {false}, 0});
     const Eigen::VectorXd error = fits.held_out(with);

@@ -16,8 +16,8 @@ namespace shapeid::diagnosis {
 
 /// The squared held-out error that the best of them takes away by more than chance, 0 if none does.
 /// `terms` are the masses and all effects that were accepted; the tally has the placebos from
-/// hypothesis `first` on.
+/// hypothesis `first` on, up to `last`.
 [[nodiscard]] double best_placebo(const BlockFits& fits, const std::vector<Term>& terms,
-                                  std::size_t first);
+                                  std::size_t first, std::size_t last);
 
 }  // namespace shapeid::diagnosis

@@ -26,6 +26,28 @@ Recording::Recording(std::vector<Sample> samples, double rate, std::vector<std::
     begin = i + 1;
   }
   find_rests();
+  find_turns();
+}
+
+void Recording::find_turns() {
+  constexpr double share_of_range = 0.1;
+  const Eigen::Index joints = samples_.empty() ? 0 : samples_.front().q.size();
+  turned_.setZero(joints, std::ssize(samples_));
+  for (Eigen::Index j = 0; j < joints; ++j) {
+    const auto [least, most] =
+        std::minmax_element(samples_.begin(), samples_.end(),
+                            [&](const Sample& a, const Sample& b) { return a.q[j] < b.q[j]; });
+    const double way = share_of_range * (most->q[j] - least->q[j]);
+    if (!(way > 0.0)) continue;
+    for (std::size_t i = 1; i < samples_.size(); ++i) {
+      if (segment_begin_[i] == i) continue;  // nobody knows where it came from
+      const auto at = static_cast<Eigen::Index>(i);
+      // d turned = (dq - turned |dq|) / way, exactly over a step
+      const double step = (samples_[i].q[j] - samples_[i - 1].q[j]) / way;
+      const double side = step > 0.0 ? 1.0 : -1.0;
+      turned_(j, at) = side + (turned_(j, at - 1) - side) * std::exp(-std::abs(step));
+    }
+  }
 }
 
 void Recording::find_rests() {

@@ -46,6 +46,12 @@ class Recording {
     return at_rest_(joint, static_cast<Eigen::Index>(index));
   }
 
+  /// How far the joint has come since it turned round, in the direction of its motion: from -1 to
+  /// 1, a tenth of its range being most of the way (what presses, winds up or creeps follows it).
+  [[nodiscard]] double turned(std::size_t index, Eigen::Index joint) const {
+    return turned_(joint, static_cast<Eigen::Index>(index));
+  }
+
   /// The motion `dt` seconds after a usable sample, by the cubic through four neighbours. Contact
   /// flags, forces and extras are those of the nearest sample. |dt| <= largest_shift.
   [[nodiscard]] Sample shifted(std::size_t index, double dt) const;
@@ -53,6 +59,7 @@ class Recording {
  private:
   [[nodiscard]] std::size_t reach() const;
   void find_rests();
+  void find_turns();
 
   std::vector<Sample> samples_;
   double rate_;
@@ -60,6 +67,7 @@ class Recording {
   std::vector<Eigen::VectorXd> correction_;
   std::vector<std::size_t> segment_begin_, segment_end_;        ///< of each sample's segment
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> at_rest_;  ///< joints x samples
+  Eigen::ArrayXXd turned_;                                      ///< likewise
 };
 
 }  // namespace shapeid::diagnosis

@@ -9,14 +9,18 @@ namespace {
 
 // Gains closer than this many standard errors of their difference are not told apart.
 constexpr double separable = 2.0;
+// A simpler hypothesis is taken if the best is not better by more than this: one standard error, as
+// usual in cross-validation. Two would leave so much of a large effect that further names take it.
+constexpr double simpler_t = 1.0;
+// What cannot be negative must not be so by more than this many standard errors in a rival. In what
+// is accepted it must not be at all; but of a rival's ten numbers one may, within its error.
+constexpr double rival_sign_t = 2.0;
 // Standard errors by which a rival must gain to be named in an accepted one's place.
 constexpr double rival_t = 1.0;
 // Less than this share of a candidate's columns left free by the others: the data cannot see it.
 constexpr double hidden_share = 1e-4;
 // One hypothesis contains another if this share of its columns is in the other's span.
 constexpr double nested_share = 0.9999;
-// A term that no longer gains this many standard errors at the end is dropped again.
-constexpr double keep_t = 2.0;
 
 class Search {
  public:
@@ -35,6 +39,7 @@ class Search {
       while (std::ssize(accepted_) < rule_.most_terms && advance()) {
       }
     } while (prune());
+    simplify();
     finish();
     return std::move(result_);
   }
@@ -165,7 +170,7 @@ class Search {
     std::size_t chosen = *best;
     for (const std::size_t i : order) {
       if (!passes(ranking[i]) || ranking[i].wrong_sign) continue;
-      if (gain_of(errors[i], errors[*best]).t > separable) continue;
+      if (gain_of(errors[i], errors[*best]).t > simpler_t) continue;
       if (cost(ranking[i].candidate) < cost(ranking[chosen].candidate)) chosen = i;
     }
     SelectionStep step;
@@ -201,35 +206,72 @@ class Search {
     }
   }
 
-  /// Drops what later terms made superfluous or gave an impossible sign, the worst first.
-  /// What was dropped does not come back. True if anything was.
-  bool prune() {
-    const std::size_t dropped_before = dropped_.size();
-    while (!accepted_.empty()) {
-      const Fit all = fits_.fit(terms(accepted_));
-      const Eigen::VectorXd with_all = fits_.held_out(terms(accepted_));
+  /// Without what others in it make superfluous or give an impossible sign, the worst first.
+  [[nodiscard]] std::vector<std::size_t> pruned(std::vector<std::size_t> chosen) const {
+    while (!chosen.empty()) {
+      const Fit all = fits_.fit(terms(chosen));
+      const Eigen::VectorXd with_all = fits_.held_out(terms(chosen));
       double least = keep_t;
-      std::size_t worst = accepted_.size();
+      std::size_t worst = chosen.size();
       Eigen::Index column = std::ssize(masses_.columns);
-      for (std::size_t i = 0; i < accepted_.size(); ++i) {
-        const Eigen::Index n = std::ssize(candidates_[accepted_[i]].term.columns);
+      for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const Eigen::Index n = std::ssize(candidates_[chosen[i]].term.columns);
         const Fit own{all.value.segment(column, n), all.standard_error.segment(column, n)};
         column += n;
-        std::vector<std::size_t> without = accepted_;
+        std::vector<std::size_t> without = chosen;
         without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
         const Gain gain = gain_of(fits_.held_out(terms(without)), with_all);
-        const bool not_believed = wrong_sign(accepted_[i], own, 0.0) || gain.share < 0.0;
+        const bool not_believed = wrong_sign(chosen[i], own, 0.0) || gain.share < 0.0;
         const double t = not_believed ? -1.0 : gain.t;
         if (t < least) {
           least = t;
           worst = i;
         }
       }
-      if (worst == accepted_.size()) break;
-      dropped_.push_back(accepted_[worst]);
-      accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(worst));
+      if (worst == chosen.size()) break;
+      chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(worst));
     }
-    return dropped_.size() > dropped_before;
+    return chosen;
+  }
+
+  /// Drops what later terms made superfluous. It does not come back. True if anything was.
+  bool prune() {
+    const std::vector<std::size_t> before = accepted_;
+    accepted_ = pruned(before);
+    for (const std::size_t k : before) {
+      if (std::count(accepted_.begin(), accepted_.end(), k) == 0) dropped_.push_back(k);
+    }
+    return accepted_.size() < before.size();
+  }
+
+  /// One cause rather than several: what was accepted first may have been a part of a hypothesis
+  /// that looked no better then, and the others its remainder (drag and lags of single drives, of
+  /// one delay of all). What makes two or more of the accepted superfluous takes their place,
+  /// unless the error grows by more than chance.
+  void simplify() {
+    bool simpler = true;
+    while (simpler && accepted_.size() > 1) {
+      simpler = false;
+      const std::vector<std::size_t> before = accepted_;
+      const Eigen::VectorXd error = fits_.held_out(terms(before));
+      const std::vector<std::size_t> hidden = result_.hidden;
+      accepted_.clear();
+      const std::vector<std::size_t> rivals = shortlist(rule_.rivals);
+      result_.hidden = hidden;
+      accepted_ = before;
+      std::vector<std::size_t> best = before;
+      for (const std::size_t r : rivals) {
+        if (taken(r) || !candidates_[r].members.empty()) continue;
+        std::vector<std::size_t> with_rival = before;
+        with_rival.push_back(r);
+        with_rival = pruned(with_rival);
+        if (with_rival.size() >= best.size() || with_rival.back() != r) continue;
+        if (gain_of(fits_.held_out(terms(with_rival)), error).t > separable) continue;
+        best = with_rival;
+      }
+      simpler = best.size() < before.size();
+      accepted_ = best;
+    }
   }
 
   void finish() {
@@ -257,7 +299,7 @@ class Search {
       // Near the limit chance decides which of two passes: a rival need only gain something.
       if (!(own.t > rival_t && own.share > 0.0)) continue;
       if (gain_of(instead, result_.error_end).t > separable) continue;
-      if (wrong_sign(other, fit_of(other), 0.0)) continue;
+      if (wrong_sign(other, fit_of(other), rival_sign_t)) continue;
       // Two that say the same contain each other: that is no reason to keep silent about one.
       const auto within = [&](std::size_t inner, std::size_t outer) {
         return fits_.contained(terms(accepted_), candidates_[inner].term, candidates_[outer].term) >

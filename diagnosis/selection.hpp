@@ -38,6 +38,9 @@ struct SelectionRule {
   int rivals = 24;     ///< likewise of those that might take an accepted one's place
 };
 
+/// What no longer gains this many standard errors, all else in, is dropped again.
+inline constexpr double keep_t = 2.0;
+
 struct Scored {
   std::size_t candidate = 0;
   double gain = 0.0;        ///< share of the held-out squared error that it takes away

@@ -36,7 +36,28 @@ class RowSums {
   Eigen::Index used_ = 0;
 };
 
-double value_of(const Modulation& modulation, const View& view, const Prediction& predicted) {
+/// Fills the columns of the modulations from those of the hypotheses.
+void modulate(const Tally& tally, const Robot& robot, const Recording& recording, std::size_t index,
+              const View& view, const PredictedLoad& load, Eigen::MatrixXd& M) {
+  for (std::size_t k = 0; k < tally.modulations.size(); ++k) {
+    const Modulation& modulation = tally.modulations[k];
+    const Eigen::Index n = tally.hypotheses[modulation.hypothesis].value.size();
+    const auto from = M.middleCols(tally.first[modulation.hypothesis], n);
+    auto to = M.middleCols(tally.first_modulated[k], n);
+    if (modulation.signal == Signal::row) {
+      const Eigen::Index row = robot.base_dof() + modulation.joint;
+      to.setZero();
+      to.row(row) = from.row(row);
+    } else {
+      to = value_of(modulation, recording, index, view, load) * from;
+    }
+  }
+}
+
+}  // namespace
+
+double value_of(const Modulation& modulation, const Recording& recording, std::size_t index,
+                const View& view, const PredictedLoad& load) {
   const Eigen::Index j = modulation.joint;
   switch (modulation.signal) {
     case Signal::position:
@@ -48,7 +69,13 @@ double value_of(const Modulation& modulation, const View& view, const Prediction
       return std::tanh(view.sample.dq[j] / width);
     }
     case Signal::load:
-      return predicted.load.joint[j];
+      return load.joint[j];
+    case Signal::side: {
+      constexpr double width = 0.1;  // N m or N: teeth and brushes do not change sides at once
+      return std::tanh(load.joint[j] / width);
+    }
+    case Signal::turned:
+      return recording.turned(index, j);
     case Signal::time:
       return view.elapsed;
     case Signal::row:
@@ -56,26 +83,6 @@ double value_of(const Modulation& modulation, const View& view, const Prediction
   }
   return 1.0;
 }
-
-/// Fills the columns of the modulations from those of the hypotheses.
-void modulate(const Tally& tally, const Robot& robot, const View& view, const Prediction& predicted,
-              Eigen::MatrixXd& M) {
-  for (std::size_t k = 0; k < tally.modulations.size(); ++k) {
-    const Modulation& modulation = tally.modulations[k];
-    const Eigen::Index n = tally.hypotheses[modulation.hypothesis].value.size();
-    const auto from = M.middleCols(tally.first[modulation.hypothesis], n);
-    auto to = M.middleCols(tally.first_modulated[k], n);
-    if (modulation.signal == Signal::row) {
-      const Eigen::Index row = robot.base_dof() + modulation.joint;
-      to.setZero();
-      to.row(row) = from.row(row);
-    } else {
-      to = value_of(modulation, view, predicted) * from;
-    }
-  }
-}
-
-}  // namespace
 
 Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses,
                   const std::vector<Modulation>& modulations) {
@@ -131,7 +138,7 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
     M.leftCols(tally.inertial) = rows.E;
     M.middleCols(tally.inertial, hypotheses.count()) =
         hypotheses.at(recording, index, view, predicted);
-    modulate(tally, robot, view, predicted, M);
+    modulate(tally, robot, recording, index, view, predicted.load, M);
     M.rightCols<1>() = logged_force(viewer, view);
     for (Eigen::Index row = 0; row < M.rows(); ++row) {
       if (!counted[row]) M.row(row).setZero();

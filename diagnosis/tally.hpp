@@ -25,10 +25,11 @@ struct Block {
 };
 
 /// What the size of an effect might follow.
-enum class Signal { position, speed, direction, load, time, row };
+enum class Signal { position, speed, direction, load, side, turned, time, row };
 
-/// A hypothesis whose size follows a signal of a joint: its columns times the signal. `row` keeps
-/// the joint's own row of the columns alone.
+/// A hypothesis whose size follows a signal of a joint: its columns times the signal. `side` is the
+/// direction of the load, `turned` that of Recording::turned(); `row` keeps the joint's own row of
+/// the columns alone.
 struct Modulation {
   std::size_t hypothesis = 0;
   Signal signal = Signal::time;
@@ -57,6 +58,10 @@ struct TallyOptions {
 void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment contacts,
                   const RichModel& model, const Recording& recording, const TallyOptions& options,
                   bool reference);
+
+/// The signal's value at a sample. `load` is the predicted one of all joints.
+[[nodiscard]] double value_of(const Modulation& modulation, const Recording& recording,
+                              std::size_t index, const View& view, const PredictedLoad& load);
 
 [[nodiscard]] Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses,
                                 const std::vector<Modulation>& modulations = {});

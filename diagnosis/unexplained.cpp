@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -32,13 +33,14 @@ std::size_t bin_of(double x, const std::vector<double>& edges) {
 
 struct Binned {
   std::vector<double> sum = std::vector<double>(bins, 0.0), count = sum;
-  void add(std::size_t bin, double y) {
+  void add(std::size_t bin, double y, double weight = 1.0) {
     sum[bin] += y;
-    count[bin] += 1.0;
+    count[bin] += weight;
   }
   [[nodiscard]] double mean() const {
     return std::accumulate(sum.begin(), sum.end(), 0.0) /
-           std::max(1.0, std::accumulate(count.begin(), count.end(), 0.0));
+           std::max(std::numeric_limits<double>::min(),
+                    std::accumulate(count.begin(), count.end(), 0.0));
   }
   [[nodiscard]] double mean(std::size_t bin) const {
     return count[bin] > 0.0 ? sum[bin] / count[bin] : mean();
@@ -126,6 +128,28 @@ std::optional<Structure> curve(const std::vector<double>& x, const std::vector<d
   return found;
 }
 
+/// Of a curve over a signal of a joint whose predicted load is `load`.
+double abscissa(Signal signal, int joint, const Recording& recording, std::size_t index,
+                double load) {
+  const Sample& s = recording[index];
+  switch (signal) {
+    case Signal::position:
+      return s.q[joint];
+    case Signal::speed:
+    case Signal::direction:
+      return s.dq[joint];
+    case Signal::load:
+    case Signal::side:
+    case Signal::row:
+      return load;
+    case Signal::turned:
+      return recording.turned(index, joint);
+    case Signal::time:
+      break;
+  }
+  return s.time;
+}
+
 }  // namespace
 
 std::vector<Structure> unexplained(const Robot& robot, const Recording& recording,
@@ -209,23 +233,8 @@ Structure unnamed(const Robot& robot, const Recording& recording, const Series& 
   for (std::size_t i = 0; i < without.index.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     if (!without.counted(row, column)) continue;
-    const Sample& s = recording[without.index[i]];
-    switch (variation.signal) {
-      case Signal::position:
-        x.push_back(s.q[variation.joint]);
-        break;
-      case Signal::speed:
-      case Signal::direction:
-        x.push_back(s.dq[variation.joint]);
-        break;
-      case Signal::load:
-      case Signal::row:
-        x.push_back(without.predicted(row, column));
-        break;
-      case Signal::time:
-        x.push_back(s.time);
-        break;
-    }
+    x.push_back(abscissa(variation.signal, variation.joint, recording, without.index[i],
+                         without.predicted(row, column)));
     y.push_back(without.residual(row, column));
   }
   Structure structure;
@@ -240,6 +249,38 @@ Structure unnamed(const Robot& robot, const Recording& recording, const Series& 
     values.add(bin_of(x[i], edges), y[i]);
   }
   set_curve(places, values, structure);
+  return structure;
+}
+
+Structure lawless(const Robot& robot, reference::ContactTreatment contacts, const RichModel& model,
+                  const Recording& recording, std::size_t stride, const Stranger& stranger) {
+  const HypothesisColumns columns(robot, contacts, model, {stranger.carrier});
+  const Viewer& viewer = columns.viewer();
+  const int joint = stranger.law.joint;
+  const Eigen::Index row = robot.base_dof() + joint;
+  std::vector<double> x, carrier, missing;
+  for (const std::size_t index : recording.usable(stride)) {
+    const View view = viewer.view(recording, index);
+    if (!counted_rows(viewer, recording, index, view)[row]) continue;
+    const Prediction predicted = predict(viewer, view, model);
+    x.push_back(
+        abscissa(stranger.law.signal, joint, recording, index, predicted.load.joint[joint]));
+    carrier.push_back(columns.at(recording, index, view, predicted)(row, 0));
+    missing.push_back(-residual(viewer, view, model)[row]);
+  }
+  Structure structure;
+  structure.joint = robot.joint(joint).name;
+  structure.variable = variable_of({stranger.law.signal, joint}, robot);
+  structure.law = hypothesis_id(robot, stranger.carrier);
+  structure.share = stranger.gain;
+  structure.t = stranger.t;
+  const std::vector<double> edges = quantiles(x);
+  Binned places, numbers;  // the number is that of least squares within each bin
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    places.add(bin_of(x[i], edges), x[i]);
+    numbers.add(bin_of(x[i], edges), carrier[i] * missing[i], carrier[i] * carrier[i]);
+  }
+  set_curve(places, numbers, structure);
   return structure;
 }
 

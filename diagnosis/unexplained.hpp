@@ -6,6 +6,7 @@
 
 #include "shapeid/diagnosis/constancy.hpp"
 #include "shapeid/diagnosis/series.hpp"
+#include "shapeid/diagnosis/strangers.hpp"
 
 namespace shapeid::diagnosis {
 
@@ -13,13 +14,16 @@ namespace shapeid::diagnosis {
 struct Structure {
   std::string joint;
   std::string variable;  ///< "q.knee", "dq.hip", "ddq.knee", "tau.knee", its "dtau.knee" and
-                         ///< "ddtau.knee", "time", or a log column
+                         ///< "ddtau.knee", "turn.knee" (Recording::turned), "time", or a log column
   /// Of the joint's residual variance, on blocks that were not used; of an effect whose number
   /// follows the signal: of what that effect is worth.
   double share = 0.0;
   double t = 0.0;                 ///< over its standard error
   std::vector<double> at, value;  ///< the empirical curve: middle of each bin, mean residual
   std::string under_name;         ///< the effect that was accepted and does not stay constant
+  /// "torque_gain@knee": the curve is of this law's number over the signal, in the law's unit; else
+  /// empty, and it is of the residual.
+  std::string law;
 };
 
 /// Tests the residual of every joint against its own position, velocity, acceleration and torque,
@@ -33,6 +37,12 @@ struct Structure {
 /// the signal that its number follows.
 [[nodiscard]] Structure unnamed(const Robot& robot, const Recording& recording,
                                 const Series& without, const Variation& variation);
+
+/// What a law without a name explains: the curve of its carrier's number over the signal that the
+/// number follows, by what `model`, which lacks it, leaves in the row of its joint.
+[[nodiscard]] Structure lawless(const Robot& robot, reference::ContactTreatment contacts,
+                                const RichModel& model, const Recording& recording,
+                                std::size_t stride, const Stranger& stranger);
 
 /// Autocorrelation of a row of the series at the first `lags` lags (samples apart), and the band
 /// in which that of white noise stays with 95 percent.

@@ -27,6 +27,7 @@ Effect foot_radius() {
   e.separate_by = "measure the foot";
   e.under_contact = "it is what the projection uses: seen in stance only";
   e.source = "docs/derivations/projection.md";
+  e.built_in = true;
   e.applies = is_point_contact;
   e.transform.rows = lower;
   return e;

@@ -30,6 +30,7 @@ Effect link_length() {
   e.separate_by = "measure the link";
   e.under_contact = "seen where the foot then is";
   e.source = "Hollerbach, Khalil, Gautier, Springer Handbook of Robotics (2016), ch. 6";
+  e.built_in = true;
   e.applies = has_length;
   e.transform.robot = stretch;
   return e;

@@ -21,6 +21,7 @@ Effect rotor_inertia() {
   e.separate_by = "turn the joint fast about an axis along gravity, and swing it across gravity";
   e.under_contact = "seen in swing; in stance only its part that no contact force can balance";
   e.source = "Featherstone, Rigid Body Dynamics Algorithms (2008), 9.6";
+  e.built_in = true;
   e.columns = columns;
   e.code.torque = "tau[j] += I * ddq[j];";
   return e;

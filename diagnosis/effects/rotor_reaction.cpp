@@ -40,6 +40,7 @@ Effect rotor_reaction() {
   e.separate_by = "accelerate this joint while the others are held, and look at their torques";
   e.under_contact = "the part on the base is hidden as far as feet can balance it";
   e.source = "Featherstone, Rigid Body Dynamics Algorithms (2008), 9.6";
+  e.built_in = true;
   e.applies = turns;
   e.columns = columns;
   e.code.link =

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "shapeid/diagnosis/consistent.hpp"
@@ -69,6 +70,15 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, OneEffect,
                                            Truth{"torque_lag", "joint2", 1, {0.01}},
                                            Truth{"torque_delay", "all", 0, {0.012}}),
                          [](const auto& one) { return one.param.id; });
+
+/// What a large delay leaves of its derivative is no lag of single drives, no friction and no drag.
+TEST(Loop, LargeDelayBesideALargerOffsetIsOneDelay) {
+  LoopResult result =
+      loop_of({{effect("torque_offset", 2, {2.0}), effect("torque_delay", 0, {0.016})}});
+  std::vector<std::string> ids = found_ids(result);
+  std::sort(ids.begin(), ids.end());
+  EXPECT_EQ(ids, (Ids{"torque_delay@all", "torque_offset@joint3"}));
+}
 
 TEST(Loop, LoadThatComesIsFoundOnItsLinkFromItsMoment) {
   AppliedEffect load =
