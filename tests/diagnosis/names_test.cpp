@@ -50,9 +50,8 @@ TEST(Names, StandWhereTheLawIsTrue) {
 
 /// The friction of a bent shaft, larger on one side of the turn.
 TEST(Names, DoNotStandWhereTheNumberFollowsPosition) {
-  const Recording log = with({}, [](Sample& s) {
-    s.tau[1] += 0.5 * (1.0 + 0.4 * s.q[1]) * std::tanh(s.dq[1] / 0.05);
-  });
+  const Recording log = with(
+      {}, [](Sample& s) { s.tau[1] += 0.5 * (1.0 + 0.4 * s.q[1]) * std::tanh(s.dq[1] / 0.05); });
   const LoopResult result = loop_of(log);
   ASSERT_EQ(result.found.size(), 1U);  // by the name of some friction
   EXPECT_FALSE(result.found[0].name_stands());
