@@ -6,8 +6,7 @@
 namespace shapeid::app {
 namespace {
 
-// Of the median, in variance: five times the usual error. Touchdowns of an ordinary trot stay
-// below.
+// Of the median, in variance: five times the usual error.
 constexpr double outstanding = 25.0;
 
 double median(const std::deque<double>& values) {

@@ -80,6 +80,13 @@ Recording record(const ArmLog& log) {
           rate};
 }
 
+Recording record(const ArmLog& log, const std::function<void(std::vector<Sample>&)>& change) {
+  const Recording clean = record(log);
+  std::vector<Sample> samples = clean.samples();
+  change(samples);
+  return {std::move(samples), clean.rate()};
+}
+
 diagnosis::LoopSettings arm_settings() {
   const Robot robot = arm();
   diagnosis::LoopSettings settings;
@@ -90,6 +97,10 @@ diagnosis::LoopSettings arm_settings() {
   settings.size.tail(30) = reference::natural_sizes(settings.shapes, 2.0);
   settings.stride = 2;
   return settings;
+}
+
+diagnosis::LoopResult loop_of(const Recording& log) {
+  return diagnosis::close_loop(arm(), log, nullptr, arm_settings());
 }
 
 diagnosis::AppliedEffect effect(const std::string& id, int site, std::vector<double> value) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,15 @@ struct ArmLog {
 
 /// Sums of sines at 100 Hz with exact derivatives, tau logged with noise.
 [[nodiscard]] diagnosis::Recording record(const ArmLog& log);
+/// The same, with something in it that no effect of the catalogue is.
+[[nodiscard]] diagnosis::Recording record(const ArmLog& log,
+                                          const std::function<void(std::vector<Sample>&)>& change);
 
 /// All links but the root sought, as `shapeid diagnose` would.
 [[nodiscard]] diagnosis::LoopSettings arm_settings();
+
+/// The loop on such a log, without a reference.
+[[nodiscard]] diagnosis::LoopResult loop_of(const diagnosis::Recording& log);
 
 /// An effect of the catalogue with numbers.
 [[nodiscard]] diagnosis::AppliedEffect effect(const std::string& id, int site,

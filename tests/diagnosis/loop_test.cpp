@@ -23,9 +23,7 @@ using test::found_ids;
 using test::record;
 using Ids = std::vector<std::string>;
 
-LoopResult loop_of(const ArmLog& log) {
-  return close_loop(arm(), record(log), nullptr, arm_settings());
-}
+LoopResult loop_of(const ArmLog& log) { return test::loop_of(record(log)); }
 
 /// Within five of its standard errors, which is what the error is for; one in a million by chance.
 void expect_value(const Found& found, const std::vector<double>& truth) {

@@ -16,21 +16,16 @@ namespace shapeid::diagnosis {
 namespace {
 
 using test::arm;
-using test::arm_settings;
 using test::ArmLog;
 using test::effect;
+using test::loop_of;
 using test::record;
 
-/// The log with something in its torques that no effect of the catalogue is.
+/// With every sample changed.
 Recording with(const ArmLog& log, const std::function<void(Sample&)>& change) {
-  const Recording clean = record(log);
-  std::vector<Sample> samples = clean.samples();
-  for (Sample& s : samples) change(s);
-  return {std::move(samples), clean.rate()};
-}
-
-LoopResult loop_of(const Recording& recording) {
-  return close_loop(arm(), recording, nullptr, arm_settings());
+  return record(log, [&](std::vector<Sample>& samples) {
+    for (Sample& s : samples) change(s);
+  });
 }
 
 const Found* found(const LoopResult& result, const std::string& id) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/consistent.hpp"
@@ -19,20 +18,9 @@ namespace {
 
 using test::arm;
 using test::arm_settings;
-using test::ArmLog;
 using test::effect;
+using test::loop_of;
 using test::record;
-
-Recording with(const ArmLog& log, const std::function<void(std::vector<Sample>&)>& change) {
-  const Recording clean = record(log);
-  std::vector<Sample> samples = clean.samples();
-  change(samples);
-  return {std::move(samples), clean.rate()};
-}
-
-LoopResult loop_of(const Recording& recording) {
-  return close_loop(arm(), recording, nullptr, arm_settings());
-}
 
 std::string followed(const Stranger& s) { return variable_of({s.law.signal, s.law.joint}, arm()); }
 
@@ -52,7 +40,7 @@ TEST(Strangers, LeaveATrueNameAlone) {
 
 /// A gear that loses on one side of the load only.
 TEST(Strangers, SeeAGainOnOneSide) {
-  const Recording log = with({}, [](std::vector<Sample>& samples) {
+  const Recording log = record({}, [](std::vector<Sample>& samples) {
     for (Sample& s : samples) s.tau[1] *= s.tau[1] > 0.0 ? 1.04 : 1.0;
   });
   const LoopResult result = loop_of(log);
@@ -73,7 +61,7 @@ TEST(Strangers, SeeAGainOnOneSide) {
 
 /// Friction that has to wind up after each turn is no viscous friction.
 TEST(Strangers, SeeHysteresis) {
-  const Recording log = with({}, [](std::vector<Sample>& samples) {
+  const Recording log = record({}, [](std::vector<Sample>& samples) {
     constexpr double way = 0.2, size = 0.15;
     double share = 0.0, before = samples.front().q[0];
     for (Sample& s : samples) {
