@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "shapeid/models/error.hpp"
@@ -64,10 +65,8 @@ double Butterworth::group_delay(double frequency) const {
 Eigen::Index Butterworth::samples_to_decay(double fraction) const {
   double slowest = 0.0;
   for (const Section& s : sections_) {
-    const double discriminant = s.a1 * s.a1 / 4.0 - s.a2;
-    const double radius =
-        discriminant < 0.0 ? std::sqrt(s.a2) : std::abs(s.a1) / 2.0 + std::sqrt(discriminant);
-    slowest = std::max(slowest, radius);
+    const std::complex<double> root = std::sqrt(std::complex(s.a1 * s.a1 / 4.0 - s.a2));
+    slowest = std::max(slowest, std::abs(std::abs(s.a1) / 2.0 + root));
   }
   // All poles at zero: forgotten at once.
   const double samples = std::ceil(std::log(fraction) / std::log(slowest));

@@ -124,7 +124,7 @@ void Plausibility::judge_position(int j) const {
   const Range& q = range(plan_.q + j);
   if (joint.kind != JointKind::revolute || q.least > q.most) return;
   const double past = std::max(q.most - joint.upper, joint.lower - q.least);
-  const double most = std::max(std::abs(q.least), std::abs(q.most));
+  const double most = std::max(-q.least, q.most);  // magnitude
   const bool fits_as_degrees =
       q.most * degree <= joint.upper + degree && q.least * degree >= joint.lower - degree;
   if (past > past_limit && fits_as_degrees) {

@@ -137,10 +137,10 @@ bool is_convex(const Polyhedron& p) {
     }
   }
 
-  // No neighbour's far corner may rise above a face, and neighbours must lead to every face.
+  // No neighbour's far corner may rise above a face, and neighbours must lead to every face; to the
+  // first one as well, which starts.
   std::vector<bool> reached(p.faces.size(), false);
   std::vector<std::size_t> waiting = {0};
-  reached[0] = true;
   while (!waiting.empty()) {
     const std::size_t f = waiting.back();
     waiting.pop_back();

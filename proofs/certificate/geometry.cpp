@@ -132,17 +132,7 @@ struct Holds {
       const auto corner = [&](std::size_t i) {
         return exact3(s.vertices[static_cast<std::size_t>(face[i])]);
       };
-      const Vector a = corner(0), b = corner(1), c = corner(2);
-      std::array<Vector, 3> from_a{Vector(3), Vector(3), Vector(3)};
-      for (std::size_t i = 0; i < 3; ++i) {
-        from_a[0][i] = b[i] - a[i];
-        from_a[1][i] = c[i] - a[i];
-        from_a[2][i] = y[i] - a[i];
-      }
-      const auto& [u, v, w] = from_a;
-      const Rational side = w[0] * (u[1] * v[2] - u[2] * v[1]) +
-                            w[1] * (u[2] * v[0] - u[0] * v[2]) + w[2] * (u[0] * v[1] - u[1] * v[0]);
-      if (sgn(side) > 0) return false;
+      if (sgn(side_of(corner(0), corner(1), corner(2), y)) > 0) return false;
     }
     return true;
   }

@@ -1,5 +1,6 @@
 #include "shapeid/proofs/certificate/linear.hpp"
 
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -32,6 +33,15 @@ Vector solve(std::vector<Vector> A, Vector b) {
     x[k] = rest / row[k];
   }
   return x;
+}
+
+Rational side_of(const Vector& a, const Vector& b, const Vector& c, const Vector& x) {
+  const auto from_a = [&](const Vector& to) {
+    return std::array<Rational, 3>{to[0] - a[0], to[1] - a[1], to[2] - a[2]};
+  };
+  const auto u = from_a(b), v = from_a(c), w = from_a(x);
+  return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
+         w[2] * (u[0] * v[1] - u[1] * v[0]);
 }
 
 Sign sign_of_form(std::vector<Vector> A) {

@@ -194,16 +194,8 @@ Lowest lowest_on(const Quadric& q, const Surface& surface) {
 /// Whether x lies inside a convex surface, or on it.
 bool inside(const Surface& surface, const Vector& x) {
   for (const auto& t : surface.triangles) {
-    const Vector &a = surface.corners[t[0]], &b = surface.corners[t[1]], &c = surface.corners[t[2]];
-    Vector u(3), v(3), w(3);
-    for (std::size_t i = 0; i < 3; ++i) {
-      u[i] = b[i] - a[i];
-      v[i] = c[i] - a[i];
-      w[i] = x[i] - a[i];
-    }
-    const Rational side = w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
-                          w[2] * (u[0] * v[1] - u[1] * v[0]);
-    if (sgn(side) > 0) return false;
+    const Corners& corners = surface.corners;
+    if (sgn(side_of(corners[t[0]], corners[t[1]], corners[t[2]], x)) > 0) return false;
   }
   return true;
 }
