@@ -132,6 +132,20 @@ TEST(Certify, OptimumAtTheMassBound) {
   EXPECT_EQ(at_bound.proof.upper, optimum);
 }
 
+/// Without a density term masses are not unique: an answer reaches the optimum, or nothing is said.
+TEST(Certify, DistancesWithoutADensityTermAreNoneOrUnknown) {
+  StatedProblem p = test::one_point_problem();
+  p.masses.lambda = p.masses.mass_bound = 0.0;
+  const Proof reached = certify(p, honest_answer(p, Eigen::VectorXd::Ones(1))).proof;
+  EXPECT_EQ(reached.gap, 0.0);
+  EXPECT_EQ(reached.mass_distance, 0.0);
+  EXPECT_TRUE(reached.parameter_distance.isZero(0.0));
+  const Proof missed = certify(p, honest_answer(p, Eigen::VectorXd::Constant(1, 0.5))).proof;
+  EXPECT_EQ(missed.gap, 0.25);
+  EXPECT_EQ(missed.mass_distance, HUGE_VAL);
+  EXPECT_EQ(missed.parameter_distance, Eigen::Vector3d::Constant(HUGE_VAL));
+}
+
 /// Where even the exact steps do not find the free set, duality alone says how far it is.
 TEST(Certify, DualityAloneIsTight) {
   StatedProblem p = test::load_problem();

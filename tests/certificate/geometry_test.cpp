@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "shapeid/proofs/certificate/certify.hpp"
 #include "shapeid/proofs/certificate/exact_moments.hpp"
@@ -80,6 +81,26 @@ RC_GTEST_PROP(Geometry, EveryEntryCounts, ()) {
   }
   const Geometry found = check_geometry(p, rounding);
   RC_ASSERT(found.agree == 0 && !found.first_disagreement.empty());
+}
+
+/// One, the distance from the link's origin, and its square: near it and far from it.
+TEST(Geometry, EntriesAreMeasuredByTheirUnits) {
+  for (const double distance : {0.03125, 32.0}) {
+    const Shape shape =
+        make_cuboid(distance * Eigen::Vector3d(0.5, 0.25, 0.125),
+                    Eigen::Isometry3d(Eigen::Translation3d(distance * Eigen::Vector3d(1, -1, 1))));
+    const double square = 0.5 * unit_parameters(shape).tensor().trace();
+    for (Eigen::Index i = 0; i < 10; ++i) {
+      const double measure = i == 0 ? 1.0 : (i < 4 ? std::sqrt(square) : square);
+      for (const auto& [share, agrees] : {std::pair(0.5, 1), std::pair(2.0, 0)}) {
+        for (const double sign : {-1.0, 1.0}) {
+          StatedProblem p = of_shapes({shape}, shape);
+          p.masses.U(10 + i, 0) += sign * share * rounding.get_d() * measure;
+          EXPECT_EQ(check_geometry(p, rounding).agree, agrees) << distance << " " << i;
+        }
+      }
+    }
+  }
 }
 
 /// All parts of a division lie where the whole lies; none of them in a neighbour.

@@ -50,6 +50,25 @@ RC_GTEST_PROP(ExactOptimum, FromAnyFreeSetTheOptimumOrNothing, ()) {
   if (proved) RC_ASSERT(proved->value == test::minimum_of_all_active_sets(p).value);
 }
 
+/// Of two shapes that the rows do not tell apart the heavy one moves: the light one, which rounding
+/// has left, could not go down by as much.
+TEST(ExactOptimum, WhatHasToMoveIsNotNearItsBound) {
+  StatedProblem p = test::one_point_problem();
+  p.masses.lambda = p.masses.mass_bound = 0.0;
+  p.masses.U = Eigen::MatrixXd::Zero(10, 2);
+  p.masses.U.row(0).setOnes();
+  p.masses.V = Eigen::VectorXd::Ones(2);
+  constexpr double left = 0x1p-60, off = 0x1p-50;
+  for (const bool first : {true, false}) {
+    const Eigen::Vector2d m(first ? 1.0 + off : left, first ? left : 1.0 + off);
+    const auto proved = prove_optimum(p, {m, {}});
+    ASSERT_TRUE(proved);
+    EXPECT_TRUE(proved->same);
+    EXPECT_EQ(proved->value, 0);
+    EXPECT_EQ(proved->m.at(first ? 1 : 0), exact(left));
+  }
+}
+
 TEST(ExactOptimum, OfALoadAsBothPathsFindIt) {
   const StatedProblem p = test::load_problem();
   const MassSolution reference = reference::solve_masses(p.masses);

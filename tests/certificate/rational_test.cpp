@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <limits>
 
 #include "shapeid/proofs/certificate/exact_solve.hpp"
+#include "shapeid/proofs/certificate/linear.hpp"
 #include "shapeid/proofs/certificate/modular.hpp"
 #include "shapeid/proofs/certificate/rational.hpp"
 #include "shapeid/tests/support/generators.hpp"
@@ -80,6 +83,18 @@ TEST(ExactSolve, PrimesArePrimeAndFit) {
   // The longest sums of the largest products do not run over.
   const std::vector<PrimeField::Element> most(100, p - 1);
   EXPECT_EQ(field.dot(most.data(), most.data(), most.size()), 100U);
+}
+
+/// Against the determinant; small whole numbers are exact in doubles, too.
+RC_GTEST_PROP(Linear, TheSideOfATriangle, ()) {
+  const auto corner = [] {
+    const auto whole = [] { return static_cast<double>(*rc::gen::inRange(-99, 100)); };
+    return Eigen::Vector3d(whole(), whole(), whole());
+  };
+  const Eigen::Vector3d a = corner(), b = corner(), c = corner(), x = corner();
+  const double six_volumes = (x - a).dot((b - a).cross(c - a));
+  const auto exact3 = [](const Eigen::Vector3d& v) { return exact(Eigen::VectorXd(v)); };
+  RC_ASSERT(side_of(exact3(a), exact3(b), exact3(c), exact3(x)) == exact(six_volumes));
 }
 
 }  // namespace

@@ -145,6 +145,27 @@ TEST(Relaxations, NothingFromNothing) {
   EXPECT_EQ(proof.floor, std::nullopt);
 }
 
+/// Whatever is known of some sets: no lower bound is above that of a smaller set, and what a
+/// smaller set reaches the larger ones do.
+TEST(Relaxations, BoundsAreCarriedOver) {
+  const StatedProblem p = noisy_load(0, 0.05);
+  const Evidence all = sought(p);
+  const auto below = [](const Interval& larger, const Interval& smaller) {
+    const bool reached = !smaller.upper || (larger.upper && *larger.upper <= *smaller.upper);
+    return larger.lower <= smaller.lower && reached;
+  };
+  for (const Evidence& evidence : {all, Evidence{{}, all.bodies, {}}, Evidence{{}, {}, all.masses},
+                                   Evidence{all.limit, {}, {}}}) {
+    for (const Interval& shapes : {Interval{}, Interval{exact(0.25), exact(1e6)}}) {
+      const Relaxations of = relaxations(p, evidence, shapes);
+      EXPECT_TRUE(below(of.masses, of.bodies));
+      EXPECT_TRUE(below(of.bodies, of.divisions));
+      EXPECT_TRUE(below(of.divisions, of.shapes));
+      EXPECT_GT(of.shapes.lower, 0);
+    }
+  }
+}
+
 /// What a body reaches is only claimed of bodies that exist and that the mass bound allows.
 TEST(Relaxations, ForgedBodiesReachNothing) {
   const StatedProblem p = noisy_load(0, 0.05);

@@ -6,10 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
+#include "shapeid/fast/division.hpp"
 #include "shapeid/tests/fast/division_runs.hpp"
+#include "shapeid/tests/fast/triangles.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid {
@@ -86,6 +89,40 @@ RC_GTEST_PROP(FastDivision, WholeRunsOfAnyModel, ()) {
   // Nothing promises that none ever is; none of the published runs was (docs/agreement.md).
   RC_ASSERT(totals.declined <= totals.divisions / 2000);
   expect_equal(run);
+}
+
+/// Masses, first moments and tensors of all links, each over its size; a first moment's is the root
+/// of mass times tensor.
+RC_GTEST_PROP(FastDivision, StepsAreChangesOfTheParameters, ()) {
+  const auto given = *test::model_with_rows();
+  DivisionOptions options;
+  options.most_divisions = 5;
+  options.expected_mass = 1.0;
+  fast::Division division(given.model, options);
+  division.set_lambda(given.problem.lambda);
+  const Eigen::VectorXd root = given.problem.W.cwiseSqrt();
+  Eigen::MatrixXd rows(given.problem.Y.rows(), given.problem.Y.cols() + 1);
+  rows << root.asDiagonal() * given.problem.Y, root.cwiseProduct(given.problem.F);
+  const fast::Triangle triangle = test::triangle_of(rows);
+  RC_PRE(division.start(triangle.R()) == fast::Outcome::solved);
+  Eigen::VectorXd before = division.masses().Phi();
+  while (division.divide() == fast::Division::Step::divided) {
+    const Eigen::VectorXd Phi = division.masses().Phi();
+    const auto lengths = [](const Eigen::VectorXd& all) {
+      const Eigen::MatrixXd links = all.reshaped(10, all.size() / 10);
+      return Eigen::Vector3d(links.row(0).norm(), links.middleRows<3>(1).norm(),
+                             links.bottomRows<6>().norm());
+    };
+    const Eigen::Vector3d change = lengths(Phi - before);
+    Eigen::Vector3d size = lengths(Phi);
+    size[1] = std::sqrt(size[0] * size[2]);
+    const Eigen::Vector3d step = division.history().back().step;
+    for (int i = 0; i < 3; ++i) {
+      RC_ASSERT(test::scaled(std::abs(step[i] * size[i] - change[i]), change[i], Phi.size()) <
+                test::few_hundred_eps);
+    }
+    before = Phi;
+  }
 }
 
 }  // namespace

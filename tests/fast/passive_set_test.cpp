@@ -224,6 +224,25 @@ TEST(EvenDensity, HundredsOfShapesOnALinkAsDenseLeastSquares) {
   EXPECT_LT(std::max(filling, coming_and_going), damped_rounding);
 }
 
+/// Rounding of a force over the root of lambda would be a mass.
+TEST(EvenDensity, WhatNoRowFeelsIsZero) {
+  TriangleCase given = test::body_case(5, {.links = 2, .shapes_a_link = 8});
+  given.R.leftCols<10>().setZero();
+  ShapeColumns columns(given.link_count(), given.shapes());
+  EvenDensity set(columns, given.problem.V);
+  set.set_lambda(1e-9 * given.problem.lambda);
+  set.start(given.R);
+  for (int j = 0; j < given.shapes(); ++j) {
+    ASSERT_TRUE(columns.append(given.links[static_cast<std::size_t>(j)], given.column(j)));
+    ASSERT_TRUE(set.enter(j));
+  }
+  const VectorXd& target = set.target();
+  for (int j = 0; j < given.shapes(); ++j) {
+    const bool is_felt = given.links[static_cast<std::size_t>(j)] == 1;
+    EXPECT_EQ(target[j] != 0.0, is_felt) << j;
+  }
+}
+
 /// Slopes of passive shapes are lambda m / V, so small that they are noise in R^T r; they must come
 /// to digits of their own, because shapes are weighed against each other by them.
 TEST(EvenDensity, SlopesOfTheSizeOfLambdaHaveDigits) {

@@ -123,6 +123,19 @@ TEST(Motion, ExactDerivativesAreTakenAsTheyAre) {
   }
 }
 
+// No derivative of a joint can be missing where there is no joint.
+TEST(Motion, ABodyWithoutJointsHasItsExactDerivatives) {
+  for (const Root root : {Root::fixed, Root::floating}) {
+    const Robot robot = chain(0, root);
+    const Scratch scratch;
+    const auto path = scratch.path("a.csv");
+    write_log(path, robot, {0.0, 0.1, 0.2}, [&](double t) { return smooth_motion(robot, t); });
+    MotionOptions options;
+    options.exact_derivatives = true;
+    EXPECT_EQ(read_motion(path, robot, options).samples.size(), 3u);
+  }
+}
+
 TEST(Motion, CausalIsLateByTheStatedDelayInEveryChannel) {
   const Robot robot = chain(3, Root::floating);
   const Scratch scratch;

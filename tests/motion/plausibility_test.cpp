@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numbers>
 
@@ -75,6 +76,9 @@ TEST(Plausibility, UnitsAndSignsThatCannotBeAreNamed) {
        "the same joint, and seconds"},
       {[](Sample& s) { s.q *= 2e4, s.dq *= 2e4; },
        "x.csv:79, column q.j0: 11367.2 rad on the limited joint j0; give radians of the joint, "
+       "not of the motor or in encoder counts"},
+      {[](Sample& s) { s.q.array() -= 1e4; },
+       "x.csv:4041, column q.j0: 10000.6 rad on the limited joint j0; give radians of the joint, "
        "not of the motor or in encoder counts"},
       {[](Sample& s) { s.time *= 1000.0; },
        "x.csv, column time: the median step is 2 s; give seconds, and at least five rows a second; "
@@ -173,6 +177,13 @@ TEST(Plausibility, TheFirstLineOfAnExtremeIsNamed) {
               0U)
         << message;
   }
+}
+
+// A clock that counts in microseconds steps by one at most; what is longer by a rounding is taken.
+TEST(Plausibility, AStepOfAMicrosecondIsRefused) {
+  constexpr double microsecond = 1e-6;
+  EXPECT_THROW(check_clock("x.csv", "time", microsecond), InputError);
+  EXPECT_NO_THROW(check_clock("x.csv", "time", std::nextafter(microsecond, 1.0)));
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/inertia_lint.hpp"
 #include "shapeid/models/urdf.hpp"
 
 namespace shapeid {
@@ -174,6 +176,46 @@ TEST(InertiaLint, RoundingIsForgivenAndNamed) {
   const auto broken = only(link_text({1.0, {0, 0, 0}, {0.0123, 0, 0, 0.0045, 0, 0.0179}}));
   EXPECT_TRUE(broken.fatal);
   EXPECT_EQ(broken.likely_cause, "");
+}
+
+// Each moment as far as its own digits go: 0.05 for 0.2, 0.005 for 0.31, 0.00005 for the largest.
+TEST(InertiaLint, RoundingIsThatOfEachMoment) {
+  constexpr double rough = 0.2, fine = 0.31;
+  const auto blames_rounding = [](double xx, double yy, double zz) {
+    return names(only(link_text({1.0, {0, 0, 0}, {xx, 0, 0, yy, 0, zz}})), "rounded");
+  };
+  for (const auto& [largest, rounded] : {std::pair(0.5645, true), std::pair(0.5655, false)}) {
+    EXPECT_EQ(blames_rounding(rough, fine, largest), rounded);
+    EXPECT_EQ(blames_rounding(fine, largest, rough), rounded);
+    EXPECT_EQ(blames_rounding(largest, rough, fine), rounded);
+  }
+}
+
+// Axis-aligned, wherever and however the bodies are placed; powers of two, so exactly.
+TEST(CollisionExtent, HoldsAllBodies) {
+  Eigen::Isometry3d pose(Eigen::Translation3d(8.0, 16.0, 32.0));
+  pose.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // x to y, y to z, z to x
+  const auto check = [](const std::vector<CollisionBody>& bodies, const Eigen::Vector3d& lower,
+                        const Eigen::Vector3d& upper) {
+    urdf::DocumentLink link;
+    link.collision = bodies;
+    const auto extent = urdf::collision_extent(link);
+    ASSERT_TRUE(extent);
+    EXPECT_EQ(extent->lower, lower);
+    EXPECT_EQ(extent->upper, upper);
+  };
+  const CollisionBody cylinder{pose, CylinderGeometry{0.25, 1.0}};
+  const CollisionBody box{pose, Box{{1.0, 2.0, 4.0}}};
+  const CollisionBody sphere{Eigen::Isometry3d::Identity(), SphereGeometry{0.5}};
+  check({cylinder}, {7.5, 15.75, 31.75}, {8.5, 16.25, 32.25});
+  check({box}, {6.0, 15.5, 31.0}, {10.0, 16.5, 33.0});
+  check({sphere}, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  check({sphere, cylinder, box}, {-0.5, -0.5, -0.5}, {10.0, 16.5, 33.0});
+  urdf::DocumentLink link;
+  EXPECT_FALSE(urdf::collision_extent(link));
+  link.collision.resize(2);
+  link.collision[0].geometry = MeshGeometry{};
+  EXPECT_FALSE(urdf::collision_extent(link));
 }
 
 // An impossible frame of 1e-6 kg on a trunk that can exist is said, and forgiven.

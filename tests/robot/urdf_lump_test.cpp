@@ -173,6 +173,33 @@ TEST(UrdfLump, SlowJointsAndMimicsWithoutAnOffset) {
   EXPECT_EQ(robot.notes[1], "mimic joints locked at 0: slide");
 }
 
+TEST(UrdfLump, MembersKnowTheirLines) {
+  const std::string text = R"(<robot name="r">
+<link name="a"/>
+
+<link name="b"/>
+<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>
+</robot>)";
+  const Robot robot = parse_urdf(text, "r.urdf").robot;
+  ASSERT_EQ(robot.link_count(), 1);
+  ASSERT_EQ(robot.links[0].members.size(), 2U);
+  EXPECT_EQ(robot.links[0].members[0].line, 2);
+  EXPECT_EQ(robot.links[0].members[1].line, 4);
+}
+
+// The shortest direction that six decimals can write, and what is no direction.
+TEST(UrdfLump, AxesAreAsShortAsTheirDecimals) {
+  const auto axis = [](const std::string& xyz) {
+    const std::string text =
+        R"(<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous">
+<parent link="a"/><child link="b"/><axis xyz=")" +
+        xyz + R"("/></joint></robot>)";
+    return parse_urdf(text, "r.urdf").robot.joint(0).axis;
+  };
+  EXPECT_EQ(axis("0 0.000001 0"), Eigen::Vector3d::UnitY());
+  EXPECT_THROW(static_cast<void>(axis("0 0.0000009 0")), InputError);
+}
+
 TEST(UrdfLump, LockOfAnUnknownJointIsRefused) {
   UrdfOptions options;
   options.locked = {{"opne", 0.0}};

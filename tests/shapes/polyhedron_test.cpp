@@ -153,6 +153,27 @@ RC_GTEST_PROP(Polyhedron, CutNearlyThroughVertices, ()) {
   RC_ASSERT(std::get<Polyhedron>(upper).vertices.size() == 5U);
 }
 
+// Powers of two change no digit, so neither does the size of the solid: what counts as rounding
+// grows with it.
+RC_GTEST_PROP(Polyhedron, PartsScaleWithTheSolid, ()) {
+  const Shape whole = *test::convex_polyhedron();
+  const test::Cut cut = *test::cut();
+  const double scale = std::exp2(*rc::gen::inRange(-12, 13));
+  const Shape other = test::mapped(whole, Eigen::Affine3d(Eigen::Scaling(scale)));
+  const auto parts = divide(whole, cut.axis, cut.fraction);
+  const auto others = divide(other, cut.axis, cut.fraction);
+  for (const auto& [part, scaled_part] :
+       {std::pair(parts.first, others.first), std::pair(parts.second, others.second)}) {
+    const auto& a = std::get<Polyhedron>(part);
+    const auto& b = std::get<Polyhedron>(scaled_part);
+    RC_ASSERT(a.faces == b.faces);
+    RC_ASSERT(a.vertices.size() == b.vertices.size());
+    for (std::size_t i = 0; i < a.vertices.size(); ++i) {
+      RC_ASSERT(scale * a.vertices[i] == b.vertices[i]);
+    }
+  }
+}
+
 // An octahedron halved across an axis: the plane runs through four vertices and four edges.
 TEST(Polyhedron, CutThroughVerticesAndEdges) {
   const Vertices corners = {{0.3, 0, 0},  {-0.3, 0, 0}, {0, 0.4, 0},
