@@ -42,7 +42,7 @@ constexpr Eigen::Index rows_of_link = 20;
 /// them), tensor. One where there is nothing.
 Eigen::Matrix<double, 10, 1> sizes_of(const Eigen::Matrix<double, 10, 1>& lengths) noexcept {
   const double mass = lengths[0];
-  const double tensor = std::max({lengths[4], lengths[7], lengths[9]});
+  const double tensor = lengths.tail<6>().maxCoeff();
   Eigen::Matrix<double, 10, 1> sizes;
   sizes << mass, Eigen::Vector3d::Constant(std::sqrt(mass * tensor)),
       Eigen::Matrix<double, 6, 1>::Constant(tensor);

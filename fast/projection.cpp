@@ -75,13 +75,13 @@ Eigen::Index ContactElimination::operator()(const Eigen::Ref<const Eigen::Matrix
     v[rank] -= image;
     inverse_half_[rank] = 1.0 / (length * std::abs(v[rank]));
     Reflections next(v);
-    next.append(0.0, inverse_half_[rank]);
+    next.append(inverse_half_[rank]);
     next.apply(A.rightCols(forces - rank - 1));
   }
   for (Eigen::Index first = 0; first < rank; first += Reflections::most) {
     const Eigen::Index count = std::min<Eigen::Index>(Reflections::most, rank - first);
     Reflections block(V.middleCols(first, count));
-    for (Eigen::Index k = first; k < first + count; ++k) block.append(0.0, inverse_half_[k]);
+    for (Eigen::Index k = first; k < first + count; ++k) block.append(inverse_half_[k]);
     block.apply(rows);
   }
   return rank;

@@ -20,6 +20,8 @@ class Reflections {
 
   /// Appends the reflection by the next column of V. An inverse of zero: it leaves all as it is.
   void append(double top, double inverse_half) noexcept;
+  /// The same where there are no rows above.
+  void append(double inverse_half) noexcept { append(0.0, inverse_half); }
 
   [[nodiscard]] int count() const noexcept { return count_; }
 

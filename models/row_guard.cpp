@@ -20,6 +20,8 @@ constexpr double learns = 1.2;
 constexpr double memory = 5000.0;
 // A run of equal values is a fault when it is this many times as long as the longest natural one.
 constexpr std::size_t unnatural = 4;
+// Instead of a kind.
+constexpr int not_judged = -1;
 
 /// Channels of one kind, which stand still together when the robot does: number of the first
 /// channel, and how many.
@@ -43,7 +45,8 @@ std::vector<Kind> kinds(const ChannelPlan& plan, std::size_t joints) {
 
 }  // namespace
 
-RowGuard::RowGuard(const ChannelPlan& plan, std::size_t joints) : kind_(plan.channels.size(), -1) {
+RowGuard::RowGuard(const ChannelPlan& plan, std::size_t joints)
+    : kind_(plan.channels.size(), not_judged) {
   const std::vector<Kind> all = kinds(plan, joints);
   for (std::size_t k = 0; k < all.size(); ++k) {
     for (std::size_t i = 0; i < all[k].size; ++i) {
@@ -102,14 +105,14 @@ void RowGuard::watch_runs() {
   for (std::size_t c = 0; c < kind_.size(); ++c) {
     const double value = values[static_cast<Eigen::Index>(c)];
     double& last = last_[static_cast<Eigen::Index>(c)];
-    if (kind_[c] < 0 || std::isnan(value)) continue;
+    if (kind_[c] == not_judged || std::isnan(value)) continue;
     run_[c] = value == last && value != 0.0 ? run_[c] + 1 : 0;
     last = value;
     if (seen_ <= learning) natural_run_[c] = std::max(natural_run_[c], run_[c]);
   }
   if (seen_ <= learning) return;
   for (std::size_t c = 0; c < kind_.size(); ++c) {
-    if (kind_[c] >= 0 && run_[c] >= std::max(reach - 1, unnatural * natural_run_[c]) &&
+    if (kind_[c] != not_judged && run_[c] >= std::max(reach - 1, unnatural * natural_run_[c]) &&
         others_go_on(c)) {
       take_out_run(static_cast<int>(c));
     }
@@ -134,7 +137,7 @@ void RowGuard::judge_outliers(std::size_t at) {
   for (std::size_t c = 0; c < kind_.size(); ++c) {
     const auto i = static_cast<Eigen::Index>(c);
     double& value = held_[at].row.values[i];
-    if (kind_[c] < 0 || std::isnan(value)) continue;
+    if (kind_[c] == not_judged || std::isnan(value)) continue;
     std::array<double, 2 * half + 1> around{};
     std::size_t count = 0;
     for (std::size_t k = first; k <= last; ++k) {

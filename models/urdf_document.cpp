@@ -25,7 +25,9 @@ double half_last_digit(std::string_view text) {
   if (point == std::string_view::npos) return 0.0;
   double exponent = 0.0;
   if (exponent_at != std::string_view::npos) {
-    exponent = parse_number(text.substr(exponent_at + 1)).value_or(0.0);
+    // One that no double holds belongs to a zero.
+    constexpr double too_long = std::numeric_limits<double>::infinity();
+    exponent = parse_number(text.substr(exponent_at + 1)).value_or(too_long);
   }
   for (const char c : mantissa.substr(point + 1)) exponent -= c >= '0' && c <= '9' ? 1.0 : 0.0;
   const double half = 0.5 * std::pow(10.0, exponent);

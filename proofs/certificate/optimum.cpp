@@ -142,17 +142,16 @@ std::optional<Point> least_squares_point(const DyadicProblem& p, Indices shapes,
 }
 
 bool columns_are_optimal(const StatedProblem& stated, const Fractions& x, const Dyadic& c) {
-  const auto sign_of_difference = [&](std::size_t k, double bound) {
-    return cmp(x.at(k), exact(bound));
-  };
   for (std::size_t k = 0; k < c.entries.size(); ++k) {
     const double lower = stated.others.lower[static_cast<Eigen::Index>(k)];
     const double upper = stated.others.upper[static_cast<Eigen::Index>(k)];
-    const int above = std::isfinite(lower) ? sign_of_difference(k, lower) : 1;
-    const int under = std::isfinite(upper) ? sign_of_difference(k, upper) : -1;
-    if (above < 0 || under > 0) return false;
+    const Rational value = x.at(k);
+    const bool ends_below = std::isfinite(lower), ends_above = std::isfinite(upper);
+    if ((ends_below && value < exact(lower)) || (ends_above && value > exact(upper))) return false;
+    const bool can_fall = !(ends_below && value == exact(lower));
+    const bool can_rise = !(ends_above && value == exact(upper));
     const int slope = sgn(c.entries[k]);
-    if ((slope > 0 && above != 0) || (slope < 0 && under != 0)) return false;
+    if ((slope > 0 && can_fall) || (slope < 0 && can_rise)) return false;
   }
   return true;
 }

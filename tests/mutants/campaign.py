@@ -17,19 +17,20 @@ ALONE = 3  # tests that are asked one by one
 TOGETHER = 2.0  # seconds of tests that are asked in one process
 # What a contract, an array of the standard library's and one of Eigen's say before they end a program.
 CHECKS = re.compile(r"contract broken|: Assertion [`']")
-LIMITS = ("prlimit", "--as=6000000000", "--fsize=1000000000", "--core=0")  # a mutant may ask for anything
+# A mutant may ask for anything. One test makes a file of 10 GiB, a hole from end to end.
+LIMITS = ("prlimit", "--as=6000000000", "--fsize=11000000000", "--core=0")
 
 
 def run(program, tests, seconds, **variables):
-    """Runs tests of one program until one fails. Its exit status, or None after `seconds`; the test
-    that failed, or ran last; how long all took; whether a contract or a bound did not hold."""
+    """Runs tests of one program. Its exit status, or None after `seconds`; the test that failed, or ran
+    last; how long all took; whether a contract or a bound did not hold."""
     scratch = tempfile.mkdtemp(prefix="mutant-")
     seeds = {"RC_PARAMS": "seed=20240611 noshrink=1", "TMPDIR": scratch}
     began = time.monotonic()
     said = pathlib.Path(scratch) / "said"
     with open(said, "wb") as out:
-        process = subprocess.Popen([*LIMITS, program, "--gtest_fail_fast", "--gtest_filter=" + ":".join(tests)],
-                                   cwd=program.parent, stdin=subprocess.DEVNULL, stdout=out,
+        process = subprocess.Popen([*LIMITS, program, "--gtest_filter=" + ":".join(tests)], cwd=program.parent,
+                                   stdin=subprocess.DEVNULL, stdout=out,
                                    stderr=subprocess.STDOUT, start_new_session=True,
                                    env=os.environ | seeds | variables)
     try:
@@ -171,7 +172,7 @@ class Campaign:
         began = time.monotonic()
         for group in self.rounds(names):
             status, last, _, is_check = run(group["program"], group["names"], 2.0 + 10.0 * group["seconds"],
-                                  SHAPEID_MUTANT=str(number))
+                                            SHAPEID_MUTANT=str(number), GTEST_FAIL_FAST="1")
             verdict["asked"] += group["names"]
             if status != 0:
                 how = "too long" if status is None else "failed" if status == 1 else f"status {status}"

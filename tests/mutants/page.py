@@ -68,9 +68,11 @@ def fresh_section(root, fresh, explained, options):
         return "None was drawn (`./run mutants --fresh 200`)."
     alive = [(p, v) for p, v in fresh if v["verdict"] != "killed"]
     checked = sum(v.get("check", False) for _, v in fresh if v["verdict"] == "killed")
-    asked = "all were asked about" if len(fresh) == options.fresh else (
-        f"{len(fresh)} of {options.fresh} were asked about, in the order of their lots")
-    return (f"Seed {options.fresh_seed}; {asked}. **{share(len(fresh) - len(alive), len(fresh))} died**, {checked} of "
+    asked = "all were asked about" if len(fresh) == options.drawn else (
+        f"{len(fresh)} of these were asked about, in the order of their lots")
+    seen = options.fresh - options.drawn
+    return (f"Seed {options.fresh_seed}, {options.fresh} places; {seen} of them stood in earlier second samples and "
+            f"are left out; {asked}. **{share(len(fresh) - len(alive), len(fresh))} died**, {checked} of "
             f"them through a contract or a bound.\n\n{table('folder', sample.folder, fresh)}\n\n"
             f"Its survivors:\n\n{survivors(root, alive, explained)}")
 
@@ -96,7 +98,7 @@ def written(judged, fresh, places, root, options, commit, tests, failing):
         "died": share(dead, len(judged)), "without_equal": share(dead, len(judged) - equal),
         "equal": str(equal), "alive": str(len(alive)),
         "unreached": str(sum(not v["reaching"] for _, v in alive)),
-        "before": str(ways["before"]), "checked": str(sum(v.get("check", False) for v in killed)),
+        "checked": str(sum(v.get("check", False) for v in killed)),
         "failed": str(ways["failed"]), "crashed": str(ways["status"]), "late": str(ways["too"]),
         "partly": str(sum(v["tried"] < v["reaching"] for _, v in alive)),
         "by_folder": table("folder", sample.folder, judged),

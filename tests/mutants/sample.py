@@ -9,6 +9,17 @@ def folder(place):
     return place.file.rsplit("/", 1)[0]
 
 
+def identity(place):
+    """What tells the changes of one text apart."""
+    return place.file, place.start, place.end, place.form, place.changed
+
+
+def without(numbered, others):
+    """Those of `numbered` whose places are none of `others`, two lists [(number, place)]."""
+    left_out = {identity(place) for _, place in others}
+    return [(number, place) for number, place in numbered if identity(place) not in left_out]
+
+
 def lots(places, seed):
     """[(lot, place)]. A place's lot hangs on the seed and on what is changed, not on where it stands:
     where a line is added elsewhere, the sample stays."""
@@ -26,8 +37,8 @@ def stratified(places, count, seed, before=()):
     of their lots, so that the first ones are a sample, too. Each stratum (folder, operator) gives its share,
     rounded by the largest remainder. Numbers come from the lots, so that sources whose sample stays need
     not be compiled again."""
-    taken_before = {(place.file, place.start, place.end, place.form, place.changed) for _, place in before}
-    places = [p for p in places if (p.file, p.start, p.end, p.form, p.changed) not in taken_before]
+    taken_before = {identity(place) for _, place in before}
+    places = [p for p in places if identity(p) not in taken_before]
     strata = collections.defaultdict(list)
     for lot, place in lots(places, seed):
         strata[folder(place), place.operator].append((lot, place))
