@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <string>
 
 #include "shapeid/fast/solve_masses.hpp"
 #include "shapeid/proofs/certificate/certify.hpp"
+#include "shapeid/proofs/certificate/exact_problem.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 #include "shapeid/tests/certificate/oracle.hpp"
 #include "shapeid/tests/certificate/problems.hpp"
@@ -87,6 +90,64 @@ RC_GTEST_PROP(Certify, IntervalHoldsTheOptimumWhateverIsAnswered, ()) {
       RC_ASSERT(apart <= mpq_class(proof.mass_distance));
     }
   }
+}
+
+/// Where the optimum is known all distances are from it, rounded up; else they are bounds. Group by
+/// group: kg, kg m, kg m^2.
+RC_GTEST_PROP(Certify, DistancesAreFromTheOptimum, ()) {
+  const StatedProblem p = *test::small_problem(false);
+  RC_PRE(p.masses.F.size() >= p.others.values.cols());
+  const test::ExactMinimum truth = test::minimum_of_all_active_sets(p);
+  const Eigen::VectorXd m = (*test::vector(p.masses.shapes(), 1.0)).cwiseMax(0.0);
+  const Eigen::VectorXd x = (*test::vector(p.others.values.cols(), 1.0))
+                                .cwiseMax(p.others.lower)
+                                .cwiseMin(p.others.upper);
+  const Answer answer = honest_answer(p, m, x);
+  const Proof proof = certify(p, answer).proof;
+  Rational farthest;
+  for (Eigen::Index j = 0; j < m.size(); ++j) {
+    farthest =
+        std::max<Rational>(farthest, abs(truth.m[static_cast<std::size_t>(j)] - exact(m[j])));
+  }
+  const Vector best = ExactProblem(p).U.times(truth.m);
+  std::array<Rational, 3> groups;
+  for (Eigen::Index i = 0; i < answer.parameters.size(); ++i) {
+    Rational& group = groups[i % 10 == 0 ? 0 : (i % 10 < 4 ? 1 : 2)];
+    const Rational apart = exact(answer.parameters[i]) - best[static_cast<std::size_t>(i)];
+    group = std::max<Rational>(group, abs(apart));
+  }
+  RC_CLASSIFY(proof.optimum_known, "known");
+  if (!proof.optimum_known) {
+    RC_ASSERT(proof.mass_distance >= rounded_down(farthest));
+    return;
+  }
+  RC_ASSERT(proof.lower == rounded_down(truth.value));
+  RC_ASSERT(proof.upper == rounded_up(truth.value));
+  RC_ASSERT(proof.gap == rounded_up(test::exact_objective(p, m, x) - truth.value));
+  RC_ASSERT(proof.objective_above == rounded_up(test::exact_objective(p, m, x)));
+  RC_ASSERT(proof.mass_distance == rounded_up(farthest));
+  for (Eigen::Index g = 0; g < 3; ++g) {
+    RC_ASSERT(proof.parameter_distance[g] == rounded_up(groups[static_cast<std::size_t>(g)]));
+  }
+}
+
+/// A bound belongs to what is allowed; what is beyond it by a rounding does not.
+TEST(Certify, ColumnsMayReachTheirBounds) {
+  StatedProblem p = test::load_problem();
+  p.others.values = p.masses.F;
+  p.others.lower = Eigen::VectorXd::Constant(1, -0.25);
+  p.others.upper = Eigen::VectorXd::Constant(1, 0.5);
+  const auto feasible = [&](double x) {
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(p.masses.shapes());
+    const Certified c = certify(p, honest_answer(p, none, Eigen::VectorXd::Constant(1, x)));
+    const bool is_named = first_reason(c).starts_with("column 0 is beyond its bounds");
+    EXPECT_EQ(c.proof.feasible, !is_named);
+    return c.proof.feasible;
+  };
+  EXPECT_TRUE(feasible(-0.25));
+  EXPECT_TRUE(feasible(0.5));
+  EXPECT_FALSE(feasible(std::nextafter(-0.25, -1.0)));
+  EXPECT_FALSE(feasible(std::nextafter(0.5, 1.0)));
 }
 
 TEST(Certify, RejectsWrongAnswers) {

@@ -19,6 +19,13 @@ RC_GTEST_PROP(Cone, EitherMassesOrAPlane, ()) {
   const NearestBody nearest = nearest_body(p, Phi);
   for (const Rational& mass : nearest.m) RC_ASSERT(sgn(mass) >= 0);
   RC_ASSERT(separates(nearest.plane, p, Phi) == (sgn(nearest.square_distance) > 0));
+  // The plane touches the cone at the nearest body: so it is the nearest.
+  for (Eigen::Index j = 0; j < p.shapes(); ++j) {
+    const Rational height = dot(nearest.plane, exact(Eigen::VectorXd(p.U.col(j))));
+    RC_ASSERT(sgn(height) >= 0);
+    if (sgn(nearest.m[static_cast<std::size_t>(j)]) > 0) RC_ASSERT(height == 0);
+  }
+  RC_ASSERT(nearest.square_distance == -dot(nearest.plane, exact(Phi)));
 }
 
 /// Masses and columns of few bits make parameters that are doubles exactly.

@@ -101,6 +101,18 @@ TEST(Quadric, BallsAndCylindersAreNearlyReached) {
   EXPECT_EQ(lowest_in(cost_of_point(nothing), ball).value, 3);
 }
 
+/// In a ball the bound is reached: at a point of the ball, to the rounding of the multiplier.
+RC_GTEST_PROP(Quadric, LowestIsReachedInBalls, ()) {
+  const Quadric q = cost_of_point(exact(*test::vector(10, 1.0)));
+  const double radius = *test::magnitude(0.1, 10.0);
+  const Lowest lowest = lowest_in_ball(q, exact(radius));
+  constexpr double multiplier = 1e-9;
+  const Rational square = dot(lowest.point, lowest.point), R = exact(radius);
+  RC_ASSERT(square <= R * R * (1 + exact(multiplier)));
+  const Rational terms = 20 * (1 + R + R * R);  // of q in the ball
+  RC_ASSERT(abs(q.at(lowest.point) - lowest.value) <= exact(multiplier) * terms);
+}
+
 /// Half the slopes of the data term at Phi.
 Vector slopes_at(const MassProblem& p, const Eigen::VectorXd& Phi) {
   return exact(Eigen::VectorXd(p.Y.transpose() * p.W.cwiseProduct(p.Y * Phi - p.F)));
