@@ -247,6 +247,64 @@ TEST(FastMassEdges, StepsAreCounted) {
   EXPECT_EQ(solver.iterations(), 2);
 }
 
+/// Links that the rows tell apart take one shape each at a step, if it is almost as steep as the
+/// steepest of all: a tenth of it.
+TEST(FastMassEdges, LinksTakeTheirShapesAtOnce) {
+  constexpr int a_link = 4;
+  for (const auto& [share, steps] : {std::pair(0.5, a_link), std::pair(0.03125, 2 * a_link)}) {
+    MassSolver solver(2, 2 * a_link);
+    MatrixXd R = MatrixXd::Identity(21, 21);
+    R(20, 20) = 0.0;
+    for (int j = 0; j < a_link; ++j) {
+      for (int link = 0; link < 2; ++link) {
+        ASSERT_TRUE(solver.append(link, MassSolver::Column::Unit(j), 1.0));
+        R(10 * link + j, 20) = link == 0 ? 1.0 : share;
+      }
+    }
+    ASSERT_EQ(solver.solve(R), Outcome::solved);
+    EXPECT_EQ(solver.iterations(), steps + 1) << share;
+  }
+}
+
+/// And of one link one at a time, however many of its shapes are as steep and wherever they stand.
+TEST(FastMassEdges, ALinkTakesItsShapesOneByOne) {
+  constexpr int useful = 8, idle = 20;
+  MassSolver solver(1, useful + idle);
+  MatrixXd R = MatrixXd::Identity(11, 11);
+  R(10, 10) = 0.0;
+  for (int j = 0; j < useful; ++j) {
+    R(j, 10) = 1.0;
+    ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(j), 1.0));
+    for (int k = 0; j == useful / 2 && k < idle; ++k) {
+      ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(useful), 1.0));
+    }
+  }
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  EXPECT_EQ(solver.passive().size(), 8U);
+  EXPECT_EQ(solver.iterations(), useful + 1);
+}
+
+/// Of shapes that the rows do not tell apart all whose target is negative leave at one step.
+TEST(FastMassEdges, ManyLeaveAtOnce) {
+  constexpr int pairs = 6;
+  MassSolver solver(1, 2 * pairs);
+  MatrixXd R = MatrixXd::Identity(11, 11);
+  R(10, 10) = 0.0;
+  for (int j = 0; j < pairs; ++j) {
+    for (int twin = 0; twin < 2; ++twin) {
+      ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(j), 1.0));
+    }
+    R(j, 10) = 1.0;
+  }
+  solver.set_lambda(std::ldexp(1.0, -20));
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  EXPECT_EQ(solver.passive().size(), 12U);
+  for (int j = 0; j < pairs / 2; ++j) R(j, 10) = -1.0;
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  EXPECT_EQ(solver.passive().size(), 6U);
+  EXPECT_EQ(solver.iterations(), 2);
+}
+
 /// Where the rows tell all shapes apart, the density term costs what refinement costs: nothing
 /// where it moves masses by less than their rounding, and one step where it moves them by its
 /// square root.
