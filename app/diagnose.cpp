@@ -37,8 +37,10 @@ void write_files(const Options& options, const RobotInputs& robot, DiagnosisRun&
   };
   const Robot& r = robot.robot;
   write("identified.urdf", diagnosed_urdf(run, r, options.diagnose.inputs.robot));
-  write("effects.yaml", diagnosis::write_effects_yaml(r, run.consistent.model.effects));
-  write("predict_torque.hpp", diagnosis::torque_header(r, run.consistent.model));
+  diagnosis::RichModel model = run.consistent.model;
+  if (options.diagnose.curves) model.curves = run.curves;
+  write("effects.yaml", diagnosis::write_effects_yaml(r, {model.effects, model.curves}));
+  write("predict_torque.hpp", diagnosis::torque_header(r, model));
   write("result.json", diagnosis_json(run, r, options.diagnose).dump(2) + "\n");
   write("report.html", diagnosis_report(run, r, options.diagnose));
 }
@@ -98,6 +100,9 @@ void add_diagnose(CLI::App& app) {
                    "standard errors by which an effect must lower the held-out error")
       ->check(above_zero())
       ->capture_default_str();
+  verb->add_flag(
+      "--curves", d.curves,
+      "write effects.yaml and predict_torque.hpp with curves for what stays unexplained");
   verb->add_flag("--strict", options->strict, "exit status 1 if structure stays unexplained");
   verb->callback([options] { diagnose(*options); });
 }

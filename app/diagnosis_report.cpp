@@ -99,6 +99,13 @@ void add_undetermined(Page& page, const DiagnosisRun& run, const Robot& robot) {
     page.paragraph(hypothesis_id(robot, a) +
                    " was left out: its sign is impossible once the links are bodies.");
   }
+  if (!run.curves.empty()) {
+    page.paragraph(fmt::format(
+        "With curves in the place of what no name explains the error of all joints on the test "
+        "motion is {} N m instead of {}. diagnose --curves writes them with the model.",
+        short_number(overall(run.errors.with_curves, robot)),
+        short_number(overall(run.errors.found, robot))));
+  }
   if (run.structures.empty()) page.paragraph("The residual follows no signal that was tested.");
   constexpr std::size_t shown = 6;
   for (std::size_t i = 0; i < std::min(shown, run.structures.size()); ++i) {

@@ -155,6 +155,17 @@ std::string errors_text(const DiagnosisRun& run, const Robot& robot) {
                             e.unfiltered_found.norm());
 }
 
+std::string curves_text(const DiagnosisRun& run, const Robot& robot) {
+  if (run.curves.empty()) return "";
+  std::string over;
+  for (const diagnosis::Curve& c : run.curves) {
+    over += fmt::format("{}{} over {}", over.empty() ? "" : ", ", hypothesis_id(robot, c.law),
+                        variable_name(c.over, robot));
+  }
+  return fmt::format("with curves for what is unexplained ({}): {:.4g} N m\n", over,
+                     overall(run.errors.with_curves, robot));
+}
+
 std::string structures_text(const DiagnosisRun& run) {
   if (run.structures.empty()) return "\nthe residual follows no signal that was tested\n";
   std::string text =
@@ -236,6 +247,13 @@ json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseO
                           {"law", s.law},
                           {"curve", {{"at", s.at}, {"value", s.value}}}});
   }
+  json curves = json::array();
+  for (const diagnosis::Curve& c : run.curves) {
+    curves.push_back({{"law", hypothesis_id(robot, c.law)},
+                      {"over", variable_name(c.over, robot)},
+                      {"at", numbers(c.at)},
+                      {"number", numbers(c.number)}});
+  }
   json wrong_signs = json::array();
   for (const auto& [id, z] : run.loop.wrong_signs) {
     wrong_signs.push_back({{"hypothesis", id}, {"value_over_its_error", z}});
@@ -258,6 +276,7 @@ json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseO
           {"descriptions", descriptions},
           {"placebo_gain", run.loop.placebo},
           {"unexplained", structures},
+          {"curves", curves},
           {"hidden", run.loop.hidden},
           {"wrong_signs", wrong_signs},
           {"first_ranking", ranking_json(run.loop.first_ranking)},
@@ -271,6 +290,7 @@ json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseO
             {"rms_zero", numbers(e.zero)},
             {"rms_before", numbers(e.given)},
             {"rms_after", numbers(e.found)},
+            {"rms_with_curves", numbers(e.with_curves)},
             {"noise_floor", numbers(e.noise_floor)},
             {"unfiltered_zero", numbers(e.unfiltered_zero)},
             {"unfiltered_before", numbers(e.unfiltered_given)},
@@ -301,7 +321,7 @@ std::string diagnosis_text(const DiagnosisRun& run, const Robot& robot) {
         "else\n",
         id, -z);
   }
-  text += errors_text(run, robot) + structures_text(run);
+  text += errors_text(run, robot) + structures_text(run) + curves_text(run, robot);
   if (!run.loop.hidden.empty()) {
     text += "\nnot to be told from inertias and what was found, in this data:\n ";
     for (const std::string& id : run.loop.hidden) text += " " + id;

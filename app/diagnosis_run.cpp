@@ -225,8 +225,17 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
     earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);
   }
 
-  DiagnosisRun run{settings_for(robot, options, log), {}, {}, {},         {},
-                   std::move(test.recording),         {}, {}, log.motion, robot.robot.notes};
+  DiagnosisRun run{settings_for(robot, options, log),
+                   {},
+                   {},
+                   {},
+                   {},
+                   {},
+                   std::move(test.recording),
+                   {},
+                   {},
+                   log.motion,
+                   robot.robot.notes};
   diagnosis::check_clocks(robot.robot, log.recording, run.settings);
   const std::optional<RecordedLog> rough = less_smooth(robot, options, log, fitted_part);
   if (rough) {
@@ -256,6 +265,15 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
       robot.robot, log.recording,
       diagnosis::series(robot.robot, run.settings.contacts, run.consistent.model, log.recording,
                         run.settings.stride));
+  diagnosis::RichModel richest = run.consistent.model;
+  richest.curves = run.curves =
+      diagnosis::curves_for(robot.robot, run.settings.contacts, run.consistent.model, run.loop,
+                            log.recording, run.settings.stride);
+  if (!run.curves.empty()) {
+    run.errors.with_curves = diagnosis::series(robot.robot, run.settings.contacts, richest,
+                                               run.test, run.settings.stride)
+                                 .rms();
+  }
   const auto unnamed_effects = unnamed(robot.robot, log.recording, run);
   for (const diagnosis::Stranger& s : run.loop.strangers) {
     run.structures.push_back(diagnosis::lawless(robot.robot, run.settings.contacts,

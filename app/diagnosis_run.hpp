@@ -6,6 +6,7 @@
 
 #include "shapeid/app/inputs.hpp"
 #include "shapeid/diagnosis/consistent.hpp"
+#include "shapeid/diagnosis/curve_fit.hpp"
 #include "shapeid/diagnosis/unexplained.hpp"
 
 namespace shapeid::app {
@@ -21,6 +22,8 @@ struct DiagnoseOptions {
   bool whole_body = false;
   bool trust = false;          ///< the given inertias are right: no link is sought
   double expected_mass = 0.0;  ///< kg; 0: as given
+  /// Write the richer model with curves for what it leaves unexplained.
+  bool curves = false;
   diagnosis::SelectionRule rule;
 };
 
@@ -29,6 +32,7 @@ struct TestErrors {
   std::string where;
   std::size_t samples = 0;
   Eigen::VectorXd zero, given, found;
+  Eigen::VectorXd with_curves;  ///< found, and DiagnosisRun::curves; empty if there are none
   Eigen::VectorXd at_rest;  ///< share of the samples in which a row does not count
   /// The same against the torque as logged, without any filter, joints only.
   Eigen::VectorXd unfiltered_zero, unfiltered_given, unfiltered_found;
@@ -43,6 +47,7 @@ struct DiagnosisRun {
   diagnosis::Consistent consistent;
   TestErrors errors;
   std::vector<diagnosis::Structure> structures;
+  std::vector<diagnosis::Curve> curves;  ///< of structures that a model can predict with
   diagnosis::Recording test;
   diagnosis::Series before, after;  ///< on the test motion
   MotionReport motion;

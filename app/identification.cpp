@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "shapeid/app/certificate_text.hpp"
@@ -54,13 +55,17 @@ Comparison compare(const RobotInputs& robot, const MotionInputs& inputs, const R
           same_log ? "every fifth two seconds of the log" : options.test_log};
 }
 
+diagnosis::RichModel known_model(const Robot& robot, const std::string& effects_file) {
+  diagnosis::KnownEffects known = diagnosis::read_effects_yaml(effects_file, robot);
+  return {stacked_parameters(robot), std::move(known.effects), std::move(known.curves)};
+}
+
 /// Rigid links and known effects over a log in memory: effects look at neighbouring samples.
 class EffectsRun {
  public:
   EffectsRun(const RobotInputs& robot, const MotionInputs& inputs, const RunOptions& options)
       : robot_(&robot.robot),
-        model_{stacked_parameters(robot.robot),
-               diagnosis::read_effects_yaml(options.effects, robot.robot)},
+        model_(known_model(robot.robot, options.effects)),
         log_(read_recording(inputs.log, robot, inputs,
                             options.test_log.empty() ? std::optional(Part::fitted) : std::nullopt)),
         viewer_(robot.robot, log_.contacts, model_.effects),
@@ -95,7 +100,7 @@ class EffectsRun {
       return diagnosis::series(*robot_, test.contacts, model, test.recording, 1).rms();
     };
     return {test.recording.usable(1).size(), rms({Eigen::VectorXd::Zero(found.size()), {}}),
-            rms({model_.Phi, {}}), rms({found, model_.effects}),
+            rms({model_.Phi, {}}), rms({found, model_.effects, model_.curves}),
             same_log ? "every fifth two seconds of the log" : options.test_log};
   }
 

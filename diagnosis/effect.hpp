@@ -121,6 +121,14 @@ struct Effect {
   TorqueCode code;
 };
 
+/// An effect at a place with its numbers.
+struct AppliedEffect {
+  const Effect* effect = nullptr;
+  int site = 0;
+  Eigen::VectorXd shape;  ///< one for each of Effect::shape
+  Eigen::VectorXd value;  ///< one for each of Effect::parameters
+};
+
 /// Names of places: a joint, a link, a contact, "base.accel" or "all".
 [[nodiscard]] std::string site_name(const Robot& robot, SiteKind kind, int site);
 /// How many sites of a kind the robot has.

@@ -1,8 +1,10 @@
 #include "shapeid/diagnosis/effects_yaml.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "shapeid/diagnosis/effects.hpp"
@@ -27,8 +29,8 @@ std::optional<int> find_site(const Robot& robot, const Effect& effect, const std
   return std::nullopt;
 }
 
-AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Robot& robot) {
-  file.check_keys(node, "an effect", {"effect", "site", "values"}, {});
+/// An effect at a place, its numbers at their start.
+AppliedEffect read_place(const YamlInput& file, const YAML::Node& node, const Robot& robot) {
   const std::string id = file.text(node["effect"], "effect");
   const Effect* effect = find_effect(id);
   if (effect == nullptr) {
@@ -40,8 +42,13 @@ AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Ro
     file.refuse(node["site"], fmt::format("{} has no place {} on this robot", id, place),
                 "name a joint or link of the URDF, a contact, base.accel or all");
   }
-  AppliedEffect applied = at_start(*effect, *site);
-  const std::vector<std::string> names = number_names(*effect);
+  return at_start(*effect, *site);
+}
+
+AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Robot& robot) {
+  file.check_keys(node, "an effect", {"effect", "site", "values"}, {});
+  AppliedEffect applied = read_place(file, node, robot);
+  const std::vector<std::string> names = number_names(*applied.effect);
   file.check_keys(node["values"], "values", names, {});
   for (std::size_t i = 0; i < names.size(); ++i) {
     const double value = file.number(node["values"][names[i]], names[i]);
@@ -52,11 +59,72 @@ AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Ro
   return applied;
 }
 
+Eigen::VectorXd read_numbers(const YamlInput& file, const YAML::Node& node,
+                             const std::string& what) {
+  return file.numbers(node, what, node.IsSequence() ? static_cast<Eigen::Index>(node.size()) : 2);
+}
+
+Curve read_curve(const YamlInput& file, const YAML::Node& node, const Robot& robot) {
+  file.check_keys(node, "a curve", {"effect", "site", "over", "at", "number"}, {"shape"});
+  Curve curve;
+  curve.law = read_place(file, node, robot);
+  const Effect& law = *curve.law.effect;
+  if (!can_follow(law)) {
+    file.refuse(node["effect"], law.id + " cannot follow a signal",
+                "give a law of one column at a joint, such as torque_offset");
+  }
+  std::vector<std::string> names;
+  for (const ShapeNumber& s : law.shape) names.push_back(s.name);
+  if (!names.empty() && !node["shape"]) {
+    file.refuse(node, law.id + " has no shape here",
+                fmt::format("give {}", fmt::join(names, ", ")));
+  }
+  if (node["shape"]) file.check_keys(node["shape"], "shape", names, {});
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    curve.law.shape[static_cast<Eigen::Index>(i)] = file.number(node["shape"][names[i]], names[i]);
+  }
+  const std::string name = file.text(node["over"], "over");
+  const std::optional<CurveVariable> over = find_variable(name, robot);
+  if (!over) {
+    file.refuse(node["over"], "there is no signal " + name,
+                "give q., dq., ddq. or tau. and a joint of the URDF");
+  }
+  curve.over = *over;
+  curve.at = read_numbers(file, node["at"], "at");
+  curve.number = read_numbers(file, node["number"], "number");
+  const bool increase = std::adjacent_find(curve.at.begin(), curve.at.end(),
+                                           std::greater_equal<>()) == curve.at.end();
+  if (curve.at.size() < 2 || !increase) {
+    file.refuse(node["at"], "the knots do not increase",
+                "give two or more numbers, each larger than the one before");
+  }
+  if (curve.number.size() != curve.at.size()) {
+    file.refuse(node["number"],
+                fmt::format("{} numbers for {} knots", curve.number.size(), curve.at.size()),
+                "give one a knot");
+  }
+  return curve;
+}
+
+std::string curve_text(const Robot& robot, const Curve& curve) {
+  const Effect& law = *curve.law.effect;
+  std::string shape;
+  for (std::size_t i = 0; i < law.shape.size(); ++i) {
+    shape += fmt::format("{}{}: {}", i == 0 ? "" : ", ", law.shape[i].name,
+                         curve.law.shape[static_cast<Eigen::Index>(i)]);
+  }
+  if (!shape.empty()) shape = fmt::format("    shape: {{{}}}\n", shape);
+  return fmt::format(
+      "  - effect: {}\n    site: {}\n{}    over: {}\n    at: [{}]\n    number: [{}]\n", law.id,
+      site_name(robot, law.site, curve.law.site), shape, variable_name(curve.over, robot),
+      fmt::join(curve.at, ", "), fmt::join(curve.number, ", "));
+}
+
 }  // namespace
 
-std::string write_effects_yaml(const Robot& robot, const std::vector<AppliedEffect>& effects) {
-  std::string text = effects.empty() ? "effects: []\n" : "effects:\n";
-  for (const AppliedEffect& a : effects) {
+std::string write_effects_yaml(const Robot& robot, const KnownEffects& known) {
+  std::string text = known.effects.empty() ? "effects: []\n" : "effects:\n";
+  for (const AppliedEffect& a : known.effects) {
     text += fmt::format("  - effect: {}\n    site: {}\n    values: {{", a.effect->id,
                         site_name(robot, a.effect->site, a.site));
     const std::vector<std::string> names = number_names(*a.effect);
@@ -67,17 +135,23 @@ std::string write_effects_yaml(const Robot& robot, const std::vector<AppliedEffe
     }
     text += "}\n";
   }
+  if (!known.curves.empty()) text += "curves:\n";
+  for (const Curve& curve : known.curves) text += curve_text(robot, curve);
   return text;
 }
 
-std::vector<AppliedEffect> read_effects_yaml(const std::string& path, const Robot& robot) {
+KnownEffects read_effects_yaml(const std::string& path, const Robot& robot) {
   const YamlInput file(path);
-  file.check_keys(file.root(), "the file", {"effects"}, {});
+  file.check_keys(file.root(), "the file", {"effects"}, {"curves"});
   const YAML::Node list = file.root()["effects"];
   if (!list.IsSequence()) file.refuse(list, "effects is no list", "give a list of effects");
-  std::vector<AppliedEffect> effects;
-  for (const YAML::Node& node : list) effects.push_back(read_entry(file, node, robot));
-  return effects;
+  KnownEffects known;
+  for (const YAML::Node& node : list) known.effects.push_back(read_entry(file, node, robot));
+  const YAML::Node curves = file.root()["curves"];
+  if (!curves) return known;
+  if (!curves.IsSequence()) file.refuse(curves, "curves is no list", "give a list of curves");
+  for (const YAML::Node& node : curves) known.curves.push_back(read_curve(file, node, robot));
+  return known;
 }
 
 }  // namespace shapeid::diagnosis

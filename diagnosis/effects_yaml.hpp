@@ -1,4 +1,4 @@
-// effects.yaml: effects with their numbers, written by diagnose and read by identify
+// effects.yaml: effects with their numbers, and curves, written by diagnose and read by identify
 // (docs/formats/effects-yaml.md).
 #pragma once
 
@@ -9,12 +9,16 @@
 
 namespace shapeid::diagnosis {
 
-[[nodiscard]] std::string write_effects_yaml(const Robot& robot,
-                                             const std::vector<AppliedEffect>& effects);
+/// What is known of a robot besides rigid links.
+struct KnownEffects {
+  std::vector<AppliedEffect> effects;
+  std::vector<Curve> curves;
+};
 
-/// Throws InputError for effects, places or parameters that do not exist, and for numbers that are
-/// missing.
-[[nodiscard]] std::vector<AppliedEffect> read_effects_yaml(const std::string& path,
-                                                           const Robot& robot);
+[[nodiscard]] std::string write_effects_yaml(const Robot& robot, const KnownEffects& known);
+
+/// Throws InputError for effects, places, parameters or signals that do not exist, for numbers that
+/// are missing, and for curves whose knots do not increase.
+[[nodiscard]] KnownEffects read_effects_yaml(const std::string& path, const Robot& robot);
 
 }  // namespace shapeid::diagnosis

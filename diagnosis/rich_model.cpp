@@ -135,6 +135,7 @@ Prediction predict(const Viewer& viewer, const View& view, const RichModel& mode
       rows.E += a.effect->columns(instant, a.site, a.shape) * a.value;
     }
   }
+  for (const Curve& curve : model.curves) rows.E += force_of(curve, instant);
   viewer.transform(view, rows);
   return {rows.E, std::move(rows.J), load};
 }
@@ -158,16 +159,21 @@ reference::SampleRows mass_rows(const Viewer& viewer, const View& view, const Ri
       rows.E.rightCols<1>() += a.effect->columns(instant, a.site, a.shape) * a.value;
     }
   }
+  for (const Curve& curve : model.curves) rows.E.rightCols<1>() += force_of(curve, instant);
   viewer.transform(view, rows);
   return {rows.E.leftCols(sought), logged_force(viewer, view) - rows.E.rightCols<1>(), rows.J};
 }
 
+Eigen::MatrixXd beyond_contacts(const Viewer& viewer, const Eigen::MatrixXd& J,
+                                const Eigen::MatrixXd& force) {
+  const Eigen::MatrixXd Q2 =
+      reference::contact_free_basis(J, Eigen::VectorXd::Ones(viewer.robot().dof())).Q2;
+  return Q2 * (Q2.transpose() * force);
+}
+
 Eigen::VectorXd residual(const Viewer& viewer, const View& view, const RichModel& model) {
   const Prediction predicted = predict(viewer, view, model);
-  const Eigen::VectorXd r = predicted.force - logged_force(viewer, view);
-  const Eigen::MatrixXd Q2 =
-      reference::contact_free_basis(predicted.J, Eigen::VectorXd::Ones(viewer.robot().dof())).Q2;
-  return Q2 * (Q2.transpose() * r);
+  return beyond_contacts(viewer, predicted.J, predicted.force - logged_force(viewer, view));
 }
 
 }  // namespace shapeid::diagnosis

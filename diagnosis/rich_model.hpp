@@ -6,19 +6,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "shapeid/diagnosis/curve.hpp"
 #include "shapeid/diagnosis/effect.hpp"
 #include "shapeid/diagnosis/recording.hpp"
 #include "shapeid/reference/sample_rows.hpp"
 
 namespace shapeid::diagnosis {
-
-/// An effect at a place with its numbers.
-struct AppliedEffect {
-  const Effect* effect = nullptr;
-  int site = 0;
-  Eigen::VectorXd shape;  ///< one for each of Effect::shape
-  Eigen::VectorXd value;  ///< one for each of Effect::parameters
-};
 
 /// The start of the search: shape numbers at their start, values zero.
 [[nodiscard]] AppliedEffect at_start(const Effect& effect, int site);
@@ -26,6 +19,7 @@ struct AppliedEffect {
 struct RichModel {
   Eigen::VectorXd Phi;  ///< 10 links of the robot
   std::vector<AppliedEffect> effects;
+  std::vector<Curve> curves = {};  ///< added to what the others predict
 };
 
 /// What the load is predicted from, a little earlier or later than a view.
@@ -111,8 +105,12 @@ struct Prediction {
 /// is one, dof.
 [[nodiscard]] Eigen::VectorXd logged_force(const Viewer& viewer, const View& view);
 
-/// Predicted minus logged, after the part that contact forces can explain is taken out
-/// (P = I - J^T (J^T)^+), dof: the yardstick.
+/// The columns of `force` (dof) after the part that contact forces can explain is taken out:
+/// P = I - J^T (J^T)^+.
+[[nodiscard]] Eigen::MatrixXd beyond_contacts(const Viewer& viewer, const Eigen::MatrixXd& J,
+                                              const Eigen::MatrixXd& force);
+
+/// Predicted minus logged, beyond what contact forces can explain, dof: the yardstick.
 [[nodiscard]] Eigen::VectorXd residual(const Viewer& viewer, const View& view,
                                        const RichModel& model);
 

@@ -1,6 +1,7 @@
 #include "shapeid/diagnosis/torque_header.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "shapeid/diagnosis/hypotheses.hpp"
 
@@ -105,6 +106,19 @@ struct Links {
 };
 )";
 
+constexpr const char* interpolation = R"(
+/// In straight lines from knot to knot, constant beyond the first and the last.
+inline double curve(const double* knots, const double* numbers, int count, double x) {
+  if (x <= knots[0]) return numbers[0];
+  for (int i = 1; i < count; ++i) {
+    if (x >= knots[i]) continue;
+    const double share = (x - knots[i - 1]) / (knots[i] - knots[i - 1]);
+    return (1 - share) * numbers[i - 1] + share * numbers[i];
+  }
+  return numbers[count - 1];
+}
+)";
+
 std::string vector_text(const Eigen::Vector3d& v) {
   return fmt::format("{{{}, {}, {}}}", v.x(), v.y(), v.z());
 }
@@ -122,19 +136,49 @@ std::string link_text(const Link& link, const InertialParameters& inertia) {
                      vector_text(inertia.first_moment()), matrix_text(inertia.tensor()), link.name);
 }
 
+std::string declared(const std::string& name, double value) {
+  return fmt::format(" const double {} = {};", name, value);
+}
+
+std::string declared_place(const AppliedEffect& a) {
+  std::string text = fmt::format("const int j = {};", a.site);
+  for (std::size_t i = 0; i < a.effect->shape.size(); ++i) {
+    text += declared(a.effect->shape[i].name, a.shape[static_cast<Eigen::Index>(i)]);
+  }
+  return text;
+}
+
 /// One effect's statements with its numbers in scope.
 std::string scoped(const AppliedEffect& a, const std::string& statements) {
-  std::string numbers = fmt::format("const int j = {};", a.site);
-  const auto declare = [&](const std::string& name, double value) {
-    numbers += fmt::format(" const double {} = {};", name, value);
-  };
-  for (std::size_t i = 0; i < a.effect->shape.size(); ++i) {
-    declare(a.effect->shape[i].name, a.shape[static_cast<Eigen::Index>(i)]);
-  }
+  std::string numbers = declared_place(a);
   for (std::size_t i = 0; i < a.effect->parameters.size(); ++i) {
-    declare(a.effect->parameters[i].name, a.value[static_cast<Eigen::Index>(i)]);
+    numbers += declared(a.effect->parameters[i].name, a.value[static_cast<Eigen::Index>(i)]);
   }
   return fmt::format("  {{  // {}\n    {}\n    {}\n  }}\n", a.effect->id, numbers, statements);
+}
+
+std::string curve_code(const Curve& curve) {
+  const auto array_of = [](CurveSignal signal) {
+    switch (signal) {
+      case CurveSignal::position:
+        return "q";
+      case CurveSignal::speed:
+        return "dq";
+      case CurveSignal::acceleration:
+        return "ddq";
+      case CurveSignal::load:
+        break;
+    }
+    return "load";
+  };
+  const Effect& law = *curve.law.effect;
+  return fmt::format(
+      "  {{  // as {}, unexplained\n    const double knots[] = {{{}}};\n"
+      "    const double numbers[] = {{{}}};\n    {}\n"
+      "    const double {} = curve(knots, numbers, {}, {}[{}]);\n    {}\n  }}\n",
+      law.id, fmt::join(curve.at, ", "), fmt::join(curve.number, ", "), declared_place(curve.law),
+      law.parameters[0].name, curve.at.size(), array_of(curve.over.signal), curve.over.joint,
+      law.code.torque);
 }
 
 }  // namespace
@@ -158,6 +202,7 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
       left_out += fmt::format("//   {}\n", hypothesis_id(robot, a));
     }
   }
+  for (const Curve& curve : model.curves) torque += curve_code(curve);
   for (int i = 0; i < robot.link_count(); ++i) {
     inertias += link_text(viewer.robot().links[static_cast<std::size_t>(i)],
                           {Phi.segment<10>(Eigen::Index{10} * i)});
@@ -176,6 +221,7 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
                       robot.link_count());
   text += "const Link links[link_count] = {\n" + inertias + "};\n";
   text += dynamics;
+  if (!model.curves.empty()) text += interpolation;
   text +=
       "\n/// q, dq, ddq, tau: joint_count numbers each (rad, N m). base: gyro, its derivative, "
       "specific\n/// force, in base axes; null: fixed and upright.\n"

@@ -13,11 +13,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const Robot robot = fuzz::hopper();
   const fuzz::MemoryFile file(data, size);
   fuzz::taken([&] {
-    const auto effects = diagnosis::read_effects_yaml(file.path(), robot);
-    for (const auto& effect : effects) {
+    const diagnosis::KnownEffects known = diagnosis::read_effects_yaml(file.path(), robot);
+    for (const auto& effect : known.effects) {
       fuzz::check(effect.shape.allFinite() && effect.value.allFinite(), "values are finite");
     }
-    const std::string text = diagnosis::write_effects_yaml(robot, effects);
+    for (const diagnosis::Curve& curve : known.curves) {
+      fuzz::check(curve.at.allFinite() && curve.number.allFinite(), "knots are finite");
+      fuzz::check(curve.at.size() == curve.number.size(), "a number a knot");
+    }
+    const std::string text = diagnosis::write_effects_yaml(robot, known);
     const fuzz::MemoryFile written(text);
     const auto again = diagnosis::read_effects_yaml(written.path(), robot);
     fuzz::check(diagnosis::write_effects_yaml(robot, again) == text, "effects read back the same");

@@ -25,7 +25,18 @@ TEST(TorqueHeader, PredictsWhatTheModelPredicts) {
       test::effect("rotor_reaction", 2, {0.01}),   test::effect("joint_spring", 0, {0.5, 0.1}),
       test::effect("cogging", 1, {0.1, -0.2}),     test::effect("link_length", 2, {0.01}),
       test::effect("encoder_offset", 1, {0.02}),   test::effect("torque_gain", 1, {0.1})};
-  const RichModel model{stacked_parameters(robot), effects};
+  const auto follows = [](const std::string& law, int site, CurveSignal signal, int joint) {
+    return Curve{test::effect(law, site, {0.0}),
+                 {signal, joint},
+                 Eigen::Vector3d(-2.0, 0.3, 2.5),
+                 Eigen::Vector3d(0.2, -0.1, 0.7)};
+  };
+  const RichModel model{stacked_parameters(robot),
+                        effects,
+                        {follows("torque_offset", 0, CurveSignal::position, 2),
+                         follows("viscous_friction", 1, CurveSignal::acceleration, 0),
+                         follows("coulomb_friction", 2, CurveSignal::speed, 1),
+                         follows("rotor_inertia", 1, CurveSignal::load, 1)}};
   const Recording recording = test::record({});
   const Sample sample = recording[500];
   const Viewer viewer(robot, reference::ContactTreatment::ignore, effects);

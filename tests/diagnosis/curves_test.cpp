@@ -1,0 +1,167 @@
+// What has no name, as curves that a model predicts with: found, fitted, written and read.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapeid/diagnosis/curve_fit.hpp"
+#include "shapeid/diagnosis/effects_yaml.hpp"
+#include "shapeid/diagnosis/hypotheses.hpp"
+#include "shapeid/diagnosis/series.hpp"
+#include "shapeid/models/error.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
+#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+constexpr auto no_contacts = reference::ContactTreatment::ignore;
+constexpr std::size_t stride = 2;
+
+Curve curve(const std::string& law, int site, CurveVariable over, std::vector<double> at,
+            std::vector<double> number) {
+  Curve c;
+  c.law = test::effect(law, site, {0.0});
+  c.over = over;
+  c.at = Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at));
+  c.number = Eigen::Map<const Eigen::VectorXd>(number.data(), std::ssize(number));
+  return c;
+}
+
+TEST(Curves, AreStraightBetweenKnotsAndConstantBeyond) {
+  const Eigen::Vector3d at(-1.0, 0.5, 2.0), number(3.0, 0.0, -6.0);
+  const auto value = [&](double x) { return knot_shares(at, x).dot(number); };
+  EXPECT_EQ(value(-7.0), 3.0);
+  EXPECT_EQ(value(-1.0), 3.0);
+  EXPECT_EQ(value(-0.5), 2.0);
+  EXPECT_EQ(value(0.5), 0.0);
+  EXPECT_EQ(value(1.0), -2.0);
+  EXPECT_EQ(value(2.0), -6.0);
+  EXPECT_EQ(value(9.0), -6.0);
+  for (const double x : {-3.0, -0.2, 0.5, 1.7, 4.0}) {
+    EXPECT_EQ(knot_shares(at, x).sum(), 1.0);
+    EXPECT_GE(knot_shares(at, x).minCoeff(), 0.0);
+  }
+}
+
+/// Whether a curve predicts, or is known while masses are sought, its force is the same.
+TEST(Curves, CountInPredictionsAndInMassRows) {
+  const Robot robot = test::arm();
+  const Recording log = test::record({});
+  const RichModel plain{stacked_parameters(robot), {}};
+  RichModel curved = plain;
+  curved.curves = {
+      curve("torque_offset", 0, {CurveSignal::position, 2}, {-1.0, 1.0}, {0.3, -0.4}),
+      curve("viscous_friction", 1, {CurveSignal::load, 1}, {-9.0, 0.0, 9.0}, {0.1, 0.3, 0.2})};
+  const Viewer viewer(robot, no_contacts, {});
+  const View view = viewer.view(log, 500);
+  const Eigen::VectorXd rigid = predict(viewer, view, plain).load.joint;
+  const double offset = 0.3 - 0.35 * (std::clamp(view.sample.q[2], -1.0, 1.0) + 1.0);
+  const double load = std::clamp(rigid[1], -9.0, 9.0);
+  const double friction = load < 0.0 ? 0.3 + 0.2 * load / 9.0 : 0.3 - 0.1 * load / 9.0;
+  const Eigen::Vector3d wanted(offset, friction * view.sample.dq[1], 0.0);
+  const Eigen::VectorXd added =
+      predict(viewer, view, curved).force - predict(viewer, view, plain).force;
+  EXPECT_LT(test::scaled_difference(added, wanted, 20), test::few_hundred_eps);
+  const std::vector<int> links = {1, 2, 3};
+  const Eigen::VectorXd moved =
+      mass_rows(viewer, view, plain, links).F - mass_rows(viewer, view, curved, links).F;
+  EXPECT_LT(test::scaled_difference(moved, wanted, 20), test::few_hundred_eps);
+}
+
+/// A torque over the position of another joint: no entry of the catalogue.
+TEST(Curves, TakeUnexplainedTorqueAwayOnOtherMotion) {
+  const auto foreign = [](std::vector<Sample>& samples) {
+    for (Sample& s : samples) s.tau[0] += 0.4 * std::tanh(2.0 * s.q[1]);
+  };
+  const Robot robot = test::arm();
+  const Recording log = test::record({}, foreign);
+  const LoopResult loop = test::loop_of(log);
+  RichModel model = loop.model;
+  model.curves = curves_for(robot, no_contacts, model, loop, log, stride);
+  ASSERT_FALSE(model.curves.empty());
+  bool over_the_other = false;
+  for (const Curve& c : model.curves) {
+    over_the_other =
+        over_the_other || (c.law.site == 0 && c.over == CurveVariable{CurveSignal::position, 1});
+  }
+  EXPECT_TRUE(over_the_other);
+  const Recording other = test::record({{}, 20.0, 0.02, 5}, foreign);
+  const double without = series(robot, no_contacts, loop.model, other, stride).rms()[0];
+  const double with = series(robot, no_contacts, model, other, stride).rms()[0];
+  EXPECT_LT(with, 0.5 * without);
+}
+
+TEST(Curves, NothingIsDrawnWhereNothingIsMissing) {
+  const Recording log = test::record({{test::effect("viscous_friction", 1, {0.3})}});
+  const LoopResult loop = test::loop_of(log);
+  EXPECT_TRUE(curves_for(test::arm(), no_contacts, loop.model, loop, log, stride).empty());
+}
+
+/// A law whose number follows a signal keeps its law: friction that grows with position.
+TEST(Curves, FollowTheLawThatVaries) {
+  const Recording log = test::record({}, [](std::vector<Sample>& samples) {
+    for (Sample& s : samples) s.tau[1] += (0.5 + 0.45 * std::sin(s.q[1])) * s.dq[1];
+  });
+  const LoopResult loop = test::loop_of(log);
+  const std::vector<Curve> curves =
+      curves_for(test::arm(), no_contacts, loop.model, loop, log, stride);
+  ASSERT_FALSE(curves.empty());
+  EXPECT_EQ(curves.front().law.effect->id, "viscous_friction");
+  EXPECT_EQ(curves.front().over, (CurveVariable{CurveSignal::position, 1}));
+  EXPECT_GT(curves.front().number[curves.front().number.size() - 1], curves.front().number[0]);
+}
+
+TEST(CurvesYaml, IsReadBackTheSame) {
+  const Robot robot = test::arm();
+  KnownEffects known{{test::effect("torque_offset", 2, {0.25})}, {}};
+  known.curves = {
+      curve("torque_offset", 0, {CurveSignal::speed, 2}, {-1.5, 0.1, 1.0}, {0.3, -0.4, 1e-7}),
+      curve("coulomb_friction", 1, {CurveSignal::acceleration, 1}, {0.0, 2.0}, {0.1, 0.2})};
+  known.curves[1].law.shape[0] = 0.07;
+  const test::Scratch scratch;
+  const std::string text = write_effects_yaml(robot, known);
+  const KnownEffects again = read_effects_yaml(scratch.file("effects.yaml", text), robot);
+  EXPECT_EQ(write_effects_yaml(robot, again), text);
+  ASSERT_EQ(again.curves.size(), 2U);
+  EXPECT_EQ(again.curves[0].number, known.curves[0].number);
+  EXPECT_EQ(again.curves[1].at, known.curves[1].at);
+  EXPECT_EQ(again.curves[1].law.shape[0], 0.07);
+  EXPECT_EQ(again.curves[1].over, (CurveVariable{CurveSignal::acceleration, 1}));
+}
+
+TEST(CurvesYaml, SaysWhatIsWrong) {
+  const auto refused = [](const std::string& entry) -> std::string {
+    const test::Scratch scratch;
+    try {
+      static_cast<void>(read_effects_yaml(
+          scratch.file("effects.yaml", "effects: []\ncurves:\n  - " + entry + "\n"), test::arm()));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  const auto expect = [&](const std::string& entry, const std::string& words) {
+    const std::string said = refused(entry);
+    EXPECT_NE(said.find("effects.yaml:3"), std::string::npos) << said;
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  };
+  const std::string place = "{effect: torque_offset, site: joint1, ";
+  EXPECT_EQ(refused(place + "over: q.joint2, at: [0, 1], number: [1, 2]}"), "taken");
+  expect(place + "over: q.joint9, at: [0, 1], number: [1, 2]}", "there is no signal q.joint9");
+  expect(place + "over: time, at: [0, 1], number: [1, 2]}", "there is no signal time");
+  expect(place + "over: q.joint2, at: [0, 0], number: [1, 2]}", "do not increase");
+  expect(place + "over: q.joint2, at: [0], number: [1]}", "do not increase");
+  expect(place + "over: q.joint2, at: [0, 1], number: [1, 2, 3]}", "3 numbers for 2 knots");
+  expect(place + "over: q.joint2, at: [0, .nan], number: [1, 2]}", "at");
+  expect(place + "over: q.joint2, at: 3, number: [1, 2]}", "at");
+  expect("{effect: encoder_offset, site: joint1, over: q.joint2, at: [0, 1], number: [1, 2]}",
+         "cannot follow a signal");
+  expect("{effect: coulomb_friction, site: joint1, over: q.joint2, at: [0, 1], number: [1, 2]}",
+         "shape");
+  expect(place + "shape: {width: 1}, over: q.joint2, at: [0, 1], number: [1, 2]}", "width");
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
