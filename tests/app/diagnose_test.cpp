@@ -77,7 +77,7 @@ TEST(Diagnose, FindsAKneesFrictionAndItsFilesAreOfUse) {
 /// A knee that is pulled by the hip of another leg has no name. As a curve it predicts, here and
 /// where `identify` takes it as known.
 TEST(Diagnose, WritesWhatHasNoNameAsCurves) {
-  ASSERT_EQ(shapeid("simulate --seconds 6 --out even.csv.gz").status, 0);
+  ASSERT_EQ(shapeid("simulate --seconds 10 --out even.csv.gz").status, 0);
   add_torque(scratch() + "/even.csv.gz", scratch() + "/pulled.csv.gz", "FR_knee", "q.RL_hip",
              [](double q) { return 3.0 * std::sin(5.0 * q); });
   const CommandRun run = shapeid(
