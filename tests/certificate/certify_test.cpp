@@ -234,10 +234,25 @@ Answer parameters_alone(const StatedProblem& p, const Eigen::VectorXd& m) {
 }
 
 TEST(Certify, ParametersAloneAreEnough) {
-  const StatedProblem p = test::load_problem();
-  const Certified c = certify(p, parameters_alone(p, reference::solve_masses(p.masses).m));
-  EXPECT_EQ(first_reason(c), "accepted");
-  EXPECT_TRUE(c.proof.optimum_known);
+  for (const double lambda : {1.0, 0.0}) {
+    StatedProblem p = test::load_problem();
+    p.masses.lambda *= lambda;
+    const Certified c = certify(p, parameters_alone(p, reference::solve_masses(p.masses).m));
+    EXPECT_EQ(first_reason(c), "accepted") << lambda;
+    EXPECT_TRUE(c.proof.optimum_known || lambda == 0.0);
+  }
+}
+
+/// The optimum weighs half a kilogram: a bound of as much allows it, any less does not.
+TEST(Certify, ABoundOnTheMassMayBeMet) {
+  StatedProblem p = test::one_point_problem();
+  constexpr double best = 0.5;
+  for (const double bound : {best, std::nextafter(best, 1.0), std::nextafter(best, 0.0)}) {
+    p.masses.mass_bound = bound;
+    const Certified c = certify(p, honest_answer(p, Eigen::VectorXd::Constant(1, best)));
+    EXPECT_EQ(c.proof.feasible, bound >= best);
+    EXPECT_EQ(c.proof.optimum_known, bound >= best);
+  }
 }
 
 TEST(Certify, ParametersThatAreNotMadeOfTheShapesAreSeparated) {

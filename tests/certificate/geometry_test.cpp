@@ -103,6 +103,38 @@ TEST(Geometry, EntriesAreMeasuredByTheirUnits) {
   }
 }
 
+/// Of a point all numbers are exact, and what is off by exactly as much as is allowed agrees.
+TEST(Geometry, AsMuchAsIsAllowedAgrees) {
+  const Shape point = make_point({3.0, 4.0, 0.0}, 0.5);
+  constexpr double allowed = 0x1p-20, distance = 5.0;
+  for (Eigen::Index i = 0; i < 10; ++i) {
+    const double measure = i == 0 ? 1.0 : (i < 4 ? distance : distance * distance);
+    StatedProblem p = of_shapes({point}, point);
+    p.masses.U(10 + i, 0) += allowed * measure;
+    EXPECT_EQ(check_geometry(p, exact(allowed)).agree, 1) << i;
+    EXPECT_EQ(check_geometry(p, exact(std::nextafter(allowed, 0.0))).agree, 0) << i;
+  }
+  StatedProblem p = of_shapes({point}, point);
+  p.masses.V[0] *= 1.0 + allowed;
+  EXPECT_EQ(check_geometry(p, exact(allowed)).agree, 1);
+  EXPECT_EQ(check_geometry(p, exact(std::nextafter(allowed, 0.0))).agree, 0);
+}
+
+/// A mesh that is not convex holds itself, and nothing else is shown of it.
+TEST(Geometry, AMeshHoldsItself) {
+  Polyhedron star = std::get<Polyhedron>(
+      make_convex_hull({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                       Eigen::Isometry3d::Identity()));
+  star.convex = false;
+  Polyhedron other = star;
+  std::swap(other.faces[0], other.faces[1]);
+  EXPECT_EQ(check_geometry(of_shapes({star}, star), rounding).inside, 1);
+  EXPECT_EQ(check_geometry(of_shapes({star}, other), rounding).inside, 0);
+  other = star;
+  for (Eigen::Vector3d& vertex : other.vertices) vertex *= 2.0;
+  EXPECT_EQ(check_geometry(of_shapes({star}, other), rounding).inside, 0);
+}
+
 /// All parts of a division lie where the whole lies; none of them in a neighbour.
 RC_GTEST_PROP(Geometry, PartsLieInTheirRegion, ()) {
   const Shape whole = *test::solid();

@@ -48,6 +48,17 @@ RC_GTEST_PROP(Modular, ProductsAndInversesOfLargePrimes, ()) {
   RC_ASSERT(field.dot(a.data(), b.data(), n) == field.of(sum));
 }
 
+// The largest products of the largest prime that fits: (-1)(-1) = 1 each time.
+TEST(Modular, SumsOfTheLargestProductsDoNotRunOver) {
+  Element p = next_prime((Element{1} << 62U) - 1000);
+  ASSERT_LT(p, Element{1} << 62U);
+  const PrimeField field(p);
+  const Elements most(100, p - 1);
+  for (std::size_t n = 0; n <= most.size(); ++n) {
+    EXPECT_EQ(field.dot(most.data(), most.data(), n), n);
+  }
+}
+
 Elements drawn_matrix(std::size_t rows, std::size_t columns, Element p) {
   Elements A(rows * columns);
   for (Element& entry : A) entry = *rc::gen::inRange<Element>(0, p);

@@ -106,6 +106,26 @@ TEST(Relaxations, MeetWithoutNoise) {
   EXPECT_LE(of.masses.upper, of.bodies.upper);
 }
 
+/// No link's mass goes below zero, whichever link the rows would take it from.
+TEST(Relaxations, NoLinkHasANegativeMass) {
+  constexpr Eigen::Index links = 3;
+  for (Eigen::Index link = 0; link < links; ++link) {
+    StatedProblem p;
+    p.masses.Y = Eigen::MatrixXd::Zero(links, 10 * links);
+    p.masses.U = Eigen::MatrixXd::Zero(10 * links, links);
+    for (Eigen::Index l = 0; l < links; ++l) p.masses.Y(l, 10 * l) = p.masses.U(10 * l, l) = 1.0;
+    p.masses.F = Eigen::VectorXd::Ones(links);
+    p.masses.F[link] = -2.0;
+    p.masses.W = p.masses.V = Eigen::VectorXd::Ones(links);
+    Guess guess{Eigen::VectorXd::Zero(10 * links), {}};
+    for (Eigen::Index l = 0; l < links; ++l) guess.parameters[10 * l] = l == link ? 0.0 : 1.0;
+    const Interval least = relaxations(p, {{}, {}, guess}, {}).masses;
+    EXPECT_EQ(least.lower, 4);
+    ASSERT_TRUE(least.upper);
+    EXPECT_EQ(*least.upper, 4);
+  }
+}
+
 /// A column that is the forces themselves explains as much of them as its bound lets it; the
 /// optimum over masses is of degree two in what is left.
 TEST(Relaxations, OtherColumnsKeepTheirBounds) {

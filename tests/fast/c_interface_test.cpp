@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <utility>
@@ -291,6 +293,25 @@ TEST(CInterface, SamplesOfAnotherRobotAreRefused) {
     EXPECT_EQ(shapeid_feed(disturbed.get(), &sample), shapeid_feed(clean.get(), &sample));
   }
   EXPECT_EQ(ten(shapeid_parameters(disturbed.get(), 0)), ten(shapeid_parameters(clean.get(), 0)));
+}
+
+// A body without joints has nothing to point at.
+TEST(CInterface, EmptyArraysMayBeNull) {
+  const std::string urdf = testing::TempDir() + "shapeid-body.urdf";
+  std::ofstream(urdf) << R"(<robot name="body"><link name="base"><inertial><mass value="2"/>
+<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
+<collision><geometry><box size="0.5 0.5 0.5"/></geometry></collision></link></robot>)";
+  shapeid_settings settings = defaults();
+  settings.expected_mass = 2.0;
+  std::array<char, 200> error{};
+  const Handle c(
+      shapeid_create(urdf.c_str(), nullptr, nullptr, &settings, error.data(), error.size()),
+      &shapeid_destroy);
+  std::filesystem::remove(urdf);
+  ASSERT_NE(c, nullptr) << error.data();
+  EXPECT_EQ(shapeid_joint_count(c.get()), 0U);
+  const shapeid_sample sample{};
+  EXPECT_EQ(shapeid_feed(c.get(), &sample), SHAPEID_KEPT);
 }
 
 /// What shapeid_create() says, asked for something that cannot be made.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "shapeid/fast/identifier.hpp"
@@ -137,21 +138,34 @@ RC_GTEST_PROP(FastIdentifier, DeclinedSamplesLeaveNoTrace, ()) {
 TEST(FastIdentifier, RefusesSettingsThatMakeNoSense) {
   const Robot robot = read_urdf(SHAPEID_SOURCE_DIR "/models/robots/quadruped.urdf").robot;
   const BodyModel model = test::base_model(robot);
-  const auto refused = [&](auto change) {
+  const auto refused = [&](const std::string& what, auto change) {
     fast::IdentifierSettings settings;
     settings.expected_mass = 1.0;
     change(settings);
-    EXPECT_THROW(Identifier(robot, model, settings), InputError);
+    try {
+      const Identifier made(robot, model, settings);
+      FAIL() << what;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind(what, 0), 0U) << error.what();
+    }
   };
-  refused([](auto& s) { s.window = 0; });
-  refused([](auto& s) { s.stride = 0; });
-  refused([](auto& s) { s.expected_mass = 0.0; });
-  refused([](auto& s) { s.alpha = 0.0; });
-  refused([](auto& s) { s.alpha = 1.5; });
-  refused([](auto& s) { s.lambda = -1.0; });
-  refused([](auto& s) { s.mass_bound = 0.0; });
-  refused([](auto& s) { s.weight = Eigen::VectorXd::Ones(1); });
-  refused([](auto& s) { s.division.k1 = -1.0; });
+  refused("a window or stride", [](auto& s) { s.window = 0; });
+  refused("a window or stride", [](auto& s) { s.stride = 0; });
+  refused("the expected mass is not positive", [](auto& s) { s.expected_mass = 0.0; });
+  refused("alpha", [](auto& s) { s.alpha = 0.0; });
+  refused("alpha", [](auto& s) { s.alpha = 1.5; });
+  refused("lambda is negative", [](auto& s) { s.lambda = -1.0; });
+  refused("the mass bound is not positive", [](auto& s) { s.mass_bound = 0.0; });
+  refused("the weight", [](auto& s) { s.weight = Eigen::VectorXd::Ones(1); });
+  refused("the weight", [](auto& s) { s.weight = Eigen::VectorXd::Zero(18); });
+  refused("", [](auto& s) { s.division.k1 = -1.0; });
+  // What is just allowed.
+  fast::IdentifierSettings settings;
+  settings.expected_mass = 1.0;
+  settings.window = settings.stride = 1;
+  settings.alpha = 1.0;
+  settings.lambda = 0.0;
+  EXPECT_NO_THROW(Identifier(robot, model, settings));
 }
 
 }  // namespace

@@ -35,6 +35,17 @@ TEST(HostileJson, AMillionBrackets) {
   }
 }
 
+TEST(HostileJson, SixtyFourLevelsAreTaken) {
+  constexpr std::size_t deepest = 64;
+  const auto nested = [](std::size_t depth) {
+    return refusal([&] {
+      static_cast<void>(parse_json(repeated("[", depth) + repeated("]", depth), {"a.json", ""}));
+    });
+  };
+  EXPECT_EQ(nested(deepest), "accepted");
+  EXPECT_TRUE(says(nested(deepest + 1), "a.json: nested deeper than 64"));
+}
+
 // A hundred thousand columns in each of a hundred thousand rows would be 80 GB, if it were
 // believed.
 TEST(HostileJson, SizesThatAreOnlyStated) {

@@ -191,6 +191,14 @@ TEST(InertiaLint, RoundingIsThatOfEachMoment) {
   }
 }
 
+// Blanks beside a number are no digits.
+TEST(InertiaLint, BlanksAreNoDigits) {
+  const std::string text =
+      "<link name=\"arm\"><inertial><mass value=\"1\"/><inertia ixx=\"0.0123  \" ixy=\"0\" "
+      "ixz=\"0\" iyy=\"0.0045\" iyz=\"0\" izz=\"0.0169\"/></inertial></link>";
+  EXPECT_TRUE(names(only(text), "rounded"));
+}
+
 // Axis-aligned, wherever and however the bodies are placed; powers of two, so exactly.
 TEST(CollisionExtent, HoldsAllBodies) {
   Eigen::Isometry3d pose(Eigen::Translation3d(8.0, 16.0, 32.0));

@@ -62,7 +62,7 @@ constexpr const char* original = R"(<?xml version="1.0"?>
         <mass value="9"/>
         <inertia ixx="9" ixy="0" ixz="0" iyy="9" iyz="0" izz="9"/>
       </inertial >
-    <visual><geometry><box size="1 1 1"/></geometry></visual>
+    <visual name="a/>" note='b/>'><geometry><box size="1 1 1"/></geometry></visual>
   </link>
   <link name="plate"><inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
   <link
@@ -87,7 +87,7 @@ constexpr const char* expected = R"(<?xml version="1.0"?>
         <mass value="4"/>
         <inertia ixx="0.5" ixy="0.125" ixz="0" iyy="0.75" iyz="0" izz="1"/>
       </inertial>
-    <visual><geometry><box size="1 1 1"/></geometry></visual>
+    <visual name="a/>" note='b/>'><geometry><box size="1 1 1"/></geometry></visual>
   </link>
   <link name="plate"><!-- its inertia is part of the link that it is fixed to --></link>
   <link
