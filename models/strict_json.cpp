@@ -31,7 +31,10 @@ class Strictness {
 
   bool operator()(int depth, json::parse_event_t event, const json& parsed) {
     constexpr int deepest = 64;
-    if (depth > deepest) {
+    // The outermost bracket opens at depth 0.
+    const bool opens =
+        event == json::parse_event_t::object_start || event == json::parse_event_t::array_start;
+    if (opens && depth >= deepest) {
       throw InputError({source_->name}, fmt::format("nested deeper than {}", deepest),
                        "see " + source_->manual);
     }
