@@ -60,18 +60,9 @@ std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichMod
     if (found != model.effects.end()) {
       h = *found;
     } else if (h.effect->id == "cogging") {
-      const Eigen::Index row = robot.base_dof() + h.site;
-      std::vector<double> q, r;
-      for (Eigen::Index i = 0; i < left.residual.cols(); ++i) {
-        if (!left.counted(row, i)) continue;
-        q.push_back(log[left.index[static_cast<std::size_t>(i)]].q[h.site]);
-        r.push_back(left.residual(row, i));
-      }
-      if (q.empty()) continue;
       const ShapeNumber& N = h.effect->shape.front();
       h.shape[0] =
-          strongest_ripple(Eigen::Map<Eigen::VectorXd>(q.data(), std::ssize(q)),
-                           Eigen::Map<Eigen::VectorXd>(r.data(), std::ssize(r)), N.lower, N.upper);
+          strongest_ripple(robot, log, left, h.site, h.site, RippleOf::torque, N.lower, N.upper);
     }
   }
   for (const AppliedEffect& a : model.effects) {

@@ -49,6 +49,30 @@ std::optional<int> joint_of(const Robot& robot, const AppliedEffect& effect) {
   return link > 0 ? std::optional(link - 1) : std::nullopt;
 }
 
+std::vector<bool> reach_of(const Robot& robot, const AppliedEffect& effect) {
+  const std::optional<int> joint = joint_of(robot, effect);
+  std::vector<bool> reach(static_cast<std::size_t>(robot.joint_count()), !joint);
+  if (!joint) return reach;
+  const Transformation& transform = effect.effect->transform;
+  const bool moves_links = transform.robot != nullptr || transform.sample != nullptr;
+  if (effect.effect->site == SiteKind::joint && !moves_links) {
+    reach[static_cast<std::size_t>(*joint)] = true;
+    return reach;
+  }
+  const auto mark_path = [&](int link) {
+    for (; link > 0; link = robot.links[static_cast<std::size_t>(link)].parent) {
+      reach[static_cast<std::size_t>(link) - 1] = true;
+    }
+  };
+  mark_path(*joint + 1);
+  for (int link = *joint + 2; moves_links && link < robot.link_count(); ++link) {
+    int before = link;
+    while (before > *joint + 1) before = robot.links[static_cast<std::size_t>(before)].parent;
+    if (before == *joint + 1) mark_path(link);
+  }
+  return reach;
+}
+
 std::vector<Modulation> modulations(const Robot& robot, const std::vector<AppliedEffect>& effects) {
   std::vector<Modulation> list;
   for (std::size_t k = 0; k < effects.size(); ++k) {

@@ -29,6 +29,11 @@ struct Variation {
 /// or contact. None for effects of the base, its accelerometer or the whole robot.
 [[nodiscard]] std::optional<int> joint_of(const Robot& robot, const AppliedEffect& effect);
 
+/// The joints whose torque an effect changes: its own; of links, lengths and encoders those between
+/// the base and the link, and those behind a joint that is not where it seems; all, for an effect
+/// of the whole robot or its base.
+[[nodiscard]] std::vector<bool> reach_of(const Robot& robot, const AppliedEffect& effect);
+
 /// What the number of an effect at a joint must not follow: position, speed and direction of the
 /// joint, its predicted load and the load's side, the way since it turned round.
 inline constexpr std::array joint_signals = {Signal::position, Signal::speed, Signal::direction,

@@ -1,18 +1,15 @@
 #include "shapeid/diagnosis/loop.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/filter_error.hpp"
-#include "shapeid/diagnosis/placebo.hpp"
+#include "shapeid/diagnosis/loop_state.hpp"
+#include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/prior.hpp"
 #include "shapeid/diagnosis/refine.hpp"
-#include "shapeid/diagnosis/series.hpp"
-#include "shapeid/models/error.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -28,29 +25,11 @@ class Loop {
  public:
   Loop(const Robot& robot, const Recording& log, const Recording* reference,
        const LoopSettings& settings)
-      : robot_(robot), log_(log), reference_(reference), settings_(settings) {
-    centre_ = stacked_parameters(robot);
-    result_.model.Phi = centre_;
-    result_.weight = settings.weight.size() > 0
-                         ? settings.weight
-                         : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
-    tally_options_.stride = settings.stride;
-    tally_options_.margin = settings.margin;
-    tally_options_.block_seconds = settings.block_seconds;
-    if (tally_options_.block_seconds <= 0.0) {
-      constexpr double wanted_blocks = 40.0, shortest = 0.5;
-      tally_options_.block_seconds = std::max(shortest, log.duration() / wanted_blocks);
-    }
-    masses_.id = "masses";
-    for (const int link : settings.shapes.free_links) {
-      for (Eigen::Index p = 0; p < 10; ++p) masses_.columns.push_back(10 * link + p);
-    }
-    masses_.nonnegative.assign(masses_.columns.size(), false);
-  }
+      : state_(robot, log, reference, settings) {}
 
   LoopResult run() {
     fit_masses();
-    for (round_ = 0; round_ < settings_.rounds; ++round_) {
+    for (round_ = 0; round_ < state_.settings.rounds; ++round_) {
       const std::vector<std::string> before = ids();
       correct();
       reweigh();
@@ -64,7 +43,7 @@ class Loop {
       if (round_ > 0 && ids() == before) break;
     }
     try_large_transformation();
-    question_names();
+    question_names(state_);
     return std::move(result_);
   }
 
@@ -76,60 +55,25 @@ class Loop {
     return list;
   }
 
-  [[nodiscard]] BlockFits tallied(const std::vector<AppliedEffect>& hypotheses,
-                                  const std::vector<Modulation>& modulations = {}) {
-    Tally tally = empty_tally(robot_, hypotheses, modulations);
-    tally_options_.weight = result_.weight;
-    if (reference_ != nullptr) {
-      RichModel earlier = result_.model;
-      std::erase_if(earlier.effects, [&](const AppliedEffect& a) { return came_since(a); });
-      add_to_tally(tally, robot_, settings_.contacts, earlier, *reference_, tally_options_, true);
-    }
-    add_to_tally(tally, robot_, settings_.contacts, result_.model, log_, tally_options_, false);
-    constexpr std::size_t fewest_blocks = 8;
-    if (tally.blocks.size() < fewest_blocks) {
-      throw Refusal("too-short",
-                    fmt::format("the log gives {} blocks of {:.2g} s to hold out, at least {} are "
-                                "needed",
-                                tally.blocks.size(), tally_options_.block_seconds, fewest_blocks));
-    }
-    BlockFits fits(std::move(tally), centre_, settings_.size, settings_.folds);
-    fits.set_prior(result_.prior);
-    return fits;
-  }
-
-  [[nodiscard]] bool came_since(const AppliedEffect& a) const {
-    return std::any_of(result_.found.begin(), result_.found.end(), [&](const Found& f) {
-      return f.since_reference && same_place(f.effect, a);
-    });
-  }
-
-  void set_masses(const Fit& fit) {
-    result_.model.Phi = centre_;
-    for (std::size_t i = 0; i < masses_.columns.size(); ++i) {
-      result_.model.Phi[masses_.columns[i]] += fit.value[static_cast<Eigen::Index>(i)];
-    }
-  }
-
   void fit_masses() {
-    BlockFits fits = tallied({});
-    result_.prior = choose_prior(fits, {masses_});
-    set_masses(fits.fit({masses_}));
+    BlockFits fits = state_.tallied({});
+    result_.prior = choose_prior(fits, {state_.masses});
+    state_.set_masses(fits.fit({state_.masses}));
+    state_.rigid = result_.model;
   }
 
   /// What the filter makes of products, by the present model.
   void correct() {
-    if (settings_.rough == nullptr) return;
-    const Viewer viewer(robot_, settings_.contacts, result_.model.effects);
-    result_.correction =
-        filter_error(viewer, result_.model, log_, *settings_.rough, settings_.cutoff);
-    log_.set_correction(result_.correction);
+    if (state_.settings.rough == nullptr) return;
+    const Viewer viewer(state_.robot, state_.settings.contacts, result_.model.effects);
+    result_.correction = filter_error(viewer, result_.model, state_.log, *state_.settings.rough,
+                                      state_.settings.cutoff);
+    state_.log.set_correction(result_.correction);
   }
 
   /// W = 1 / variance of what the present model leaves, row by row.
   void reweigh() {
-    const Eigen::VectorXd rms =
-        series(robot_, settings_.contacts, result_.model, log_, settings_.stride).rms();
+    const Eigen::VectorXd rms = state_.left_by(result_.model).rms();
     // A row that fits far better than the others would otherwise be fitted to its last digit.
     constexpr double least_share = 0.02;
     const double floor = std::max(least_share * rms.mean(), 1e-12);
@@ -138,44 +82,25 @@ class Loop {
 
   [[nodiscard]] std::vector<Candidate> listed(const BlockFits& fits) const {
     CandidateRule rule;
-    rule.free_links = settings_.shapes.free_links;
-    rule.has_reference = reference_ != nullptr;
+    rule.free_links = state_.settings.shapes.free_links;
+    rule.has_reference = state_.reference != nullptr;
     // The derivative of a transformation needs a model that is not wrong by other things.
     rule.transformations = round_ > 0;
     rule.excluded = [this](const AppliedEffect& h) {
-      return is_applied_transformation(h) || is_banned(h);
+      return state_.is_applied_transformation(h) || is_banned(h);
     };
-    rule.came_since = [this](const AppliedEffect& h) { return came_since(h); };
-    rule.choices = [this](const AppliedEffect& h) { return periods_told_apart(log_, h); };
-    return candidates(robot_, fits, rule);
-  }
-
-  [[nodiscard]] bool is_applied_transformation(const AppliedEffect& h) const {
-    return h.effect->transform.any() &&
-           std::any_of(result_.model.effects.begin(), result_.model.effects.end(),
-                       [&](const AppliedEffect& a) { return same_place(a, h); });
-  }
-
-  /// Masses and the changes of transformations that are applied already: fitted along always.
-  [[nodiscard]] Term always(const Tally& tally) const {
-    Term term = masses_;
-    for (std::size_t k = 0; k < tally.hypotheses.size(); ++k) {
-      if (!is_applied_transformation(tally.hypotheses[k])) continue;
-      const Term change = term_of(robot_, tally, k);
-      term.columns.insert(term.columns.end(), change.columns.begin(), change.columns.end());
-    }
-    term.nonnegative.assign(term.columns.size(), false);
-    return term;
+    rule.came_since = [this](const AppliedEffect& h) { return state_.came_since(h); };
+    rule.choices = [this](const AppliedEffect& h) { return periods_told_apart(state_.log, h); };
+    return candidates(state_.robot, fits, rule);
   }
 
   void screen() {
-    BlockFits fits = tallied(screened_hypotheses(
-        robot_, result_.model, log_,
-        series(robot_, settings_.contacts, result_.model, log_, settings_.stride)));
-    const Term fixed = always(fits.tally());
+    BlockFits fits = state_.tallied(screened_hypotheses(state_.robot, result_.model, state_.log,
+                                                        state_.left_by(result_.model)));
+    const Term fixed = state_.always(fits.tally());
     const std::vector<Candidate> list = listed(fits);
     // From the beginning each time: what was accepted with worse weights has to prove itself again.
-    const Selection selection = select(fits, fixed, list, settings_.rule);
+    const Selection selection = select(fits, fixed, list, state_.settings.rule);
     note_large_transformation(fits, fixed, list, selection);
     result_.prior = choose_prior(fits, chosen_terms(fixed, list, selection));
     take(fits, fixed, list, selection);
@@ -217,17 +142,17 @@ class Loop {
   void try_large_transformation() {
     if (!large_ || result_.found.size() < 2) return;
     const LoopResult several = result_;
-    const Eigen::VectorXd error = held_out_of_model();
+    const Eigen::VectorXd error = state_.held_out_of_model();
     const auto start = std::chrono::steady_clock::now();
     result_.found = {
         Found{large_->effect, large_->term.id, Eigen::VectorXd::Zero(large_->effect.value.size())}};
-    collect_effects();
+    state_.collect_effects();
     refit();
     screen();
     refit();
     prune_transformations();
     const bool simpler = result_.found.size() < several.found.size() &&
-                         !(gain_of(held_out_of_model(), error).t > not_worse_t);
+                         !(gain_of(state_.held_out_of_model(), error).t > not_worse_t);
     if (!simpler) result_ = several;
     result_.refit_seconds += seconds_since(start);
   }
@@ -240,123 +165,39 @@ class Loop {
     return terms;
   }
 
-  /// An applied transformation that no longer lowers the held-out error is taken back for good.
+  /// A refit that ends at the limit found no value that is believed.
+  [[nodiscard]] static bool at_limit(const AppliedEffect& a) {
+    for (Eigen::Index p = 0; p < a.value.size(); ++p) {
+      if (std::abs(a.value[p]) >= a.effect->parameters[static_cast<std::size_t>(p)].limit) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// An applied transformation that no longer lowers the held-out error, or of no credible size, is
+  /// taken back for good.
   void prune_transformations() {
     for (std::size_t i = 0; i < result_.found.size();) {
       if (!result_.found[i].effect.effect->transform.any()) {
         ++i;
         continue;
       }
-      const Eigen::VectorXd with = held_out_of_model();
+      const Eigen::VectorXd with = state_.held_out_of_model();
       const std::vector<Found> all = result_.found;
       result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
-      collect_effects();
-      const Gain gain = gain_of(held_out_of_model(), with);
-      if (gain.t > keep_t && gain.share > 0.0) {
+      state_.collect_effects();
+      const Gain gain = gain_of(state_.held_out_of_model(), with);
+      if (gain.t > keep_t && gain.share > 0.0 && !at_limit(all[i].effect)) {
         result_.found = all;
         result_.found[i].gain = gain.share;
         result_.found[i].t = gain.t;
-        collect_effects();
+        state_.collect_effects();
         ++i;
       } else {
         banned_.push_back(all[i].effect);
       }
     }
-  }
-
-  /// Sums of the present effects, placebos and laws without a name, and products of all of these.
-  struct Questions {
-    BlockFits fits;
-    std::vector<Term> terms;  ///< masses and effects
-    std::size_t effects = 0, first_carrier = 0;
-  };
-  [[nodiscard]] Questions questions() {
-    std::vector<AppliedEffect> all = result_.model.effects;
-    const std::size_t effects = all.size();
-    for (const AppliedEffect& placebo : placebos(robot_)) all.push_back(placebo);
-    const std::size_t first_carrier = all.size();
-    for (const AppliedEffect& a : carriers(robot_, result_.model.effects)) all.push_back(a);
-    std::vector<Modulation> products = modulations(robot_, result_.model.effects);
-    for (const Modulation& m : modulated_carriers(all, first_carrier, all.size())) {
-      products.push_back(m);
-    }
-    BlockFits fits = tallied(all, products);
-    std::vector<Term> terms = terms_of_model(fits, effects);
-    return {std::move(fits), std::move(terms), effects, first_carrier};
-  }
-
-  /// Whether the names of what was found stand: more than any law that no robot has, constant, and
-  /// no worse than laws without a name.
-  void question_names() {
-    const Questions asked = questions();
-    const std::size_t effects = asked.effects;
-    const Eigen::VectorXd errors = asked.fits.held_out(asked.terms);
-    const double error = errors.sum();
-    const double placebo = best_placebo(asked.fits, asked.terms, effects, asked.first_carrier);
-    result_.placebo = placebo / error;
-    Eigen::VectorXd own_gain(static_cast<Eigen::Index>(effects));
-    for (std::size_t k = 0; k < effects; ++k) {
-      const double share = result_.found[k].gain;  // of the error without it
-      own_gain[static_cast<Eigen::Index>(k)] = error * share / (1.0 - share);
-    }
-    const auto varies = variations(asked.fits, asked.terms, own_gain);
-    std::vector<std::optional<std::size_t>> own_term;
-    std::size_t next = 1;  // after the masses
-    for (const AppliedEffect& a : result_.model.effects) {
-      const bool column = !a.effect->transform.any();
-      own_term.push_back(column ? std::optional(next++) : std::nullopt);
-    }
-    const Contest against = contest(asked.fits, asked.terms, own_term, asked.first_carrier);
-    result_.strangers = against.strangers;
-    for (std::size_t k = 0; k < effects; ++k) {
-      const double own = own_gain[static_cast<Eigen::Index>(k)];
-      result_.found[k].varies = varies[k];
-      result_.found[k].displaced = against.displaced[k];
-      result_.found[k].drowned = own < placebo;
-      const auto joint = joint_of(robot_, result_.model.effects[k]);
-      for (std::size_t other = 0; other < effects; ++other) {
-        if (!joint || joint_of(robot_, result_.model.effects[other]) != joint) continue;
-        if (varies[other] && own_gain[static_cast<Eigen::Index>(other)] > own) {
-          result_.found[k].beside_unknown = true;
-        }
-      }
-      if (!own_term[k]) {
-        result_.found[k].displaced = stranger_in_place_of(k, errors, own);
-      }
-    }
-  }
-
-  /// Whether a law without a name predicts better than an applied transformation, which has no term
-  /// that could be left out: the sums are made once more without it.
-  [[nodiscard]] bool stranger_in_place_of(std::size_t k, const Eigen::VectorXd& named,
-                                          double own_gain) {
-    const std::vector<Found> all = result_.found;
-    result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(k));
-    collect_effects();
-    const Questions without = questions();
-    const auto instead =
-        with_best_stranger(without.fits, without.terms, without.effects, without.first_carrier);
-    result_.found = all;
-    collect_effects();
-    return instead && takes_the_place(named, *instead, own_gain);
-  }
-
-  /// Held-out error of the present effects, linear numbers refitted.
-  [[nodiscard]] Eigen::VectorXd held_out_of_model() {
-    const BlockFits fits = tallied(result_.model.effects);
-    return fits.held_out(terms_of_model(fits, fits.tally().hypotheses.size()));
-  }
-
-  /// Masses and the first `effects` hypotheses of a tally: all present effects.
-  [[nodiscard]] std::vector<Term> terms_of_model(const BlockFits& fits, std::size_t effects) const {
-    std::vector<Term> terms = {always(fits.tally())};
-    for (std::size_t k = 0; k < effects; ++k) {
-      const AppliedEffect& a = fits.tally().hypotheses[k];
-      if (a.effect->transform.any()) continue;
-      terms.push_back(term_of(robot_, fits.tally(), k));
-      if (came_since(a)) terms.back().from_block = fits.first_block();
-    }
-    return terms;
   }
 
   [[nodiscard]] bool is_banned(const AppliedEffect& h) const {
@@ -388,15 +229,16 @@ class Loop {
       names.erase(std::unique(names.begin(), names.end()), names.end());
       result_.found.push_back(found);
     }
-    set_masses(selection.fit);
+    state_.set_masses(selection.fit);
     step_transformations(fits.tally(), fixed, selection.fit);
-    collect_effects();
+    state_.collect_effects();
     const auto per_sample = [&](const Eigen::VectorXd& errors) {
       std::size_t samples = 0;
       for (std::size_t b = fits.first_block(); b < fits.tally().blocks.size(); ++b) {
         samples += fits.tally().blocks[b].samples;
       }
-      return errors.sum() / static_cast<double>(samples * static_cast<std::size_t>(robot_.dof()));
+      return errors.sum() /
+             static_cast<double>(samples * static_cast<std::size_t>(state_.robot.dof()));
     };
     result_.error_given = per_sample(selection.error_given);
     result_.error_rigid = per_sample(selection.error_rigid);
@@ -433,10 +275,10 @@ class Loop {
 
   /// Gauss-Newton: applied transformations move by what their columns were fitted with.
   void step_transformations(const Tally& tally, const Term& fixed, const Fit& fit) {
-    auto column = std::ssize(masses_.columns);
+    auto column = std::ssize(state_.masses.columns);
     for (std::size_t k = 0; k < tally.hypotheses.size() && column < std::ssize(fixed.columns);
          ++k) {
-      if (!is_applied_transformation(tally.hypotheses[k])) continue;
+      if (!state_.is_applied_transformation(tally.hypotheses[k])) continue;
       for (Found& f : result_.found) {
         if (!same_place(f.effect, tally.hypotheses[k])) continue;
         const Eigen::Index n = f.effect.value.size();
@@ -444,22 +286,6 @@ class Loop {
         f.standard_error = fit.standard_error.segment(column, n);
         column += n;
       }
-    }
-  }
-
-  void collect_effects() {
-    result_.model.effects.clear();
-    for (Found& f : result_.found) {
-      if (f.effect.effect->transform.any()) keep_within_limits(f.effect);
-      result_.model.effects.push_back(f.effect);
-    }
-  }
-
-  static void keep_within_limits(AppliedEffect& a) {
-    for (Eigen::Index p = 0; p < a.value.size(); ++p) {
-      const Parameter& parameter = a.effect->parameters[static_cast<std::size_t>(p)];
-      const double lower = parameter.nonnegative ? 0.0 : -parameter.limit;
-      a.value[p] = std::clamp(a.value[p], lower, parameter.limit);
     }
   }
 
@@ -475,21 +301,21 @@ class Loop {
           variants.push_back(a);
         }
       }
-      const BlockFits fits = tallied(variants);
+      const BlockFits fits = state_.tallied(variants);
       std::vector<std::vector<Term>> choices;
       for (std::size_t i = 0; i < of_found.size(); ++i) {
         auto& terms = choices.emplace_back();
         for (const std::size_t v : of_found[i]) {
-          terms.push_back(term_of(robot_, fits.tally(), v));
+          terms.push_back(term_of(state_.robot, fits.tally(), v));
           if (result_.found[i].since_reference) terms.back().from_block = fits.first_block();
         }
       }
-      const std::vector<std::size_t> chosen = best_variants(fits, masses_, choices);
-      std::vector<Term> terms = {masses_};
+      const std::vector<std::size_t> chosen = best_variants(fits, state_.masses, choices);
+      std::vector<Term> terms = {state_.masses};
       for (std::size_t i = 0; i < choices.size(); ++i) terms.push_back(choices[i][chosen[i]]);
       const Fit fit = fits.fit(terms);
-      set_masses(fit);
-      Eigen::Index column = std::ssize(masses_.columns);
+      state_.set_masses(fit);
+      Eigen::Index column = std::ssize(state_.masses.columns);
       for (std::size_t i = 0; i < choices.size(); ++i) {
         AppliedEffect& a = result_.found[i].effect;
         const Eigen::Index n = a.value.size();
@@ -499,7 +325,7 @@ class Loop {
         result_.found[i].standard_error = fit.standard_error.segment(column, n);
         column += n;
       }
-      collect_effects();
+      state_.collect_effects();
     }
   }
 
@@ -509,17 +335,11 @@ class Loop {
     });
   }
 
-  const Robot& robot_;
-  Recording log_;
-  const Recording* reference_;
-  const LoopSettings& settings_;
-  Eigen::VectorXd centre_;  ///< of the prior, 10 links
-  Term masses_;
-  TallyOptions tally_options_;
+  LoopState state_;
+  LoopResult& result_ = state_.result;
   std::vector<AppliedEffect> banned_;
   std::optional<Candidate> large_;
   int round_ = 0;
-  LoopResult result_;
 };
 
 }  // namespace

@@ -44,8 +44,10 @@ struct Found {
   std::optional<Variation> varies = {};
   /// It is worth less than the best placebo: laws that no robot has explain as much.
   bool drowned = false;
-  /// It is worth less than another at its joint whose number follows a signal, and may be a part of
-  /// the same unknown.
+  /// A ripple that does no better than one over another joint's position, sought likewise.
+  bool any_period = false;
+  /// It is worth less than all that is unknown on the same joints, effects whose number follows a
+  /// signal and laws without a name, and may be a part of that.
   bool beside_unknown = false;
   /// A law without a name predicts better in its place, or leaves it nothing to explain.
   bool displaced = false;
@@ -53,7 +55,7 @@ struct Found {
   bool faded = false;
   /// Else it only describes: it predicts, and says nothing about the cause.
   [[nodiscard]] bool name_stands() const {
-    return !varies && !drowned && !beside_unknown && !displaced && !faded;
+    return !varies && !drowned && !any_period && !beside_unknown && !displaced && !faded;
   }
 };
 

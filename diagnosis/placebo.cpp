@@ -1,8 +1,10 @@
 #include "shapeid/diagnosis/placebo.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/effects/parts.hpp"
 
 namespace shapeid::diagnosis {
@@ -30,6 +32,23 @@ Eigen::MatrixXd coulomb(const Instant& at, int site, const Eigen::VectorXd& shap
 
 Eigen::MatrixXd rotor(const Instant& at, int site, const Eigen::VectorXd&) {
   return joint_column(at, joint_of(at, site), at.sample.ddq[donor_of(at, site)]);
+}
+
+Eigen::MatrixXd ripple(const Instant& at, int site, const Eigen::VectorXd& shape) {
+  const double phase = shape[0] * at.sample.q[donor_of(at, site)];
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(at.robot.dof(), 2);
+  columns.row(at.robot.base_dof() + joint_of(at, site)) << std::cos(phase), std::sin(phase);
+  return columns;
+}
+
+const Effect& ripple_law() {
+  static const Effect law = [] {
+    Effect e = *find_effect("cogging");  // sizes and periods are those of the name
+    e.id = "placebo";
+    e.columns = ripple;
+    return e;
+  }();
+  return law;
 }
 
 const std::vector<Effect>& laws() {
@@ -60,6 +79,23 @@ std::vector<AppliedEffect> placebos(const Robot& robot) {
     }
   }
   return list;
+}
+
+std::vector<AppliedEffect> ripple_placebos(const Robot& robot, const Recording& log,
+                                           const Series& left, int joint) {
+  const ShapeNumber& N = ripple_law().shape.front();
+  std::vector<AppliedEffect> list;
+  for (int donor = 0; donor < robot.joint_count(); ++donor) {
+    if (donor == joint) continue;
+    AppliedEffect& a = list.emplace_back(at_start(ripple_law(), site_of(robot, joint, donor)));
+    a.shape[0] =
+        strongest_ripple(robot, log, left, joint, donor, RippleOf::torque, N.lower, N.upper);
+  }
+  return list;
+}
+
+int joint_of_placebo(const Robot& robot, const AppliedEffect& placebo) {
+  return placebo.site % robot.joint_count();
 }
 
 double best_placebo(const BlockFits& fits, const std::vector<Term>& terms, std::size_t first,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "shapeid/diagnosis/fits.hpp"
+#include "shapeid/diagnosis/series.hpp"
 
 namespace shapeid::diagnosis {
 
@@ -19,5 +20,13 @@ namespace shapeid::diagnosis {
 /// hypothesis `first` on, up to `last`.
 [[nodiscard]] double best_placebo(const BlockFits& fits, const std::vector<Term>& terms,
                                   std::size_t first, std::size_t last);
+
+/// Ripples of one joint's torque over the position of another, one for each other joint, with the
+/// period that explains most of `left`: sought as the period of a ripple is (candidates.hpp).
+[[nodiscard]] std::vector<AppliedEffect> ripple_placebos(const Robot& robot, const Recording& log,
+                                                         const Series& left, int joint);
+
+/// The joint in whose row a placebo is.
+[[nodiscard]] int joint_of_placebo(const Robot& robot, const AppliedEffect& placebo);
 
 }  // namespace shapeid::diagnosis

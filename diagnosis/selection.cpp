@@ -118,13 +118,17 @@ class Search {
     const double z = effect.is_payload ? each[0] : each.abs().maxCoeff();  // a load has mass
     const double tried = parameters_ * candidates_[k].choices;
     if (!(z > limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks()))) return false;
+    return within_limits(k, fit);
+  }
+
+  /// None of its values leaves the range in which it is believed.
+  [[nodiscard]] bool within_limits(std::size_t k, const Fit& fit) const {
+    const Effect& effect = *candidates_[k].effect.effect;
     for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
       const auto at = static_cast<Eigen::Index>(p);
       // The column of a transformation is that of a change.
       const double start = effect.transform.any() ? candidates_[k].effect.value[at] : 0.0;
-      if (std::abs(start + fit.value[at]) > effect.parameters[p].limit) {
-        return false;
-      }
+      if (std::abs(start + fit.value[at]) > effect.parameters[p].limit) return false;
     }
     return true;
   }
@@ -197,6 +201,12 @@ class Search {
     return candidates_[k].term.columns.size() + e.shape.size() + (e.transform.any() ? 1 : 0);
   }
 
+  [[nodiscard]] std::size_t numbers(const std::vector<std::size_t>& chosen) const {
+    std::size_t sum = 0;
+    for (const std::size_t k : chosen) sum += cost(k);
+    return sum;
+  }
+
   void note_wrong_signs(const std::vector<Scored>& ranking) {
     result_.wrong_signs.clear();
     for (const Scored& s : ranking) {
@@ -206,12 +216,14 @@ class Search {
     }
   }
 
-  /// Without what others in it make superfluous or give an impossible sign, the worst first.
+  /// Without what others in it make superfluous, or give an impossible sign or a size that is not
+  /// believed (a delay and the lags of all drives may cancel); these first, and of them the one
+  /// that gains least.
   [[nodiscard]] std::vector<std::size_t> pruned(std::vector<std::size_t> chosen) const {
     while (!chosen.empty()) {
       const Fit all = fits_.fit(terms(chosen));
       const Eigen::VectorXd with_all = fits_.held_out(terms(chosen));
-      double least = keep_t;
+      std::pair<bool, double> least = {true, keep_t};  // believed, and standard errors of gain
       std::size_t worst = chosen.size();
       Eigen::Index column = std::ssize(masses_.columns);
       for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -221,10 +233,11 @@ class Search {
         std::vector<std::size_t> without = chosen;
         without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
         const Gain gain = gain_of(fits_.held_out(terms(without)), with_all);
-        const bool not_believed = wrong_sign(chosen[i], own, 0.0) || gain.share < 0.0;
-        const double t = not_believed ? -1.0 : gain.t;
-        if (t < least) {
-          least = t;
+        const std::pair<bool, double> own_worth = {
+            !wrong_sign(chosen[i], own, 0.0) && gain.share >= 0.0 && within_limits(chosen[i], own),
+            gain.t};
+        if (own_worth < least) {
+          least = own_worth;
           worst = i;
         }
       }
@@ -247,7 +260,7 @@ class Search {
   /// One cause rather than several: what was accepted first may have been a part of a hypothesis
   /// that looked no better then, and the others its remainder (drag and lags of single drives, of
   /// one delay of all). What makes two or more of the accepted superfluous takes their place,
-  /// unless the error grows by more than chance.
+  /// unless the error grows by more than chance; with as many numbers as before it must not grow.
   void simplify() {
     bool simpler = true;
     while (simpler && accepted_.size() > 1) {
@@ -266,7 +279,9 @@ class Search {
         with_rival.push_back(r);
         with_rival = pruned(with_rival);
         if (with_rival.size() >= best.size() || with_rival.back() != r) continue;
-        if (gain_of(fits_.held_out(terms(with_rival)), error).t > separable) continue;
+        const bool fewer_numbers = numbers(with_rival) < numbers(before);
+        const double worse_t = gain_of(fits_.held_out(terms(with_rival)), error).t;
+        if (worse_t > (fewer_numbers ? separable : 0.0)) continue;
         best = with_rival;
       }
       simpler = best.size() < before.size();

@@ -30,15 +30,29 @@ Series series(const Robot& robot, reference::ContactTreatment contacts, const Ri
   return result;
 }
 
-double strongest_ripple(const Eigen::VectorXd& x, const Eigen::VectorXd& y, double lower,
-                        double upper) {
+double strongest_ripple(const Robot& robot, const Recording& recording, const Series& left,
+                        int joint, int over, RippleOf of, double lower, double upper) {
+  const Eigen::Index row = robot.base_dof() + joint;
+  std::vector<Eigen::Index> counted;
+  for (Eigen::Index i = 0; i < left.residual.cols(); ++i) {
+    if (left.counted(row, i)) counted.push_back(i);
+  }
+  if (counted.empty()) return lower;
+  Eigen::ArrayXd x(std::ssize(counted));
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Eigen::Index at = counted[static_cast<std::size_t>(i)];
+    x[i] = recording[left.index[static_cast<std::size_t>(at)]].q[over];
+  }
+  const Eigen::VectorXd y = left.residual(row, counted);
+  Eigen::ArrayXd size = Eigen::ArrayXd::Ones(x.size());
+  if (of == RippleOf::load) size = left.predicted(row, counted).transpose();
   // Half of what the range of x resolves.
   const double range = x.maxCoeff() - x.minCoeff();
   const double step = std::max(0.5 / std::max(range, 0.05), (upper - lower) / 2000.0);
   double best = lower, most = 0.0;
   for (double N = lower; N <= upper; N += step) {
     Eigen::MatrixX3d A(x.size(), 3);
-    A << (N * x.array()).cos(), (N * x.array()).sin(), Eigen::ArrayXd::Ones(x.size());
+    A << size * (N * x).cos(), size * (N * x).sin(), size;
     const Eigen::Vector3d g = A.transpose() * y;
     const double explained = g.dot((A.transpose() * A).ldlt().solve(g));
     if (explained > most) {

@@ -23,8 +23,13 @@ struct Series {
 [[nodiscard]] Series series(const Robot& robot, reference::ContactTreatment contacts,
                             const RichModel& model, const Recording& recording, std::size_t stride);
 
-/// The frequency N (1/rad) in [lower, upper] whose cos(N x), sin(N x) explain most of y.
-[[nodiscard]] double strongest_ripple(const Eigen::VectorXd& x, const Eigen::VectorXd& y,
+/// What a ripple's size is in proportion to: nothing, or the predicted force of its joint.
+enum class RippleOf { torque, load };
+/// The frequency N (1/rad) from lower to upper of the ripple over the position of joint `over` that
+/// explains most of what is left in the row of `joint`: cos(N q), sin(N q) and a constant, times
+/// what it is of. `lower` if no row counts.
+[[nodiscard]] double strongest_ripple(const Robot& robot, const Recording& recording,
+                                      const Series& left, int joint, int over, RippleOf of,
                                       double lower, double upper);
 
 }  // namespace shapeid::diagnosis

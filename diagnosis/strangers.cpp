@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/constancy.hpp"
@@ -24,18 +25,22 @@ constexpr double least_t = 3.0;
 constexpr Eigen::Index blocks_for_one = 2;
 // Standard errors by which a stranger must predict better to take a name's place.
 constexpr double better_t = 2.0;
+// What fewer strangers than names leave must not be worse by more than this many.
+constexpr double not_worse_t = 2.0;
 
 class Ring {
  public:
-  Ring(const BlockFits& fits, const std::vector<Term>& terms,
-       const std::vector<std::optional<std::size_t>>& own_term, std::size_t first_carrier)
-      : fits_(fits), terms_(terms), own_term_(own_term), is_out_(own_term.size(), false) {
-    const Tally& tally = fits.tally();
-    const std::size_t effects = own_term.size();
+  explicit Ring(const Questions& asked)
+      : fits_(asked.fits),
+        terms_(asked.terms),
+        own_term_(asked.own_term),
+        is_out_(asked.effects(), false) {
+    const Tally& tally = fits_.tally();
+    double parameters = 0.0;
     for (std::size_t k = 0; k < tally.modulations.size(); ++k) {
       const Modulation& m = tally.modulations[k];
       const AppliedEffect& carrier = tally.hypotheses[m.hypothesis];
-      const bool is_law = m.hypothesis < effects || m.hypothesis >= first_carrier;
+      const bool is_law = m.hypothesis < asked.effects() || m.hypothesis >= asked.first_carrier;
       if (!is_law || carrier.effect->site != SiteKind::joint) continue;
       laws_.push_back(k);
       Term& term = law_terms_.emplace_back();
@@ -43,12 +48,35 @@ class Ring {
         term.columns.push_back(tally.first_modulated[k] + p);
         term.nonnegative.push_back(false);
       }
-      parameters_ += static_cast<double>(carrier.value.size());
+      parameters += static_cast<double>(carrier.value.size());
     }
-    least_z_ = limit_for(least_z(false_alarms, parameters_), fits.held_blocks() / blocks_for_one);
+    for (const std::size_t k : laws_) {
+      const double tried = parameters * asked.choices[tally.modulations[k].hypothesis];
+      least_z_.push_back(
+          limit_for(least_z(false_alarms, tried), fits_.held_blocks() / blocks_for_one));
+    }
   }
 
   Contest run() {
+    seek_fewer(fits_.held_out(present()), 0);
+    return rest();
+  }
+
+  std::optional<Contest> run_if_fewer(const Eigen::VectorXd& named, std::size_t taken_out) {
+    seek_fewer(named, taken_out);
+    if (in_.empty()) return std::nullopt;
+    return rest();
+  }
+
+  [[nodiscard]] std::optional<Eigen::VectorXd> best_beside_all() const {
+    const std::optional<Best> found = best(present());
+    return found ? std::optional(found->error) : std::nullopt;
+  }
+
+ private:
+  static constexpr std::size_t no_effect = static_cast<std::size_t>(-1);
+
+  Contest rest() {
     exchange();
     add();
     judge_again();
@@ -65,14 +93,6 @@ class Ring {
                      [](const Stranger& a, const Stranger& b) { return a.gain > b.gain; });
     return result;
   }
-
-  [[nodiscard]] std::optional<Eigen::VectorXd> best_beside_all() const {
-    const std::optional<Best> found = best(present());
-    return found ? std::optional(found->error) : std::nullopt;
-  }
-
- private:
-  static constexpr std::size_t no_effect = static_cast<std::size_t>(-1);
 
   /// Masses, names that are left and strangers that are in, but without one of each.
   [[nodiscard]] std::vector<Term> present(std::size_t without_effect = no_effect,
@@ -112,35 +132,87 @@ class Ring {
     return order;
   }
 
+  /// Its held-out error beside `beside`, which leaves `before`, if it is significant.
+  [[nodiscard]] std::optional<Eigen::VectorXd> significant(std::size_t s,
+                                                           const std::vector<Term>& beside,
+                                                           const Eigen::VectorXd& before) const {
+    std::vector<Term> with = beside;
+    with.push_back(law_terms_[s]);
+    Eigen::VectorXd error = fits_.held_out(with);
+    const Gain gain = gain_of(before, error);
+    if (!(gain.t > least_t && gain.share > 0.0)) return std::nullopt;
+    const Fit fit = fits_.fit(with);
+    const Eigen::Index n = std::ssize(law_terms_[s].columns);
+    const double z =
+        (fit.value.tail(n).array() / fit.standard_error.tail(n).array()).abs().maxCoeff();
+    return z > least_z_[s] ? std::optional(error) : std::nullopt;
+  }
+
   struct Best {
     std::size_t law = 0;
     Eigen::VectorXd error;
-    Gain gain;
   };
   /// The stranger that predicts best beside `beside`, if it is significant.
   [[nodiscard]] std::optional<Best> best(const std::vector<Term>& beside) const {
     const Eigen::VectorXd before = fits_.held_out(beside);
     std::optional<Best> found;
     for (const std::size_t s : shortlist(beside)) {
-      std::vector<Term> with = beside;
-      with.push_back(law_terms_[s]);
-      const Eigen::VectorXd error = fits_.held_out(with);
-      const Gain gain = gain_of(before, error);
-      if (!(gain.t > least_t && gain.share > 0.0)) continue;
-      if (found && found->error.sum() <= error.sum()) continue;
-      const Fit fit = fits_.fit(with);
-      const Eigen::Index n = std::ssize(law_terms_[s].columns);
-      const double z =
-          (fit.value.tail(n).array() / fit.standard_error.tail(n).array()).abs().maxCoeff();
-      if (z > least_z_) found = Best{s, error, gain};
+      const auto error = significant(s, beside, before);
+      if (error && !(found && found->error.sum() <= error->sum())) found = Best{s, *error};
     }
     return found;
+  }
+
+  /// Strangers that do for more names than they are. `named` is what all names leave; `taken_out`
+  /// of these are in no term any more.
+  void seek_fewer(const Eigen::VectorXd& named, std::size_t taken_out) {
+    const std::size_t names = taken_out + names_left();
+    if (names < 2) return;
+    std::size_t fewest = names;
+    double least = 0.0;
+    std::vector<std::size_t> best_in;
+    std::vector<bool> best_out = is_out_;
+    for (const std::size_t first : shortlist({terms_.front()})) {
+      std::fill(is_out_.begin(), is_out_.end(), false);
+      in_ = {first};
+      judge_again();
+      const std::vector<Term> others = present(no_effect, first);
+      std::optional<Eigen::VectorXd> error = significant(first, others, fits_.held_out(others));
+      // One more as long as that makes fewer than there were.
+      while (error && gain_of(*error, named).t > not_worse_t &&
+             in_.size() + names_left() + 1 < names) {
+        const std::optional<Best> next = best(present());
+        if (!next) break;
+        in_.push_back(next->law);
+        judge_again();
+        error = fits_.held_out(present());
+      }
+      const std::size_t laws = in_.size() + names_left();
+      const bool fewer =
+          laws < fewest || (!best_in.empty() && laws == fewest && error && error->sum() < least);
+      if (!error || !fewer || gain_of(*error, named).t > not_worse_t) continue;
+      fewest = laws;
+      least = error->sum();
+      best_in = in_;
+      best_out = is_out_;
+    }
+    in_ = best_in;
+    is_out_ = best_in.empty() ? std::vector<bool>(is_out_.size(), false) : best_out;
+  }
+
+  /// How many names that are terms are not out.
+  [[nodiscard]] std::size_t names_left() const {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < own_term_.size(); ++k) {
+      if (own_term_[k] && !is_out_[k]) ++count;
+    }
+    return count;
   }
 
   /// Names in whose place a stranger does better.
   void exchange() {
     for (std::size_t k = 0; k < own_term_.size(); ++k) {
-      if (!own_term_[k]) continue;
+      if (!own_term_[k] || is_out_[k]) continue;
       const Eigen::VectorXd named = fits_.held_out(present());
       const std::vector<Term> others = present(k);
       const double own_gain = (fits_.held_out(others) - named).sum();
@@ -183,9 +255,9 @@ class Ring {
   const std::vector<std::optional<std::size_t>>& own_term_;
   std::vector<std::size_t> laws_;  ///< modulations of the tally
   std::vector<Term> law_terms_;
+  std::vector<double> least_z_;  ///< one a law
   std::vector<std::size_t> in_;  ///< of laws_
   std::vector<bool> is_out_;     ///< of the effects
-  double parameters_ = 0.0, least_z_ = 0.0;
 };
 
 }  // namespace
@@ -203,27 +275,48 @@ std::vector<AppliedEffect> carriers(const Robot& robot, const std::vector<Applie
   return list;
 }
 
+std::vector<AppliedEffect> ripple_carriers(const Robot& robot, const Recording& log,
+                                           const Series& rigid, const Series& left) {
+  const Effect& ripple = *find_effect("cogging");
+  const ShapeNumber& N = ripple.shape.front();
+  std::vector<AppliedEffect> list;
+  for (int joint = 0; joint < robot.joint_count(); ++joint) {
+    std::set<double> periods;
+    for (const Series* of : {&rigid, &left}) {
+      periods.insert(
+          strongest_ripple(robot, log, *of, joint, joint, RippleOf::load, N.lower, N.upper));
+    }
+    for (const double period : periods) {
+      list.push_back(at_start(ripple, joint));
+      list.back().shape[0] = period;
+    }
+  }
+  return list;
+}
+
 std::vector<Modulation> modulated_carriers(const std::vector<AppliedEffect>& hypotheses,
                                            std::size_t first, std::size_t last) {
   std::vector<Modulation> list;
   for (std::size_t k = first; k < last; ++k) {
+    if (hypotheses[k].value.size() > 1) {
+      list.push_back({k, Signal::load, hypotheses[k].site});
+      continue;
+    }
     for (const Signal signal : joint_signals) list.push_back({k, signal, hypotheses[k].site});
     list.push_back({k, Signal::time, hypotheses[k].site});
   }
   return list;
 }
 
-Contest contest(const BlockFits& fits, const std::vector<Term>& terms,
-                const std::vector<std::optional<std::size_t>>& own_term,
-                std::size_t first_carrier) {
-  return Ring(fits, terms, own_term, first_carrier).run();
+Contest contest(const Questions& asked) { return Ring(asked).run(); }
+
+std::optional<Contest> contest_if_fewer(const Questions& asked, const Eigen::VectorXd& named,
+                                        std::size_t taken_out) {
+  return Ring(asked).run_if_fewer(named, taken_out);
 }
 
-std::optional<Eigen::VectorXd> with_best_stranger(const BlockFits& fits,
-                                                  const std::vector<Term>& terms,
-                                                  std::size_t effects, std::size_t first_carrier) {
-  const std::vector<std::optional<std::size_t>> none(effects);
-  return Ring(fits, terms, none, first_carrier).best_beside_all();
+std::optional<Eigen::VectorXd> with_best_stranger(const Questions& asked) {
+  return Ring(asked).best_beside_all();
 }
 
 bool takes_the_place(const Eigen::VectorXd& named, const Eigen::VectorXd& instead,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shapeid/diagnosis/fits.hpp"
+#include "shapeid/diagnosis/series.hpp"
 
 namespace shapeid::diagnosis {
 
@@ -23,9 +24,27 @@ struct Stranger {
 [[nodiscard]] std::vector<AppliedEffect> carriers(const Robot& robot,
                                                   const std::vector<AppliedEffect>& effects);
 
-/// Hypotheses `first` to `last` of a tally times the signals of their joint, and times time.
+/// Ripples in proportion to the load, as of an eccentric gear, one or two a joint: with the periods
+/// that explain most of what is left by masses alone (`rigid`) and by the present model (`left`).
+[[nodiscard]] std::vector<AppliedEffect> ripple_carriers(const Robot& robot, const Recording& log,
+                                                         const Series& rigid, const Series& left);
+
+/// Hypotheses `first` to `last` of a tally times the signals of their joint, and times time;
+/// ripples times the load.
 [[nodiscard]] std::vector<Modulation> modulated_carriers(
     const std::vector<AppliedEffect>& hypotheses, std::size_t first, std::size_t last);
+
+/// What names are asked against: sums of the present effects, which come first, of placebos and of
+/// carriers, and products of these.
+struct Questions {
+  BlockFits fits;
+  std::vector<Term> terms;  ///< masses, and effects that are columns
+  /// Place among `terms` of each effect; none for a transformation, which is within the masses'.
+  std::vector<std::optional<std::size_t>> own_term;
+  std::size_t first_ripple = 0, first_carrier = 0;  ///< among placebos, after these
+  std::vector<double> choices;                      ///< one a hypothesis, as in Candidate
+  [[nodiscard]] std::size_t effects() const { return own_term.size(); }
+};
 
 /// Whether names stand against laws without one.
 struct Contest {
@@ -33,21 +52,21 @@ struct Contest {
   std::vector<bool> displaced;      ///< one an effect
 };
 
-/// `terms` are the masses and the effects' own, `own_term` the place among these of each effect, if
-/// it is a column; `effects` the number of accepted hypotheses, which come first in the tally, its
-/// carriers at `first_carrier`. A name is displaced if a stranger in its place predicts better by
-/// more than chance and by more than a name may be short of, or if beside the strangers it gains
-/// nothing any more. A stranger counts if it lowers the held-out error beside all names that are
-/// left, as significantly as is asked of a name, for so many as are tried.
-[[nodiscard]] Contest contest(const BlockFits& fits, const std::vector<Term>& terms,
-                              const std::vector<std::optional<std::size_t>>& own_term,
-                              std::size_t first_carrier);
+/// A name is displaced if a stranger in its place predicts better by more than chance and by more
+/// than a name may be short of, if beside the strangers it gains nothing any more, or if
+/// strangers do for more names than they are: beside them these gain nothing, and without these
+/// they predict no worse. A stranger counts if it lowers the held-out error as significantly as is
+/// asked of a name, for so many as are tried.
+[[nodiscard]] Contest contest(const Questions& asked);
 
-/// Held-out errors with the best significant stranger beside `terms`; none if there is none.
-[[nodiscard]] std::optional<Eigen::VectorXd> with_best_stranger(const BlockFits& fits,
-                                                                const std::vector<Term>& terms,
-                                                                std::size_t effects,
-                                                                std::size_t first_carrier);
+/// The contest if strangers do for more names than they are, `taken_out` of which are in no term of
+/// `asked` any more, and which all together left `named`; else none.
+[[nodiscard]] std::optional<Contest> contest_if_fewer(const Questions& asked,
+                                                      const Eigen::VectorXd& named,
+                                                      std::size_t taken_out);
+
+/// Held-out errors with the best significant stranger beside all terms; none if there is none.
+[[nodiscard]] std::optional<Eigen::VectorXd> with_best_stranger(const Questions& asked);
 
 /// Whether a stranger that leaves `instead` on the blocks may displace a name that leaves `named`
 /// and takes away `own_gain` in all: better by more than chance, and by more than a name may be

@@ -1,0 +1,124 @@
+#include "shapeid/diagnosis/loop_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "shapeid/diagnosis/candidates.hpp"
+#include "shapeid/models/error.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+void keep_within_limits(AppliedEffect& a) {
+  for (Eigen::Index p = 0; p < a.value.size(); ++p) {
+    const Parameter& parameter = a.effect->parameters[static_cast<std::size_t>(p)];
+    const double lower = parameter.nonnegative ? 0.0 : -parameter.limit;
+    a.value[p] = std::clamp(a.value[p], lower, parameter.limit);
+  }
+}
+
+}  // namespace
+
+LoopState::LoopState(const Robot& robot_, const Recording& log_, const Recording* reference_,
+                     const LoopSettings& settings_)
+    : robot(robot_), log(log_), reference(reference_), settings(settings_) {
+  centre = stacked_parameters(robot);
+  result.model.Phi = centre;
+  result.weight = settings.weight.size() > 0 ? settings.weight
+                                             : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
+  tally_options.stride = settings.stride;
+  tally_options.margin = settings.margin;
+  tally_options.block_seconds = settings.block_seconds;
+  if (tally_options.block_seconds <= 0.0) {
+    constexpr double wanted_blocks = 40.0, shortest = 0.5;
+    tally_options.block_seconds = std::max(shortest, log.duration() / wanted_blocks);
+  }
+  masses.id = "masses";
+  for (const int link : settings.shapes.free_links) {
+    for (Eigen::Index p = 0; p < 10; ++p) masses.columns.push_back(10 * link + p);
+  }
+  masses.nonnegative.assign(masses.columns.size(), false);
+}
+
+BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
+                             const std::vector<Modulation>& modulations) {
+  Tally tally = empty_tally(robot, hypotheses, modulations);
+  tally_options.weight = result.weight;
+  if (reference != nullptr) {
+    RichModel earlier = result.model;
+    std::erase_if(earlier.effects, [&](const AppliedEffect& a) { return came_since(a); });
+    add_to_tally(tally, robot, settings.contacts, earlier, *reference, tally_options, true);
+  }
+  add_to_tally(tally, robot, settings.contacts, result.model, log, tally_options, false);
+  constexpr std::size_t fewest_blocks = 8;
+  if (tally.blocks.size() < fewest_blocks) {
+    throw Refusal("too-short",
+                  fmt::format("the log gives {} blocks of {:.2g} s to hold out, at least {} are "
+                              "needed",
+                              tally.blocks.size(), tally_options.block_seconds, fewest_blocks));
+  }
+  BlockFits fits(std::move(tally), centre, settings.size, settings.folds);
+  fits.set_prior(result.prior);
+  return fits;
+}
+
+Series LoopState::left_by(const RichModel& model) const {
+  return series(robot, settings.contacts, model, log, settings.stride);
+}
+
+void LoopState::collect_effects() {
+  result.model.effects.clear();
+  for (Found& f : result.found) {
+    if (f.effect.effect->transform.any()) keep_within_limits(f.effect);
+    result.model.effects.push_back(f.effect);
+  }
+}
+
+void LoopState::set_masses(const Fit& fit) {
+  result.model.Phi = centre;
+  for (std::size_t i = 0; i < masses.columns.size(); ++i) {
+    result.model.Phi[masses.columns[i]] += fit.value[static_cast<Eigen::Index>(i)];
+  }
+}
+
+bool LoopState::came_since(const AppliedEffect& effect) const {
+  return std::any_of(result.found.begin(), result.found.end(), [&](const Found& f) {
+    return f.since_reference && same_place(f.effect, effect);
+  });
+}
+
+bool LoopState::is_applied_transformation(const AppliedEffect& effect) const {
+  return effect.effect->transform.any() &&
+         std::any_of(result.model.effects.begin(), result.model.effects.end(),
+                     [&](const AppliedEffect& a) { return same_place(a, effect); });
+}
+
+Term LoopState::always(const Tally& tally) const {
+  Term term = masses;
+  for (std::size_t k = 0; k < tally.hypotheses.size(); ++k) {
+    if (!is_applied_transformation(tally.hypotheses[k])) continue;
+    const Term change = term_of(robot, tally, k);
+    term.columns.insert(term.columns.end(), change.columns.begin(), change.columns.end());
+  }
+  term.nonnegative.assign(term.columns.size(), false);
+  return term;
+}
+
+std::vector<Term> LoopState::terms_of_model(const BlockFits& fits, std::size_t effects) const {
+  std::vector<Term> terms = {always(fits.tally())};
+  for (std::size_t k = 0; k < effects; ++k) {
+    const AppliedEffect& a = fits.tally().hypotheses[k];
+    if (a.effect->transform.any()) continue;
+    terms.push_back(term_of(robot, fits.tally(), k));
+    if (came_since(a)) terms.back().from_block = fits.first_block();
+  }
+  return terms;
+}
+
+Eigen::VectorXd LoopState::held_out_of_model() {
+  const BlockFits fits = tallied(result.model.effects);
+  return fits.held_out(terms_of_model(fits, fits.tally().hypotheses.size()));
+}
+
+}  // namespace shapeid::diagnosis

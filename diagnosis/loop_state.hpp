@@ -1,0 +1,50 @@
+// What the loop has come to: the present model and what was found, and sums of logs as it sees
+// them.
+#pragma once
+
+#include <vector>
+
+#include "shapeid/diagnosis/loop.hpp"
+#include "shapeid/diagnosis/series.hpp"
+
+namespace shapeid::diagnosis {
+
+struct LoopState {
+  /// Refers to all but the log.
+  LoopState(const Robot& robot, const Recording& log, const Recording* reference,
+            const LoopSettings& settings);
+
+  const Robot& robot;
+  Recording log;
+  const Recording* reference;
+  const LoopSettings& settings;
+  Eigen::VectorXd centre;  ///< of the prior, 10 links
+  Term masses;             ///< columns of the free links
+  TallyOptions tally_options;
+  RichModel rigid;  ///< masses alone, as fitted before anything was sought
+  LoopResult result;
+
+  /// Sums of the hypotheses and of modulations of these, beside the present model. Throws Refusal
+  /// "too-short".
+  [[nodiscard]] BlockFits tallied(const std::vector<AppliedEffect>& hypotheses,
+                                  const std::vector<Modulation>& modulations = {});
+  /// What a model leaves of the log.
+  [[nodiscard]] Series left_by(const RichModel& model) const;
+  /// The model's effects from what was found; transformations are kept within their limits.
+  void collect_effects();
+  /// From a fit whose first term is the masses.
+  void set_masses(const Fit& fit);
+
+  /// Whether it was found as something that the reference log has not.
+  [[nodiscard]] bool came_since(const AppliedEffect& effect) const;
+  [[nodiscard]] bool is_applied_transformation(const AppliedEffect& effect) const;
+  /// Masses and the changes of transformations that are applied already: fitted along always.
+  [[nodiscard]] Term always(const Tally& tally) const;
+  /// always(), and those of the first `effects` hypotheses of a tally, the present effects, that
+  /// are columns.
+  [[nodiscard]] std::vector<Term> terms_of_model(const BlockFits& fits, std::size_t effects) const;
+  /// Held-out error of the present effects, linear numbers refitted.
+  [[nodiscard]] Eigen::VectorXd held_out_of_model();
+};
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,89 @@
+// Causes without a name that several names, or one that only resembles them, could be put together
+// for; and what asks a name for more evidence.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapeid/diagnosis/constancy.hpp"
+#include "shapeid/diagnosis/placebo.hpp"
+#include "shapeid/diagnosis/series.hpp"
+#include "shapeid/diagnosis/strangers.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::arm;
+using test::effect;
+using test::loop_of;
+using test::record;
+
+using Joints = std::vector<bool>;
+
+void change_each(std::vector<Sample>& samples, void (*change)(Sample&)) {
+  for (Sample& s : samples) change(s);
+}
+
+/// An encoder ahead of its joint by what the gear yields: gains, lengths and offsets of several
+/// joints together do what this one law does.
+TEST(Unnamed, ElasticGearIsNotSeveralNames) {
+  const LoopResult result = loop_of(record({}, [](std::vector<Sample>& samples) {
+    change_each(samples, [](Sample& s) { s.q[1] += 0.003 * s.tau[1]; });
+  }));
+  for (const Found& f : result.found) EXPECT_FALSE(f.name_stands()) << f.id;
+  ASSERT_FALSE(result.strangers.empty());
+  EXPECT_EQ(result.strangers.front().carrier.effect->id, "encoder_offset");
+  EXPECT_EQ(result.strangers.front().law.signal, Signal::load);
+}
+
+/// A ripple in proportion to the load is none of the position alone, and none of the load alone.
+TEST(Unnamed, EccentricGearIsNoRippleAndNoGain) {
+  const LoopResult result = loop_of(record({}, [](std::vector<Sample>& samples) {
+    change_each(samples, [](Sample& s) { s.tau[1] *= 1.0 + 0.03 * std::sin(9.0 * s.q[1] + 0.7); });
+  }));
+  for (const Found& f : result.found) EXPECT_FALSE(f.name_stands()) << f.id;
+  ASSERT_FALSE(result.strangers.empty());
+  const Stranger& law = result.strangers.front();
+  EXPECT_EQ(law.carrier.effect->id, "cogging");
+  EXPECT_EQ(law.law.signal, Signal::load);
+  EXPECT_EQ(law.law.joint, 1);
+  constexpr double resolved = 0.5;  // 1/rad: a quarter of a period over the joint's range
+  EXPECT_LT(std::abs(law.carrier.shape[0] - 9.0), resolved);
+}
+
+TEST(Unnamed, RippleThatIsThereKeepsItsName) {
+  const LoopResult result = loop_of(record({{effect("cogging", 1, {0.08, 0.06})}}));
+  ASSERT_EQ(result.found.size(), 1U);
+  EXPECT_EQ(result.found[0].id, "cogging@joint2");
+  EXPECT_TRUE(result.found[0].name_stands());
+}
+
+TEST(RipplePlacebos, AreOverThePositionOfEveryOtherJoint) {
+  const Robot robot = arm();
+  const Recording log = record({}, [](std::vector<Sample>& samples) {
+    change_each(samples, [](Sample& s) { s.tau[1] += 0.3 * std::cos(20.0 * s.q[2]); });
+  });
+  const RichModel model{stacked_parameters(robot), {}};
+  const Series left = series(robot, reference::ContactTreatment::ignore, model, log, 2);
+  const auto list = ripple_placebos(robot, log, left, 1);
+  ASSERT_EQ(list.size(), 2U);
+  for (const AppliedEffect& a : list) EXPECT_EQ(joint_of_placebo(robot, a), 1);
+  // The period of what joint 3 leaves in the row of joint 2 is found.
+  constexpr double resolved = 0.5;
+  EXPECT_TRUE(std::any_of(list.begin(), list.end(), [&](const AppliedEffect& a) {
+    return std::abs(a.shape[0] - 20.0) < resolved;
+  }));
+}
+
+TEST(Reach, IsWhereAnEffectChangesTorque) {
+  const Robot robot = arm();
+  EXPECT_EQ(reach_of(robot, effect("viscous_friction", 1, {0.1})), (Joints{false, true, false}));
+  EXPECT_EQ(reach_of(robot, effect("torque_gain", 2, {0.1})), (Joints{false, false, true}));
+  EXPECT_EQ(reach_of(robot, effect("drag", 2, {1.0})), (Joints{true, true, false}));
+  EXPECT_EQ(reach_of(robot, effect("encoder_offset", 0, {0.1})), (Joints{true, true, true}));
+  EXPECT_EQ(reach_of(robot, effect("torque_delay", 0, {0.01})), (Joints{true, true, true}));
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
