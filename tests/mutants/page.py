@@ -62,6 +62,12 @@ def survivors(root, alive, explained):
     return "\n".join(rows)
 
 
+def argued_equal(root, alive, explained):
+    """How many survivors are argued to be equivalent."""
+    return sum(explained.get((place.file, source_line(root, place), place.says), ("?",))[0] == "equivalent"
+               for place, _ in alive)
+
+
 def fresh_section(root, fresh, explained, options):
     """What the second sample says, or that there is none."""
     if not fresh:
@@ -71,9 +77,11 @@ def fresh_section(root, fresh, explained, options):
     asked = "all were asked about" if len(fresh) == options.drawn else (
         f"{len(fresh)} of these were asked about, in the order of their lots")
     seen = options.fresh - options.drawn
+    equal = argued_equal(root, alive, explained)
     return (f"Seed {options.fresh_seed}, {options.fresh} places; {seen} of them stood in earlier second samples and "
             f"are left out; {asked}. **{share(len(fresh) - len(alive), len(fresh))} died**, {checked} of "
-            f"them through a contract or a bound.\n\n{table('folder', sample.folder, fresh)}\n\n"
+            f"them through a contract or a bound; without the {equal} that are argued to be equivalent "
+            f"{share(len(fresh) - len(alive), len(fresh) - equal)}.\n\n{table('folder', sample.folder, fresh)}\n\n"
             f"Its survivors:\n\n{survivors(root, alive, explained)}")
 
 
@@ -81,17 +89,14 @@ def written(judged, fresh, places, root, options, commit, tests, failing):
     explained = reasons()
     alive = [(p, v) for p, v in judged if v["verdict"] != "killed"]
     dead = len(judged) - len(alive)
-
-    def is_equal(place):
-        return explained.get((place.file, source_line(root, place), place.says), ("?",))[0] == "equivalent"
-
-    equal = sum(is_equal(p) for p, _ in alive)
+    equal = argued_equal(root, alive, explained)
     killed = [v for _, v in judged if v["verdict"] == "killed"]
     ways = collections.Counter(v["how"].split()[0] for v in killed)
     text = (HERE / "page.md.in").read_text()
     values = {
         "command": f"./run mutants --count {options.count} --seed {options.seed} --budget {options.budget:g}" +
-                   (f" --fresh {options.fresh} --fresh-seed {options.fresh_seed}" if options.fresh else ""),
+                   (f" --fresh {options.fresh} --fresh-seed {options.fresh_seed} --seen "
+                    f"{' '.join(map(str, options.seen))}" if options.fresh else ""),
         "commit": commit,
         "places": f"{len(places):,}", "count": str(len(judged)), "tests": f"{len(tests):,}",
         "failing": ", ".join(failing) or "none",
