@@ -191,11 +191,11 @@ TEST(InertiaLint, RoundingIsThatOfEachMoment) {
   }
 }
 
-// Blanks beside a number are no digits.
+// Blanks beside a number are no digits: 0.00005 and as much again explain 0.00008.
 TEST(InertiaLint, BlanksAreNoDigits) {
   const std::string text =
       "<link name=\"arm\"><inertial><mass value=\"1\"/><inertia ixx=\"0.0123  \" ixy=\"0\" "
-      "ixz=\"0\" iyy=\"0.0045\" iyz=\"0\" izz=\"0.0169\"/></inertial></link>";
+      "ixz=\"0\" iyy=\"0.0045\" iyz=\"0\" izz=\"0.01688\"/></inertial></link>";
   EXPECT_TRUE(names(only(text), "rounded"));
 }
 
