@@ -217,8 +217,9 @@ TEST(CInterface, PassesMeasuredForces) {
   same.expected_mass = 6.0;
   std::vector<Sample> samples = trot_of(60);
   for (std::size_t k = 1; k < samples.size(); ++k) {  // the first has none and is declined
-    for (int c = 0; c < 4; ++c) {
-      samples[k].contact_force.emplace_back(0.1 * c, -1.0, samples[k].in_contact[c] ? 60.0 : 0.0);
+    for (std::size_t c = 0; c < 4; ++c) {
+      samples[k].contact_force.emplace_back(0.1 * static_cast<double>(c), -1.0,
+                                            samples[k].in_contact[c] ? 60.0 : 0.0);
     }
   }
   compare(settings, same, samples, 3);
