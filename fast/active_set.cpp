@@ -51,7 +51,6 @@ ActiveSet::ActiveSet(ShapeColumns& columns, const Eigen::VectorXd& V)
       Phi_(Eigen::VectorXd::Zero(Eigen::Index{10} * columns.links())),
       r_(Phi_),
       slopes_(Phi_),
-      sizes_(Phi_),
       saved_Phi_(Phi_),
       saved_slopes_(Phi_) {
   rows_.lengths = other_rows_.lengths = Phi_;
@@ -59,6 +58,7 @@ ActiveSet::ActiveSet(ShapeColumns& columns, const Eigen::VectorXd& V)
   const auto room = static_cast<std::size_t>(columns.capacity());
   passive_.reserve(room);
   masses_.reserve(room);
+  stiffness_.reserve(room);
   tried_.reserve(room);
   refused_.reserve(room);
   saved_.reserve(room);
@@ -69,6 +69,7 @@ void ActiveSet::use(PassiveSet& set, double lambda) noexcept {
   if (set_ != &set) started_ = false;
   set_ = &set;
   lambda_ = lambda;
+  evaluated_ = false;
 }
 
 bool ActiveSet::take(const Eigen::MatrixXd& R) noexcept {
@@ -86,12 +87,14 @@ void ActiveSet::take_back() noexcept {
   std::swap(rows_.length, other_rows_.length);
   columns_->set_scale(rows_.lengths, rows_.length);
   started_ = false;
+  evaluated_ = false;
 }
 
 void ActiveSet::clear() noexcept {
   passive_.clear();
   masses_.clear();
   started_ = false;
+  evaluated_ = false;
 }
 
 void ActiveSet::start_at(int j, double mass) noexcept {
@@ -103,6 +106,7 @@ void ActiveSet::start_at(int j, double mass) noexcept {
     masses_[static_cast<std::size_t>(place - passive_.begin())] = mass;
   }
   started_ = false;
+  evaluated_ = false;
 }
 
 void ActiveSet::start() noexcept {
@@ -140,6 +144,8 @@ Outcome ActiveSet::run() noexcept {
 bool ActiveSet::damp(ColumnSet& set, double lambda) noexcept {
   if (!is_at_a_vertex() || !tells_apart(set)) return false;
   lambda_ = lambda;
+  for (std::size_t i = 0; i < passive_.size(); ++i) stiffness_[i] = lambda / (*V_)[passive_[i]];
+  evaluated_ = false;
   tried_ = masses_;
   evaluate();
   bool is_positive = true;
@@ -149,6 +155,7 @@ bool ActiveSet::damp(ColumnSet& set, double lambda) noexcept {
   }
   if (is_positive && largest_slope() <= refined_slope && is_at_a_vertex()) return true;
   masses_ = tried_;
+  evaluated_ = false;
   return false;
 }
 
@@ -174,13 +181,29 @@ bool ActiveSet::tells_apart(ColumnSet& set) noexcept {
   return n == 0 || coefficients_.head(n).lpNorm<Eigen::Infinity>() <= told_apart * all;
 }
 
+/// use(place, -1/2 df/dm) for every passive shape. Shapes of a link often stand together: its
+/// slopes are fetched once for them.
+template <typename Use>
+void ActiveSet::for_each_slope(Use use) const noexcept {
+  ShapeColumns::Column g = ShapeColumns::Column::Zero();
+  int link = -1;
+  for (std::size_t i = 0; i < passive_.size(); ++i) {
+    const int j = passive_[i];
+    if (columns_->link(j) != link) {
+      link = columns_->link(j);
+      g = slopes_.segment<10>(Eigen::Index{10} * link);
+    }
+    use(i, columns_->column(j).dot(g) - stiffness_[i] * masses_[i]);
+  }
+}
+
 /// One step of refinement of the masses; whether all stay positive.
 bool ActiveSet::correct(ColumnSet& set) noexcept {
   ++iterations_;
-  for (std::size_t i = 0; i < masses_.size(); ++i) {
-    coefficients_[static_cast<Eigen::Index>(i)] = slope_of(i);
-  }
+  for_each_slope(
+      [this](std::size_t i, double slope) { coefficients_[static_cast<Eigen::Index>(i)] = slope; });
   set.solve_normal(coefficients_);
+  evaluated_ = false;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < masses_.size(); ++i) {
     masses_[i] += coefficients_[static_cast<Eigen::Index>(i)];
@@ -223,6 +246,8 @@ void ActiveSet::factorise() noexcept {
   for (std::size_t i = 0; i < passive_.size(); ++i) entering_.push_back({passive_[i], masses_[i]});
   passive_.clear();
   masses_.clear();
+  stiffness_.clear();
+  evaluated_ = false;
   // Link by link: columns of the first links are short, and stay so if no long one came before.
   if (columns_->links() > 1) {
     std::sort(entering_.begin(), entering_.end(), [this](const ShapeMass& a, const ShapeMass& b) {
@@ -236,7 +261,10 @@ void ActiveSet::factorise() noexcept {
 void ActiveSet::add(int j, double mass) noexcept {
   passive_.push_back(j);
   masses_.push_back(mass);
+  stiffness_.push_back(lambda_ / (*V_)[j]);
   columns_->bar(j, true);
+  judged_ = false;
+  if (mass != 0.0) evaluated_ = false;
 }
 
 // A column that depends on the passive ones: its mass moves over to them, with R U m as it is,
@@ -257,6 +285,7 @@ void ActiveSet::enter_with_mass(int j, double mass) noexcept {
     for (std::size_t i = 0; i < passive_.size(); ++i) {
       masses_[i] += moved * coefficients_[static_cast<Eigen::Index>(i)];
     }
+    evaluated_ = false;
     if (leaving < 0) return;
     mass -= moved;
     leave(leaving);
@@ -267,8 +296,11 @@ void ActiveSet::enter_with_mass(int j, double mass) noexcept {
 void ActiveSet::leave(int place) noexcept {
   const int j = passive_[static_cast<std::size_t>(place)];
   columns_->bar(j, false);
+  judged_ = false;
+  if (masses_[static_cast<std::size_t>(place)] != 0.0) evaluated_ = false;
   passive_.erase(passive_.begin() + place);
   masses_.erase(masses_.begin() + place);
+  stiffness_.erase(stiffness_.begin() + place);
   set_->leave(place);
 }
 
@@ -288,10 +320,12 @@ bool ActiveSet::step_is_blocked() noexcept {
     }
   }
   if (blocking < 0) {
+    if (!std::equal(masses_.begin(), masses_.end(), target.data())) evaluated_ = false;
     std::copy_n(target.data(), masses_.size(), masses_.data());
     return false;
   }
   if (lambda_ > 0.0 && may_cut_off(target)) return true;
+  evaluated_ = false;
   for (std::size_t i = 0; i < masses_.size(); ++i) {
     masses_[i] += length * (target[static_cast<Eigen::Index>(i)] - masses_[i]);
   }
@@ -315,25 +349,27 @@ bool ActiveSet::may_cut_off(const Eigen::VectorXd& target) noexcept {
   for (std::size_t i = 0; i < masses_.size(); ++i) {
     masses_[i] = std::max(target[static_cast<Eigen::Index>(i)], 0.0);
   }
+  evaluated_ = false;
   evaluate();
   if (value_.total() < before) {
     leave_without_mass();
     return true;
   }
   masses_ = tried_;
+  evaluated_ = false;
   return false;
 }
 
 const std::vector<int>& ActiveSet::entering_shapes() noexcept {
   if (!set_->keeps_slopes()) evaluate();
   const Eigen::VectorXd& slopes = set_->slopes(slopes_);
-  if (columns_->steepest(slopes, smallest_slope) < 0 && lambda_ > 0.0) {
+  if (lambda_ > 0.0) {
     // Slopes of the size of lambda decide how mass spreads among shapes that the data do not tell
     // apart: judged against each other.
-    sizes_ = slopes.cwiseAbs();
-    columns_->set_scale(sizes_, 1.0);
-    static_cast<void>(columns_->steepest(slopes, smallest_damped_slope));
-    columns_->set_scale(rows_.lengths, rows_.length);
+    static_cast<void>(
+        columns_->steepest_or_by_terms(slopes, smallest_slope, smallest_damped_slope));
+  } else {
+    static_cast<void>(columns_->steepest(slopes, smallest_slope));
   }
   // A damped system has as many unknowns however many shapes enter.
   using Among = ShapeColumns::Among;
@@ -435,13 +471,25 @@ Outcome ActiveSet::iterate() noexcept {
 
 // From the masses alone, so that no error of the factorisation's updates is in it.
 void ActiveSet::evaluate() noexcept {
+  if (evaluated_) return;
+  evaluated_ = true;
+  judged_ = false;
   Phi_.setZero();
   value_.density = 0.0;
+  // Of shapes one after the other on a link, in registers.
+  ShapeColumns::Column sum = ShapeColumns::Column::Zero();
+  int link = 0;
   for (std::size_t i = 0; i < passive_.size(); ++i) {
     const int j = passive_[i];
-    Phi_.segment<10>(Eigen::Index{10} * columns_->link(j)) += masses_[i] * columns_->column(j);
-    value_.density += lambda_ * masses_[i] * masses_[i] / (*V_)[j];
+    if (columns_->link(j) != link) {
+      Phi_.segment<10>(Eigen::Index{10} * link) += sum;
+      sum.setZero();
+      link = columns_->link(j);
+    }
+    sum += masses_[i] * columns_->column(j);
+    value_.density += stiffness_[i] * masses_[i] * masses_[i];
   }
+  if (columns_->links() > 0) Phi_.segment<10>(Eigen::Index{10} * link) += sum;
   r_ = right_hand_side(*rows_.R);
   for (int l = 0; l < columns_->links(); ++l) {
     const ShapeColumns::Column minus = -Phi_.segment<10>(Eigen::Index{10} * l);
@@ -452,20 +500,15 @@ void ActiveSet::evaluate() noexcept {
   slopes_of(*rows_.R, r_, slopes_);
 }
 
-/// -1/2 df/dm of the passive shape at this place.
-double ActiveSet::slope_of(std::size_t place) const noexcept {
-  const int j = passive_[place];
-  return columns_->column(j).dot(slopes_.segment<10>(Eigen::Index{10} * columns_->link(j))) -
-         lambda_ * masses_[place] / (*V_)[j];
-}
-
 /// Of the passive shapes, whose slopes should be zero; over their terms.
-double ActiveSet::largest_slope() const noexcept {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < passive_.size(); ++i) {
-    largest = std::max(largest, columns_->price(passive_[i], std::abs(slope_of(i))));
-  }
-  return largest;
+double ActiveSet::largest_slope() noexcept {
+  if (judged_) return largest_slope_;
+  judged_ = true;
+  largest_slope_ = 0.0;
+  for_each_slope([this](std::size_t i, double slope) {
+    largest_slope_ = std::max(largest_slope_, columns_->price(passive_[i], std::abs(slope)));
+  });
+  return largest_slope_;
 }
 
 bool ActiveSet::passes_check() noexcept {

@@ -109,12 +109,14 @@ class ActiveSet {
   void refuse_without_mass(std::size_t first) noexcept;
   void refuse(int j) noexcept;
   void admit_refused() noexcept;
+  /// Phi, slopes and value of the masses, unless they are there already.
   void evaluate() noexcept;
   /// Whether the rows determine the passive masses.
   [[nodiscard]] bool tells_apart(ColumnSet& set) noexcept;
   [[nodiscard]] bool correct(ColumnSet& set) noexcept;
-  [[nodiscard]] double slope_of(std::size_t place) const noexcept;
-  [[nodiscard]] double largest_slope() const noexcept;
+  template <typename Use>
+  void for_each_slope(Use use) const noexcept;
+  [[nodiscard]] double largest_slope() noexcept;
   [[nodiscard]] bool passes_check() noexcept;
 
   ShapeColumns* columns_;
@@ -125,11 +127,15 @@ class ActiveSet {
   Rows rows_, other_rows_;
   std::vector<int> passive_;
   std::vector<double> masses_;       ///< of the passive shapes
+  std::vector<double> stiffness_;    ///< lambda / V of the passive shapes, once started
   std::vector<double> tried_;        ///< masses to come back to
   std::vector<int> refused_;         ///< barred until the next step that is taken
   std::vector<ShapeMass> entering_;  ///< on their way into a fresh factorisation
-  Eigen::VectorXd coefficients_, Phi_, r_, slopes_, sizes_;
+  Eigen::VectorXd coefficients_, Phi_, r_, slopes_;
   Objective value_;
+  bool evaluated_ = false;      ///< Phi_, slopes_ and value_ are those of the masses
+  bool judged_ = false;         ///< largest_slope_ is that of the passive shapes at slopes_
+  double largest_slope_ = 0.0;  ///< over its terms
   int iterations_ = 0;
   std::vector<ShapeMass> saved_;
   Eigen::VectorXd saved_Phi_, saved_slopes_;

@@ -6,11 +6,25 @@
 namespace shapeid::fast {
 namespace {
 
-using Vector = Eigen::Map<Eigen::VectorXd>;
-using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+/// Vectors here are short: four numbers at a time, without a look at where they begin in memory.
+constexpr Eigen::Index together = 4;
+using Four = Eigen::Map<Eigen::Array<double, together, 1>>;
+using ConstFour = Eigen::Map<const Eigen::Array<double, together, 1>>;
 
 double dot(const double* a, const double* b, Eigen::Index n) noexcept {
-  return ConstVector(a, n).dot(ConstVector(b, n));
+  Eigen::Array<double, together, 1> sums = Eigen::Array<double, together, 1>::Zero();
+  Eigen::Index i = 0;
+  for (; i + together <= n; i += together) sums += ConstFour(a + i) * ConstFour(b + i);
+  double sum = sums.sum();
+  for (; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// y -= share x
+void take_away(double share, const double* x, double* y, Eigen::Index n) noexcept {
+  Eigen::Index i = 0;
+  for (; i + together <= n; i += together) Four(y + i) -= share * ConstFour(x + i);
+  for (; i < n; ++i) y[i] -= share * x[i];
 }
 
 }  // namespace
@@ -113,14 +127,13 @@ void ColumnQr::apply(const Reflection& r, double* x) const noexcept {
   double* y = x + r.first;
   const Eigen::Index n = r.end - r.first;
   const double share = r.scale * dot(v, y, n);
-  Vector(y, n).noalias() -= share * ConstVector(v, n);
+  take_away(share, v, y, n);
 }
 
 void ColumnQr::back_substitute(Eigen::VectorXd& x) const noexcept {
   for (Eigen::Index k = size_ - 1; k >= 0; --k) {
     x[k] /= T_(k, k);
-    const double* column = &T_(0, k);
-    x.head(k).noalias() -= x[k] * ConstVector(column, k);
+    take_away(x[k], &T_(0, k), x.data(), k);
   }
 }
 

@@ -175,7 +175,7 @@ void EvenDensity::rebuild(int link) noexcept {
 // own lengths, which would make a direction out of rounding where shapes lie symmetrically.
 void EvenDensity::reveal_rank(Density& density) noexcept {
   Square& T = density.T;
-  T = density.X.triangularView<Eigen::Upper>();
+  T = density.X;
   density.lengths = sizes_of(T.colwise().norm());
   for (int i = 0; i < 10; ++i) {
     T.col(i) /= density.lengths[i];
@@ -199,11 +199,12 @@ void EvenDensity::reveal_rank(Density& density) noexcept {
     std::swap(squares[k], squares[pivot]);
     std::swap(density.pivots[static_cast<std::size_t>(k)],
               density.pivots[static_cast<std::size_t>(pivot)]);
-    const double length = T.col(k).tail(10 - k).norm();
+    Ten v = T.col(k);
+    for (int i = 0; i < k; ++i) v[i] = 0.0;
+    const double length = v.norm();
     if (k == 0) smallest = smallest_pivot * length;
     if (!(length > smallest)) break;
-    Ten v = T.col(k);
-    v.head(k).setZero();
+    T.col(k) -= v;
     const double image = v[k] > 0.0 ? -length : length;
     v[k] -= image;
     const double scale = 1.0 / (length * std::abs(v[k]));
@@ -212,7 +213,6 @@ void EvenDensity::reveal_rank(Density& density) noexcept {
       T.col(i) -= share * v;
       squares[i] -= T(k, i) * T(k, i);
     }
-    T.col(k).tail(10 - k).setZero();
     T(k, k) = image;
     density.rank = k + 1;
     if (length > well_spread * std::abs(T(0, 0))) density.certain = k + 1;
@@ -329,10 +329,9 @@ void EvenDensity::refine(const Eigen::VectorXd& slopes) noexcept {
     const auto u = columns_->column(j);
     const double V = (*V_)[j];
     double& mass = target_[static_cast<Eigen::Index>(i)];
-    const double held = lambda_ * mass / V;
     const double rounding = u.cwiseAbs().dot(noise_.segment<10>(Eigen::Index{10} * link));
-    if (held > certainly_felt * rounding) {
-      const double slope = u.dot(slopes.segment<10>(Eigen::Index{10} * link)) - held;
+    if (lambda_ * mass > certainly_felt * rounding * V) {
+      const double slope = u.dot(slopes.segment<10>(Eigen::Index{10} * link)) - lambda_ * mass / V;
       const double lost = slope - u.dot(density.missing);
       const double more_rounding = few_roundings * u.cwiseAbs().dot(density.missing.cwiseAbs());
       if (std::abs(lost) > rounding + more_rounding) mass += V / lambda_ * lost;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 namespace shapeid::fast {
 namespace {
@@ -23,11 +24,29 @@ constexpr float smallest_scale = 1e-30F;
 constexpr float almost = 0.1F;
 
 using Prices = Eigen::Array<float, 16, 1>;
+using Ten = Eigen::Array<float, 10, 1>;
+
+/// u . g of sixteen shapes, in two sums, so that one addition need not wait for the other.
+Prices slopes_of(const Eigen::Array<float, 16, 10>& U, const Ten& g) noexcept {
+  Prices even = U.col(0) * g[0], odd = U.col(1) * g[1];
+  for (int i = 2; i < 10; i += 2) {
+    even += U.col(i) * g[i];
+    odd += U.col(i + 1) * g[i + 1];
+  }
+  return even + odd;
+}
 
 struct Best {
   float price;
   std::size_t lane;
 };
+
+/// 1 / sum_i |u_i| sizes_i of each of sixteen shapes.
+Prices inverse_sizes(const Eigen::Array<float, 16, 10>& U, const Ten& sizes) noexcept {
+  Prices sum = Prices::Constant(smallest_scale);
+  for (int i = 0; i < 10; ++i) sum += U.col(i).abs() * sizes[i];
+  return sum.inverse();
+}
 
 /// The largest price and its lane. The lane's number is written into the last four bits of its
 /// price, which single precision cannot vouch for anyway: then one maximum finds both.
@@ -54,6 +73,7 @@ ShapeColumns::ShapeColumns(int links, int most_shapes)
       lengths_(Eigen::VectorXd::Ones(Eigen::Index{10} * links)) {
   uncertain_.reserve(chunks_.size());
   best_.reserve(chunks_.size());
+  best_by_terms_.reserve(chunks_.size());
   steep_ones_.reserve(chunks_.size() + 1);
 }
 
@@ -96,25 +116,17 @@ void ShapeColumns::write(int j, const Column& u) noexcept {
   chunk.scale[slot.lane] = 1.0F / std::max(static_cast<float>(size), smallest_scale);
 }
 
-double ShapeColumns::price(int j, double slope) const noexcept {
-  const Slot& slot = slots_[static_cast<std::size_t>(j)];
-  const double scale = chunks_[static_cast<std::size_t>(slot.chunk)].scale[slot.lane];
-  return unit_ > 0.0 ? slope * scale / unit_ : slope;
-}
-
 void ShapeColumns::set_scale(const Eigen::VectorXd& lengths, double length) noexcept {
   const double largest = lengths.size() > 0 ? lengths.maxCoeff() : 0.0;
   lengths_ = lengths * (largest > 0.0 ? 1.0 / largest : 1.0);
   unit_ = largest * length;
+  inverse_unit_ = unit_ > 0.0 ? 1.0 / unit_ : 1.0;
   for (int c = 0; c < used_chunks_; ++c) set_scale(chunks_[static_cast<std::size_t>(c)]);
 }
 
 void ShapeColumns::set_scale(Chunk& chunk) noexcept {
-  const Eigen::Array<float, 10, 1> lengths =
-      lengths_.segment<10>(Eigen::Index{10} * chunk.link).cast<float>();
-  Prices size = Prices::Constant(smallest_scale);
-  for (int i = 0; i < 10; ++i) size += chunk.U.col(i).abs() * lengths[i];
-  chunk.scale = size.inverse();
+  chunk.scale = inverse_sizes(
+      chunk.U, lengths_.segment<10>(Eigen::Index{10} * chunk.link).cast<float>().array());
 }
 
 void ShapeColumns::bar(int j, bool is_barred) noexcept {
@@ -130,7 +142,6 @@ void ShapeColumns::unbar_all() noexcept {
 }
 
 int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept {
-  const double unit = unit_ > 0.0 ? 1.0 / unit_ : 1.0;
   steepest_ = -1;
   best_.clear();
   // As many passive shapes as rows: nothing is left to gain.
@@ -139,15 +150,8 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
   uncertain_.clear();
   for (int c = 0; c < used_chunks_; ++c) {
     const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-    const Eigen::Array<float, 10, 1> gl =
-        (unit * g.segment<10>(Eigen::Index{10} * chunk.link)).cast<float>();
-    // Two sums, so that one addition need not wait for the other.
-    Prices even = chunk.U.col(0) * gl[0], odd = chunk.U.col(1) * gl[1];
-    for (int i = 2; i < 10; i += 2) {
-      even += chunk.U.col(i) * gl[i];
-      odd += chunk.U.col(i + 1) * gl[i + 1];
-    }
-    const Best here = best_of((even + odd) * chunk.scale - chunk.barrier);
+    const Ten gl = (inverse_unit_ * g.segment<10>(Eigen::Index{10} * chunk.link)).cast<float>();
+    const Best here = best_of(slopes_of(chunk.U, gl) * chunk.scale - chunk.barrier);
     if (!(here.price <= no_price)) {
       // A float overflowed, and may stand above the barrier: double decides.
       uncertain_.push_back(c);
@@ -163,9 +167,56 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
   }
   if (steepest_ < 0 && !uncertain_.empty()) {
     best_.clear();
-    steepest_ = steepest_in_double(g, threshold);
+    steepest_ = steepest_in_double(g, threshold, Judged::by_lengths);
   }
   return steepest_;
+}
+
+// One way through the shapes for both prices. Single precision knows the sign of a slope to a share
+// of its own terms, so shapes whose slope is certainly negative by that are not asked in double,
+// however small the slope is by lengths.
+int ShapeColumns::steepest_or_by_terms(const Eigen::VectorXd& g, double threshold,
+                                       double threshold_by_terms) noexcept {
+  steepest_ = -1;
+  best_.clear();
+  best_by_terms_.clear();
+  uncertain_.clear();
+  const double largest = g.lpNorm<Eigen::Infinity>();
+  if (!(largest > 0.0)) return -1;
+  const auto by_length = static_cast<float>(largest * inverse_unit_);
+  float most = uncertain, most_by_terms = uncertain;
+  int steepest_by_terms = -1;
+  for (int c = 0; c < used_chunks_; ++c) {
+    const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+    const Ten gl = (g.segment<10>(Eigen::Index{10} * chunk.link) / largest).cast<float>();
+    const Prices slopes = slopes_of(chunk.U, gl);
+    const Best here = best_of(by_length * slopes * chunk.scale - chunk.barrier);
+    const Best terms = best_of(slopes * inverse_sizes(chunk.U, gl.abs()) - chunk.barrier);
+    if (!(here.price <= no_price && terms.price <= no_price)) {
+      uncertain_.push_back(c);
+      continue;
+    }
+    if (terms.price > -uncertain) uncertain_.push_back(c);
+    best_.push_back({chunk.shape[here.lane], here.price});
+    best_by_terms_.push_back({chunk.shape[terms.lane], terms.price});
+    if (here.price > most) {
+      most = here.price;
+      steepest_ = best_.back().shape;
+    }
+    if (terms.price > most_by_terms) {
+      most_by_terms = terms.price;
+      steepest_by_terms = best_by_terms_.back().shape;
+    }
+  }
+  if (steepest_ >= 0) return steepest_;
+  best_.clear();
+  steepest_ = steepest_in_double(g, threshold, Judged::by_lengths);
+  if (steepest_ >= 0) return steepest_;
+  if (steepest_by_terms >= 0) {
+    best_.swap(best_by_terms_);
+    return steepest_ = steepest_by_terms;
+  }
+  return steepest_ = steepest_in_double(g, threshold_by_terms, Judged::by_terms);
 }
 
 const std::vector<int>& ShapeColumns::steep_ones(Among among) noexcept {
@@ -185,7 +236,8 @@ const std::vector<int>& ShapeColumns::steep_ones(Among among) noexcept {
   return steep_ones_;
 }
 
-int ShapeColumns::steepest_in_double(const Eigen::VectorXd& g, double threshold) const noexcept {
+int ShapeColumns::steepest_in_double(const Eigen::VectorXd& g, double threshold,
+                                     Judged judged) const noexcept {
   int best = -1;
   double most = threshold;
   for (const int c : uncertain_) {
@@ -193,9 +245,14 @@ int ShapeColumns::steepest_in_double(const Eigen::VectorXd& g, double threshold)
     for (int lane = 0; lane < chunk.used; ++lane) {
       if (chunk.barrier[lane] > 0.0F) continue;
       const int j = chunk.shape[static_cast<std::size_t>(lane)];
-      const double slope = columns_.col(j).dot(g.segment<10>(Eigen::Index{10} * chunk.link));
-      if (price(j, slope) > most) {
-        most = price(j, slope);
+      const auto gl = g.segment<10>(Eigen::Index{10} * chunk.link);
+      const double slope = columns_.col(j).dot(gl);
+      const double here = judged == Judged::by_terms
+                              ? slope / std::max(columns_.col(j).cwiseAbs().dot(gl.cwiseAbs()),
+                                                 std::numeric_limits<double>::min())
+                              : price(j, slope);
+      if (here > most) {
+        most = here;
         best = j;
       }
     }

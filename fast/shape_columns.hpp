@@ -38,13 +38,22 @@ class ShapeColumns {
   /// length is larger than length x sum_i |u_ij| lengths_i.
   void set_scale(const Eigen::VectorXd& lengths, double length) noexcept;
   /// A slope of shape j over that bound: free of units, to single precision.
-  [[nodiscard]] double price(int j, double slope) const noexcept;
+  [[nodiscard]] double price(int j, double slope) const noexcept {
+    const Slot& slot = slots_[static_cast<std::size_t>(j)];
+    const double scale = chunks_[static_cast<std::size_t>(slot.chunk)].scale[slot.lane];
+    return unit_ > 0.0 ? slope * scale * inverse_unit_ : slope;
+  }
 
   /// The shape of the largest price, if it exceeds `threshold`; of those that are not barred. -1 if
   /// there is none. `g`: 10 links entries. All shapes are priced in single precision; double
   /// decides where single cannot.
   [[nodiscard]] int steepest(const Eigen::VectorXd& g, double threshold) noexcept;
-  /// After steepest(): that shape, then steep ones of other links, or of other groups of sixteen,
+  /// The same; but if there is none, that of the largest price by its own terms, its slope over
+  /// sum_i |u_ij g_i|, if it exceeds `threshold_by_terms`. For slopes that are all small beside
+  /// what set_scale() judges by. Thresholds: zero or positive.
+  [[nodiscard]] int steepest_or_by_terms(const Eigen::VectorXd& g, double threshold,
+                                         double threshold_by_terms) noexcept;
+  /// After either: that shape, then steep ones of other links, or of other groups of sixteen,
   /// with prices almost as large. Single precision decides; where it could not, the steepest stands
   /// alone.
   enum class Among { links, groups };
@@ -74,9 +83,11 @@ class ShapeColumns {
     float price;
   };
 
+  enum class Judged { by_lengths, by_terms };
   void write(int j, const Column& u) noexcept;
   void set_scale(Chunk& chunk) noexcept;
-  [[nodiscard]] int steepest_in_double(const Eigen::VectorXd& g, double threshold) const noexcept;
+  [[nodiscard]] int steepest_in_double(const Eigen::VectorXd& g, double threshold,
+                                       Judged judged) const noexcept;
 
   int size_ = 0;
   int used_chunks_ = 0;
@@ -86,11 +97,13 @@ class ShapeColumns {
   Eigen::Matrix<double, 10, Eigen::Dynamic> columns_;  ///< in double, one behind the other
   std::vector<int> last_of_link_;  ///< the chunk that a link's next shape goes to, or -1
   std::vector<Priced> best_;       ///< of every chunk, at the last steepest()
-  int steepest_ = -1;              ///< at the last steepest()
+  std::vector<Priced> best_by_terms_;
+  int steepest_ = -1;  ///< at the last steepest()
   std::vector<int> steep_ones_;
   std::vector<int> uncertain_;  ///< chunks that single precision cannot decide
   Eigen::VectorXd lengths_;     ///< relative to the largest, so that single precision holds them
   double unit_ = 1.0;           ///< the largest length x that of the right-hand side
+  double inverse_unit_ = 1.0;   ///< if it is positive
 };
 
 }  // namespace shapeid::fast

@@ -50,6 +50,14 @@ struct Market {
     return most > 0.0 ? columns[at].dot(g.segment<10>(first)) / most : 0.0;
   }
 
+  /// The slope over the sum of its own terms.
+  [[nodiscard]] double price_by_terms(int j) const {
+    const auto at = static_cast<std::size_t>(j);
+    const auto gl = g.segment<10>(Index{10} * link_of[at]);
+    const double most = columns[at].cwiseAbs().dot(gl.cwiseAbs());
+    return most > 0.0 ? columns[at].dot(gl) / most : 0.0;
+  }
+
   [[nodiscard]] int steepest() const {
     int best = -1;
     for (int j = 0; j < static_cast<int>(columns.size()); ++j) {
@@ -170,6 +178,34 @@ RC_GTEST_PROP(ShapeColumns, ReplacedColumnsArePricedAnew, ()) {
   ShapeColumns fresh = market.stored();
   RC_ASSERT(stored.steepest(market.g, 1e-14) == fresh.steepest(market.g, 1e-14));
   for (int j = 0; j < stored.size(); ++j) RC_ASSERT(stored.column(j) == fresh.column(j));
+}
+
+// Slopes of any size below what single precision sees by lengths: by their own terms the steepest
+// is found to single precision all the same, unless one is above the threshold by lengths.
+RC_GTEST_PROP(ShapeColumns, SmallSlopesAreJudgedByTheirOwnTerms, ()) {
+  constexpr double by_lengths = 1e-14, by_terms = 1e-12;
+  const Market market = any_market(std::pow(10.0, *rc::gen::element(-20, -15, -12, -8, -3, 0)));
+  ShapeColumns stored = market.stored();
+  const int chosen = stored.steepest_or_by_terms(market.g, by_lengths, by_terms);
+  ShapeColumns fresh = market.stored();
+  const int steepest = fresh.steepest(market.g, by_lengths);
+  if (steepest >= 0 && market.price(steepest) > single_rounding + lane_bits) {
+    RC_ASSERT(chosen >= 0);
+    RC_ASSERT(market.price(chosen) >= (1.0 - lane_bits) * market.price(steepest) - single_rounding);
+    return;
+  }
+  double most = 0.0;
+  for (int j = 0; j < static_cast<int>(market.columns.size()); ++j) {
+    if (!market.barred[static_cast<std::size_t>(j)])
+      most = std::max(most, market.price_by_terms(j));
+  }
+  if (chosen < 0) {
+    RC_ASSERT(most <= by_terms);
+  } else if (market.price(chosen) <= by_lengths) {
+    RC_ASSERT(market.price_by_terms(chosen) > 0.0);
+    RC_ASSERT(market.price_by_terms(chosen) >= (1.0 - lane_bits) * most - single_rounding);
+  }
+  RC_ASSERT(stored.steep_ones(ShapeColumns::Among::groups).empty() == (chosen < 0));
 }
 
 TEST(ShapeColumns, RoomIsForAllShapesOnAnyLinks) {
