@@ -55,6 +55,7 @@ diagnosis::LoopSettings settings_for(const RobotInputs& inputs, const DiagnoseOp
   settings.expected_mass = expected_mass(options, robot, settings.shapes);
   settings.weight = weight(inputs);
   settings.rule = options.rule;
+  settings.log_starts = log.starts;
   settings.size = Eigen::VectorXd::Ones(Eigen::Index{10} * robot.link_count());
   const auto& links = settings.shapes.free_links;
   if (!links.empty()) {

@@ -56,6 +56,7 @@ RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotIn
       throw InputError({paths[k]}, "has other columns than " + paths.front(),
                        "logs with the same columns");
     }
+    if (!more.recording.samples().empty() && !samples.empty()) all.starts.push_back(samples.size());
     double shift = 0.0;
     if (!shifts.empty()) {
       shift = shifts[k];

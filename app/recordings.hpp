@@ -14,7 +14,8 @@ struct RecordedLog {
   diagnosis::Recording recording;
   MotionReport motion;
   reference::ContactTreatment contacts;
-  std::vector<double> shifts;  ///< s that each of several logs was moved by
+  std::vector<double> shifts = {};       ///< s that each of several logs was moved by
+  std::vector<std::size_t> starts = {};  ///< samples at which further logs begin
 };
 
 /// The log, or one part of it.

@@ -117,19 +117,22 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
     const Effect& always = *find_effect("payload");
     const Effect& later = *find_effect("payload_from");
     if (!always.applies(robot, link)) continue;
+    const auto add = [&](const Candidate& c) {
+      if (!rule.excluded(c.effect)) list.push_back(c);
+    };
     const bool is_free = std::count(rule.free_links.begin(), rule.free_links.end(), link) > 0;
     if (rule.has_reference) {
       Candidate c = payload_candidate(robot, always, link, first, 0.0);
       c.since_reference = true;
-      list.push_back(c);
+      add(c);
     } else if (!is_free) {
-      list.push_back(payload_candidate(robot, always, link, 0, 0.0));
+      add(payload_candidate(robot, always, link, 0, 0.0));
     }
     constexpr std::size_t onsets = 9;
     for (std::size_t i = 1; i < onsets; ++i) {
       const std::size_t block = first + i * blocks / onsets;
       if (block == first) continue;
-      list.push_back(payload_candidate(robot, later, link, block, tally.blocks[block].from));
+      add(payload_candidate(robot, later, link, block, tally.blocks[block].from));
     }
   }
   return list;

@@ -40,7 +40,7 @@ Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
 
 BlockFits::BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::VectorXd& size,
                      int folds)
-    : tally_(std::move(tally)), folds_(folds) {
+    : tally_(std::move(tally)) {
   const Eigen::Index p = tally_.columns();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(p);
   x.head(tally_.inertial) = given;
@@ -73,14 +73,29 @@ BlockFits::BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::Vec
     }
   }
   precision_ = sizes.cwiseProduct(scale_).cwiseAbs2().cwiseInverse();
-  folds_ = std::clamp(folds_, 2, std::max(2, static_cast<int>(held_blocks())));
+  assign_folds(folds);
 }
 
-int BlockFits::fold_of(std::size_t block) const {
-  if (block < first_block_) return -1;
-  return static_cast<int>((block - first_block_) * static_cast<std::size_t>(folds_) /
-                          static_cast<std::size_t>(held_blocks()));
+void BlockFits::assign_folds(int stretches) {
+  fold_.assign(tally_.blocks.size(), -1);
+  // What differs from run to run, as warmth does, would be known to a fit that lacks a stretch of
+  // one alone.
+  constexpr int enough_logs = 3;
+  int logs = 0;
+  for (std::size_t b = first_block_; b < fold_.size(); ++b) {
+    if (b == first_block_ || tally_.blocks[b].log != tally_.blocks[b - 1].log) ++logs;
+    fold_[b] = logs - 1;
+  }
+  folds_ = logs;
+  if (logs >= enough_logs) return;
+  folds_ = std::clamp(stretches, 2, std::max(2, static_cast<int>(held_blocks())));
+  for (std::size_t b = first_block_; b < fold_.size(); ++b) {
+    fold_[b] = static_cast<int>((b - first_block_) * static_cast<std::size_t>(folds_) /
+                                static_cast<std::size_t>(held_blocks()));
+  }
 }
+
+int BlockFits::fold_of(std::size_t block) const { return fold_[block]; }
 
 const Eigen::MatrixXd& BlockFits::sums(int left_out, std::size_t from) const {
   auto [place, is_new] = cache_.try_emplace({left_out, from});

@@ -45,7 +45,8 @@ struct Gain {
 class BlockFits {
  public:
   /// Unknown inertial parameters are deviations from `given` (10 links), with a prior of zero mean
-  /// and standard deviation `size` / sqrt(prior). Blocks are held out in `folds` contiguous groups.
+  /// and standard deviation `size` / sqrt(prior). Blocks are held out in `folds` contiguous groups;
+  /// of three logs and more, in these.
   BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::VectorXd& size, int folds);
 
   void set_prior(double prior) { prior_ = prior; }
@@ -85,6 +86,7 @@ class BlockFits {
   };
   [[nodiscard]] static Columns listed(const std::vector<Term>& terms);
   [[nodiscard]] const Eigen::MatrixXd& sums(int left_out, std::size_t from) const;
+  void assign_folds(int stretches);
   [[nodiscard]] int fold_of(std::size_t block) const;
   /// Normal matrix between two lists of columns over the blocks outside of a fold (-1: all in).
   [[nodiscard]] Eigen::MatrixXd normal(const Columns& a, const Columns& b, int left_out) const;
@@ -100,7 +102,8 @@ class BlockFits {
   Eigen::VectorXd scale_;      ///< columns are divided by it
   Eigen::VectorXd precision_;  ///< of a prior of one, in scaled units
   double prior_ = 1.0;
-  int folds_;
+  int folds_ = 2;
+  std::vector<int> fold_;  ///< of each block; -1: never held out
   std::size_t first_block_ = 0;
   mutable std::map<std::pair<int, std::size_t>, Eigen::MatrixXd> cache_;
 };

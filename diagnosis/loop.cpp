@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/filter_error.hpp"
@@ -29,21 +30,10 @@ class Loop {
 
   LoopResult run() {
     fit_masses();
-    for (round_ = 0; round_ < state_.settings.rounds; ++round_) {
-      const std::vector<std::string> before = ids();
-      correct();
-      reweigh();
-      auto start = std::chrono::steady_clock::now();
-      screen();
-      result_.screening_seconds += seconds_since(start);
-      start = std::chrono::steady_clock::now();
-      refit();
-      prune_transformations();
-      result_.refit_seconds += seconds_since(start);
-      if (round_ > 0 && ids() == before) break;
-    }
-    try_large_transformation();
-    question_names(state_);
+    do {
+      seek();
+      question_names(state_);
+    } while (ban_mere_moments());
     return std::move(result_);
   }
 
@@ -62,13 +52,62 @@ class Loop {
     state_.rigid = result_.model;
   }
 
+  /// Effects, until nothing changes. Weights follow from the effects and effects from the weights,
+  /// which need not come to an end: then that of all rounds counts that predicts best.
+  void seek() {
+    std::vector<LoopResult> rounds;
+    for (round_ = 0; round_ < state_.settings.rounds; ++round_) {
+      const std::vector<std::string> before = ids();
+      correct();
+      reweigh();
+      auto start = std::chrono::steady_clock::now();
+      screen();
+      result_.screening_seconds += seconds_since(start);
+      start = std::chrono::steady_clock::now();
+      refit();
+      prune_transformations();
+      result_.refit_seconds += seconds_since(start);
+      if (round_ > 0 && ids() == before) {
+        rounds.clear();
+        break;
+      }
+      if (round_ > 0) rounds.push_back(result_);
+    }
+    if (!rounds.empty()) take_best_of(rounds);
+    try_large_transformation();
+  }
+
+  /// The round whose model leaves least on blocks that are held out, with the last one's weights.
+  void take_best_of(const std::vector<LoopResult>& rounds) {
+    const LoopResult last = result_;
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t best = 0;
+    for (std::size_t k = 0; k < rounds.size(); ++k) {
+      result_ = rounds[k];
+      result_.weight = last.weight;
+      use_correction(last.correction);
+      const double error = state_.held_out_of_model().sum();
+      if (error >= least) continue;
+      least = error;
+      best = k;
+    }
+    result_ = rounds[best];
+    result_.screening_seconds = last.screening_seconds;
+    result_.refit_seconds = last.refit_seconds;
+    use_correction(result_.correction);
+  }
+
   /// What the filter makes of products, by the present model.
   void correct() {
     if (state_.settings.rough == nullptr) return;
     const Viewer viewer(state_.robot, state_.settings.contacts, result_.model.effects);
-    result_.correction = filter_error(viewer, result_.model, state_.log, *state_.settings.rough,
-                                      state_.settings.cutoff);
-    state_.log.set_correction(result_.correction);
+    use_correction(filter_error(viewer, result_.model, state_.log, *state_.settings.rough,
+                                state_.settings.cutoff));
+  }
+
+  void use_correction(const std::vector<Eigen::VectorXd>& correction) {
+    result_.correction = correction;
+    state_.log.set_correction(correction);
   }
 
   /// W = 1 / variance of what the present model leaves, row by row.
@@ -163,6 +202,17 @@ class Loop {
     std::vector<Term> terms = {fixed};
     for (const Verdict& v : selection.accepted) terms.push_back(list[v.candidate].term);
     return terms;
+  }
+
+  /// What began at a moment and is no load describes this log alone: on other motion nothing begins
+  /// then. Whether there was any; it is not looked for again.
+  [[nodiscard]] bool ban_mere_moments() {
+    const std::size_t before = banned_.size();
+    for (const Found& f : result_.found) {
+      const bool begins = f.effect.effect->is_payload && f.effect.shape.size() > 0;
+      if (begins && !f.name_stands()) banned_.push_back(f.effect);
+    }
+    return banned_.size() > before;
   }
 
   /// A refit that ends at the limit found no value that is believed.

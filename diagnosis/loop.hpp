@@ -23,8 +23,9 @@ struct LoopSettings {
   std::size_t stride = 1;  ///< every how many samples count
   double margin = 0.0;     ///< s between blocks
   double block_seconds = 0.0;  ///< 0: so that there are about forty, and none below half a second
-  int folds = 8;
-  int rounds = 4;  ///< of weights, screening and refits
+  int folds = 8;               ///< of one or two logs; of more, each is one
+  std::vector<std::size_t> log_starts;  ///< samples at which a further log begins
+  int rounds = 6;                       ///< of weights, screening and refits
   /// The log filtered at a higher cutoff than `cutoff` (Hz), the log's own: what the filter makes
   /// of products is then taken out. Null: the log counts as it is.
   const Recording* rough = nullptr;

@@ -29,6 +29,7 @@ LoopState::LoopState(const Robot& robot_, const Recording& log_, const Recording
                                              : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
   tally_options.stride = settings.stride;
   tally_options.margin = settings.margin;
+  tally_options.log_starts = settings.log_starts;
   tally_options.block_seconds = settings.block_seconds;
   if (tally_options.block_seconds <= 0.0) {
     constexpr double wanted_blocks = 40.0, shortest = 0.5;
@@ -48,7 +49,9 @@ BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
   if (reference != nullptr) {
     RichModel earlier = result.model;
     std::erase_if(earlier.effects, [&](const AppliedEffect& a) { return came_since(a); });
-    add_to_tally(tally, robot, settings.contacts, earlier, *reference, tally_options, true);
+    TallyOptions options = tally_options;
+    options.log_starts.clear();
+    add_to_tally(tally, robot, settings.contacts, earlier, *reference, options, true);
   }
   add_to_tally(tally, robot, settings.contacts, result.model, log, tally_options, false);
   constexpr std::size_t fewest_blocks = 8;

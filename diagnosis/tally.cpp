@@ -121,11 +121,14 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
   };
 
   int number = 0;
+  std::size_t log = 0;
   Eigen::MatrixXd M(robot.dof(), width);
   for (const std::size_t index : recording.usable(options.stride)) {
     const double elapsed = recording.elapsed(index);
     const int here = static_cast<int>(elapsed / options.block_seconds);
-    if (here != number) close();
+    const std::size_t log_before = log;
+    while (log < options.log_starts.size() && index >= options.log_starts[log]) ++log;
+    if (here != number || log != log_before) close();
     number = here;
     if (elapsed - here * options.block_seconds > options.block_seconds - options.margin) continue;
 
@@ -145,7 +148,9 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
     }
     const Eigen::MatrixXd Q2 = reference::contact_free_basis(rows.J, options.weight).Q2;
     sums.add(Q2.transpose() * (root.asDiagonal() * M));
-    if (block.samples++ == 0) block.from = elapsed;
+    if (block.samples++ > 0) continue;
+    block.from = elapsed;
+    block.log = log;
   }
   close();
 }

@@ -22,6 +22,7 @@ struct Block {
   std::size_t samples = 0;
   double from = 0.0;       ///< s since the log's start
   bool reference = false;  ///< of the reference log: never held out
+  std::size_t log = 0;     ///< which one of those in the recording
 };
 
 /// What the size of an effect might follow.
@@ -52,6 +53,7 @@ struct TallyOptions {
   double block_seconds = 1.0;
   Eigen::VectorXd weight;  ///< diagonal of W, generalised order
   double margin = 0.0;     ///< s left out at the end of each block, because filters reach across
+  std::vector<std::size_t> log_starts;  ///< samples at which a further log begins; no block has two
 };
 
 /// One pass over a log. `robot` as given; the model's transformations are applied.

@@ -67,11 +67,12 @@ json nudged(const json& leaf) {
   return 1.0;  // null, or an empty list
 }
 
-/// A change of one part in a thousand.
+/// A change of one part in a thousand, of what is zero but for rounding by a thousandth.
 json shaken(const json& leaf) {
+  constexpr double rounding = 1e-12;
   if (!leaf.is_number()) return nudged(leaf);
   const double x = leaf.get<double>();
-  return x == 0.0 ? 1e-3 : 1.001 * x;
+  return std::abs(x) < rounding ? 1e-3 : 1.001 * x;
 }
 
 /// Calls `judge(where, text)` for the document with each leaf changed, then with each member taken

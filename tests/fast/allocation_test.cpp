@@ -40,11 +40,23 @@ TEST(Allocations, EveryWayToAskForMemoryIsCounted) {
   EXPECT_EQ(allocations_during([&] { kept = ::operator new(100); }), 1U);
   ::operator delete(kept);
   std::unique_ptr<Wide> wide;
-  EXPECT_EQ(allocations_during([&] { wide = std::make_unique<Wide>(); }), 1U);
+  EXPECT_EQ(allocations_during([&] {
+              wide = std::make_unique<Wide>();
+              kept = wide.get();
+            }),
+            1U);
   std::string text;
-  EXPECT_EQ(allocations_during([&] { text = std::string(100, 'x'); }), 1U);
+  EXPECT_EQ(allocations_during([&] {
+              text = std::string(100, 'x');
+              kept = text.data();
+            }),
+            1U);
   Eigen::MatrixXd matrix;
-  EXPECT_EQ(allocations_during([&] { matrix = Eigen::MatrixXd::Ones(7, 9); }), 1U);
+  EXPECT_EQ(allocations_during([&] {
+              matrix = Eigen::MatrixXd::Ones(7, 9);
+              kept = matrix.data();
+            }),
+            1U);
   // What a slip in the fast path would look like: a product that is evaluated before it is added.
   const Eigen::MatrixXd A = Eigen::MatrixXd::Ones(30, 30);
   Eigen::MatrixXd sum = A;

@@ -45,7 +45,7 @@ TEST(HostileYaml, AliasBomb) {
 // Where a list of numbers, a map or a scalar is meant, and at any depth that fits into the file.
 TEST(HostileYaml, AThousandTimesDeep) {
   for (const std::string bracket : {"[", "{a: ", "- ", "? "}) {
-    for (const std::size_t deep : {600, 20000, 200000}) {
+    for (const std::size_t deep : {600U, 20000U, 200000U}) {
       expect_refused("trunk: " + repeated(bracket, deep));
       expect_refused(repeated(bracket, deep));
     }

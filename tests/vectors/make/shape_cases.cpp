@@ -19,8 +19,6 @@ struct AskedShape {
   Shape shape;
 };
 
-constexpr double pi = 3.14159265358979323846;
-
 /// "cuboid", "cylinder" or "ellipsoid", whole or a cell of it. Cells are not narrower than a fifth
 /// of the body, where plain formulas keep their digits.
 AskedShape drawn_cell(test::Draw& draw, const std::string& kind, bool whole) {
