@@ -515,7 +515,7 @@ def criterion(m, V, whole, given):
 
 
 def next_place(v, tie):
-    return next(j for j in range(len(v)) if v[j] >= (1 - tie) * max(v))
+    return next(j for j in range(len(v)) if v[j] >= max(v) - tie * abs(max(v)))
 
 
 def solved_shapes(data, shapes, given):

@@ -23,6 +23,11 @@ Eigen::Vector3d Draw::vector(double bound) {
   return bound * Eigen::Vector3d(x, y, z);
 }
 
+Eigen::Vector3d Draw::sides(double lower, double upper) {
+  const double x = between(lower, upper), y = between(lower, upper), z = between(lower, upper);
+  return {x, y, z};
+}
+
 Eigen::Matrix<double, 6, 10> body_rows(const Eigen::Vector3d& omega, const Eigen::Vector3d& alpha,
                                        const Eigen::Vector3d& a) {
   Eigen::Matrix<double, 6, 10> Y;

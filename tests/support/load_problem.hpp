@@ -21,6 +21,8 @@ class Draw {
   /// Sum of twelve even numbers: mean 0, variance 1, close to normal.
   double normal();
   Eigen::Vector3d vector(double bound);
+  /// Lengths of three sides, each even in [lower, upper).
+  Eigen::Vector3d sides(double lower, double upper);
 
  private:
   std::mt19937_64 engine_;

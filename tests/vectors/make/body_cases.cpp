@@ -15,8 +15,8 @@ using nlohmann::json;
 InertialParameters with_principal_moments(test::Draw& draw, double mass,
                                           const Eigen::Vector3d& principal) {
   const Eigen::Matrix3d tensor = principal.asDiagonal();
-  return moved(from_centre(mass, Eigen::Vector3d::Zero(), tensor),
-               pose_of(draw.vector(0.2), draw.vector(3.0)));
+  const Eigen::Vector3d xyz = draw.vector(0.2), rpy = draw.vector(3.0);
+  return moved(from_centre(mass, Eigen::Vector3d::Zero(), tensor), pose_of(xyz, rpy));
 }
 
 json existence_case(const InertialParameters& body, bool exists, const std::string& flag) {
@@ -35,10 +35,10 @@ Eigen::Isometry3d pose_of(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy
 }
 
 InertialParameters drawn_body(test::Draw& draw) {
-  const Eigen::Vector3d sides(draw.between(0.1, 0.5), draw.between(0.1, 0.5),
-                              draw.between(0.1, 0.5));
-  const Eigen::Isometry3d turn = pose_of(Eigen::Vector3d::Zero(), draw.vector(3.0));
-  return moved(test::cuboid_body(draw.between(0.5, 20.0), draw.vector(0.3), sides), turn);
+  const Eigen::Vector3d sides = draw.sides(0.1, 0.5), rpy = draw.vector(3.0),
+                        centre = draw.vector(0.3);
+  const double mass = draw.between(0.5, 20.0);
+  return moved(test::cuboid_body(mass, centre, sides), pose_of(Eigen::Vector3d::Zero(), rpy));
 }
 
 Eigen::MatrixXd drawn_matrix(test::Draw& draw, Eigen::Index rows, Eigen::Index columns) {

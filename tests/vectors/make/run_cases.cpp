@@ -136,10 +136,7 @@ std::optional<json> run_case(MassProblem rows, const std::vector<StatedCuboid>& 
 }
 
 StatedCuboid drawn_cuboid(test::Draw& draw, int link) {
-  return {link,
-          {draw.between(0.1, 0.4), draw.between(0.1, 0.4), draw.between(0.1, 0.4)},
-          draw.vector(0.2),
-          draw.vector(3.0)};
+  return {link, draw.sides(0.1, 0.4), draw.vector(0.2), draw.vector(3.0)};
 }
 
 MassProblem drawn_rows(test::Draw& draw) {
@@ -260,13 +257,15 @@ json run_cases(test::Draw& draw) {
     const bool dense = i % 2 == 1;
     cases.push_back(first_clear([&] {
       const DivisionOptions options = options_of(1.0, dense ? 0.2 : 1e-4, 5, 1.0);
-      return run_case(drawn_rows(draw), {drawn_cuboid(draw, 0), drawn_cuboid(draw, 0)}, 1, options,
+      const MassProblem rows = drawn_rows(draw);
+      return run_case(rows, {drawn_cuboid(draw, 0), drawn_cuboid(draw, 0)}, 1, options,
                       json::array());
     }));
   }
   for (int i = 0; i < 2; ++i) {
     cases.push_back(first_clear([&] {
-      return run_case(rows_of_two(draw), {drawn_cuboid(draw, 0), drawn_cuboid(draw, 1)}, 2,
+      const MassProblem rows = rows_of_two(draw);
+      return run_case(rows, {drawn_cuboid(draw, 0), drawn_cuboid(draw, 1)}, 2,
                       options_of(1.0, 1e-4, 5, 2.0), {"TwoLinks"});
     }));
   }
@@ -282,7 +281,8 @@ json run_cases(test::Draw& draw) {
     cases.push_back(first_clear([&] {
       StatedCuboid square = drawn_cuboid(draw, 0);
       square.size[2] = square.size[1] = square.size[0] + (i == 0 ? 0.1 : 0.0);
-      return run_case(drawn_rows(draw), {square}, 1, options_of(1.0, 1e-4, 3, 1.0), {"TiedSides"});
+      const MassProblem rows = drawn_rows(draw);
+      return run_case(rows, {square}, 1, options_of(1.0, 1e-4, 3, 1.0), {"TiedSides"});
     }));
   }
   // Two congruent cuboids and a balance: nothing but the rule for ties says which is divided.

@@ -23,8 +23,7 @@ struct AskedShape {
 /// of the body, where plain formulas keep their digits.
 AskedShape drawn_cell(test::Draw& draw, const std::string& kind, bool whole) {
   const Eigen::Vector3d xyz = draw.vector(0.5), rpy = draw.vector(3.0),
-                        size(draw.between(0.05, 0.5), draw.between(0.05, 0.5),
-                             draw.between(0.05, 0.5));
+                        size = draw.sides(0.05, 0.5);
   const Eigen::Isometry3d pose = pose_of(xyz, rpy);
   AskedShape asked{{{"kind", kind}, {"xyz", vector_json(xyz)}, {"rpy", vector_json(rpy)}},
                    make_point(xyz, 1.0)};  // until it is known
