@@ -91,6 +91,19 @@ class StateReader {
     decode(object_.at(name), value);
   }
 
+  /// A whole number that the type holds: the library would cut any other down to one.
+  template <std::integral T>
+  [[nodiscard]] static T whole(const nlohmann::json& json) {
+    if (json.is_number_unsigned()) {
+      const auto number = json.get<std::uint64_t>();
+      if (std::in_range<T>(number)) return static_cast<T>(number);
+    } else if (json.is_number_integer()) {
+      const auto number = json.get<std::int64_t>();
+      if (std::in_range<T>(number)) return static_cast<T>(number);
+    }
+    refuse("has a number that is not whole, or too large");
+  }
+
   template <class T>
   static void decode(const nlohmann::json& json, T& value) {
     StateReader inner(json);
@@ -108,7 +121,11 @@ class StateReader {
   }
   template <std::integral T>
   static void decode(const nlohmann::json& json, T& value) {
-    json.get_to(value);
+    if constexpr (std::is_same_v<T, bool>) {
+      json.get_to(value);
+    } else {
+      value = whole<T>(json);
+    }
   }
   static void decode(const nlohmann::json& json, std::string& value) { json.get_to(value); }
   template <class T>
@@ -150,8 +167,8 @@ class StateReader {
   static void decode(const nlohmann::json& json, Eigen::Matrix<double, rows, columns>& matrix) {
     std::vector<double> numbers;
     decode(json.at("values"), numbers);
-    const auto height = json.at("rows").get<std::size_t>();
-    const auto width = json.at("columns").get<std::size_t>();
+    const auto height = whole<std::size_t>(json.at("rows"));
+    const auto width = whole<std::size_t>(json.at("columns"));
     const bool complete = width == 0
                               ? numbers.empty()
                               : numbers.size() % width == 0 && height == numbers.size() / width;

@@ -110,7 +110,8 @@ Checkpoint read_checkpoint(const std::string& path) {
       throw InputError({path}, "is damaged: its digest differs", what_is_right);
     }
     checkpoint.position = {log.at("header").get<std::string>(),
-                           log.at("next_byte").get<std::uint64_t>(), log.at("line").get<int>()};
+                           StateReader::whole<std::uint64_t>(log.at("next_byte")),
+                           StateReader::whole<int>(log.at("line"))};
     return checkpoint;
   } catch (const json::exception& e) {
     throw not_whole(path, e);

@@ -21,6 +21,7 @@ std::string variable_of(const Variation& variation, const Robot& robot) {
       return "dq." + joint;
     case Signal::load:
     case Signal::side:
+    case Signal::peak:
     case Signal::row:
       return "tau." + joint;
     case Signal::turned:

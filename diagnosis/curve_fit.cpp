@@ -26,6 +26,7 @@ std::optional<CurveVariable> variable_of_signal(Signal signal, int joint) {
       return CurveVariable{CurveSignal::speed, joint};
     case Signal::load:
     case Signal::side:
+    case Signal::peak:
       return CurveVariable{CurveSignal::load, joint};
     case Signal::turned:
     case Signal::time:

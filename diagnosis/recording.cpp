@@ -27,6 +27,22 @@ Recording::Recording(std::vector<Sample> samples, double rate, std::vector<std::
   }
   find_rests();
   find_turns();
+  find_high_torques();
+}
+
+void Recording::find_high_torques() {
+  const Eigen::Index joints = samples_.empty() ? 0 : samples_.front().tau.size();
+  high_torque_.setZero(std::ssize(high_levels), joints);
+  std::vector<double> sizes(samples_.size());
+  for (Eigen::Index j = 0; j < joints; ++j) {
+    std::transform(samples_.begin(), samples_.end(), sizes.begin(),
+                   [&](const Sample& s) { return std::abs(s.tau[j]); });
+    std::sort(sizes.begin(), sizes.end());
+    for (std::size_t k = 0; k < high_levels.size(); ++k) {
+      const double place = high_levels[k] * static_cast<double>(sizes.size() - 1);
+      high_torque_(static_cast<Eigen::Index>(k), j) = sizes[static_cast<std::size_t>(place)];
+    }
+  }
 }
 
 void Recording::find_turns() {

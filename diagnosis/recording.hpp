@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -12,6 +13,9 @@
 #include "shapeid/models/sample.hpp"
 
 namespace shapeid::diagnosis {
+
+/// Shares of a log's samples below Recording::high_torque().
+inline constexpr std::array high_levels = {0.8, 0.93, 0.98};
 
 class Recording {
  public:
@@ -52,6 +56,12 @@ class Recording {
     return turned_(joint, static_cast<Eigen::Index>(index));
   }
 
+  /// What the joint's logged torque seldom exceeds: of high_levels[level] of the samples it is
+  /// smaller.
+  [[nodiscard]] double high_torque(std::size_t level, Eigen::Index joint) const {
+    return high_torque_(static_cast<Eigen::Index>(level), joint);
+  }
+
   /// The motion `dt` seconds after a usable sample, by the cubic through four neighbours. Contact
   /// flags, forces and extras are those of the nearest sample. |dt| <= largest_shift.
   [[nodiscard]] Sample shifted(std::size_t index, double dt) const;
@@ -60,6 +70,7 @@ class Recording {
   [[nodiscard]] std::size_t reach() const;
   void find_rests();
   void find_turns();
+  void find_high_torques();
 
   std::vector<Sample> samples_;
   double rate_;
@@ -68,6 +79,7 @@ class Recording {
   std::vector<std::size_t> segment_begin_, segment_end_;        ///< of each sample's segment
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> at_rest_;  ///< joints x samples
   Eigen::ArrayXXd turned_;                                      ///< likewise
+  Eigen::ArrayXXd high_torque_;                                 ///< levels x joints
 };
 
 }  // namespace shapeid::diagnosis

@@ -304,6 +304,10 @@ std::vector<Modulation> modulated_carriers(const std::vector<AppliedEffect>& hyp
     }
     for (const Signal signal : joint_signals) list.push_back({k, signal, hypotheses[k].site});
     list.push_back({k, Signal::time, hypotheses[k].site});
+    if (hypotheses[k].effect->id != "torque_gain") continue;
+    for (std::size_t level = 0; level < high_levels.size(); ++level) {
+      list.push_back({k, Signal::peak, hypotheses[k].site, level});
+    }
   }
   return list;
 }

@@ -30,7 +30,7 @@ struct Stranger {
                                                          const Series& rigid, const Series& left);
 
 /// Hypotheses `first` to `last` of a tally times the signals of their joint, and times time;
-/// ripples times the load.
+/// ripples times the load; gains also where the load is high, as what saturates.
 [[nodiscard]] std::vector<Modulation> modulated_carriers(
     const std::vector<AppliedEffect>& hypotheses, std::size_t first, std::size_t last);
 

@@ -76,6 +76,11 @@ double value_of(const Modulation& modulation, const Recording& recording, std::s
     }
     case Signal::turned:
       return recording.turned(index, j);
+    case Signal::peak: {
+      const double size = std::abs(load.joint[j]);
+      const double high = recording.high_torque(modulation.level, j);
+      return size > high ? 1.0 - high / size : 0.0;
+    }
     case Signal::time:
       return view.elapsed;
     case Signal::row:

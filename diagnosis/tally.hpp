@@ -26,15 +26,17 @@ struct Block {
 };
 
 /// What the size of an effect might follow.
-enum class Signal { position, speed, direction, load, side, turned, time, row };
+enum class Signal { position, speed, direction, load, side, turned, peak, time, row };
 
 /// A hypothesis whose size follows a signal of a joint: its columns times the signal. `side` is the
-/// direction of the load, `turned` that of Recording::turned(); `row` keeps the joint's own row of
-/// the columns alone.
+/// direction of the load, `turned` that of Recording::turned(), `peak` the share of the load that
+/// is beyond Recording::high_torque() of a level; `row` keeps the joint's own row of the columns
+/// alone.
 struct Modulation {
   std::size_t hypothesis = 0;
   Signal signal = Signal::time;
   int joint = 0;
+  std::size_t level = 0;
 };
 
 struct Tally {

@@ -140,6 +140,7 @@ double abscissa(Signal signal, int joint, const Recording& recording, std::size_
       return s.dq[joint];
     case Signal::load:
     case Signal::side:
+    case Signal::peak:
     case Signal::row:
       return load;
     case Signal::turned:

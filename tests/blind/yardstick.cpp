@@ -157,7 +157,6 @@ Eigen::MatrixXd unit_change(const Machine& machine, const Item& item,
   const Viewer viewer(machine.robot, contacts(machine), {});
   Item unit = item;
   if (kind(item.kind).foreign) {
-    unit.amount.size = kind(item.kind).nominal;
     Readings readings = clean_readings;
     change_signals(machine, {unit}, readings);
     Trial trial;

@@ -18,7 +18,8 @@ namespace shapeid::blind {
 [[nodiscard]] diagnosis::AppliedEffect applied(const Machine& machine, const Item& item);
 
 /// Generalised rows by which an item of unit size changes what is logged, dof x samples of
-/// `clean`.usable(1), on the motion of the clean log.
+/// `clean`.usable(1), on the motion of the clean log; what is not in the catalogue is put in with
+/// the item's own size, and that divided by it.
 [[nodiscard]] Eigen::MatrixXd unit_change(const Machine& machine, const Item& item,
                                           const Readings& clean_readings,
                                           const diagnosis::Recording& clean,
