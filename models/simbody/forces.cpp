@@ -18,13 +18,21 @@ void WorkingForce::realizeAcceleration(const SimTK::State& state) const {
 }
 
 GroundForce::GroundForce(const Multibody& multibody, const Robot& robot, const Ground& ground)
-    : WorkingForce(multibody), contacts_(robot.contacts), ground_(ground) {}
+    : WorkingForce(multibody), contacts_(robot.contacts), ground_(ground) {
+  ground_.foot_radius.resize(contacts_.size(), 0.0);
+}
+
+SimTK::Vec3 GroundForce::station(const SimTK::State& state, std::size_t contact) const {
+  const Contact& c = contacts_[contact];
+  const SimTK::Vec3 down(0.0, 0.0, -ground_.foot_radius[contact]);
+  return to_vec3(c.frame.translation()) +
+         multibody_.body(c.link).expressGroundVectorInBodyFrame(state, down);
+}
 
 SimTK::Vec3 GroundForce::force(const SimTK::State& state, std::size_t contact) const {
-  const Contact& c = contacts_[contact];
   SimTK::Vec3 place, velocity;
-  multibody_.body(c.link).findStationLocationAndVelocityInGround(
-      state, to_vec3(c.frame.translation()), place, velocity);
+  multibody_.body(contacts_[contact].link)
+      .findStationLocationAndVelocityInGround(state, station(state, contact), place, velocity);
   const double depth = -place[2];
   if (depth <= 0.0) return SimTK::Vec3(0.0);
   const double damped = std::max(0.0, 1.0 - ground_.dissipation * velocity[2]);
@@ -40,8 +48,7 @@ void GroundForce::calcForce(const SimTK::State& state,
                             SimTK::Vector_<SimTK::Vec3>&, SimTK::Vector&) const {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     multibody_.body(contacts_[i].link)
-        .applyForceToBodyPoint(state, to_vec3(contacts_[i].frame.translation()), force(state, i),
-                               body_forces);
+        .applyForceToBodyPoint(state, station(state, i), force(state, i), body_forces);
   }
 }
 
@@ -49,8 +56,7 @@ double GroundForce::power(const SimTK::State& state) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const SimTK::Vec3 velocity =
-        multibody_.body(contacts_[i].link)
-            .findStationVelocityInGround(state, to_vec3(contacts_[i].frame.translation()));
+        multibody_.body(contacts_[i].link).findStationVelocityInGround(state, station(state, i));
     sum += SimTK::dot(force(state, i), velocity);
   }
   return sum;

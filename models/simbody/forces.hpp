@@ -50,6 +50,9 @@ class GroundForce : public WorkingForce {
   double power(const SimTK::State& state) const override;
 
  private:
+  /// m, link axes: where the ground pushes.
+  [[nodiscard]] SimTK::Vec3 station(const SimTK::State& state, std::size_t contact) const;
+
   std::vector<Contact> contacts_;
   Ground ground_;
 };

@@ -136,6 +136,10 @@ void link_length(Ingredients& in, const Machine&, const Amount& a) {
 void contact_point(Ingredients& in, const Machine&, const Amount& a) {
   in.robot.contacts[static_cast<std::size_t>(a.site)].frame.translation() += a.size * a.direction;
 }
+void foot_radius(Ingredients& in, const Machine&, const Amount& a) {
+  in.ground.foot_radius.assign(in.robot.contacts.size(), 0.0);
+  in.ground.foot_radius[static_cast<std::size_t>(a.site)] = a.size;
+}
 /// The flag of a foot follows its touch only so much later; size in s.
 template <bool touches>
 void late_flag(Ingredients& in, const Machine&, const Amount& a) {
@@ -227,6 +231,7 @@ std::vector<Kind> list() {
       make("gravity_tilt", Place::whole, true, 0.03, gravity_tilt, tilt_values),
       make("link_length", Place::joint, true, 0.01, link_length, one),
       make("contact_point", Place::contact, true, 0.01, contact_point, three),
+      make("foot_radius", Place::contact, true, 0.01, foot_radius, one),
       make("contact_undeclared", Place::contact, false, 0.02, late_flag<true>, nullptr),
       make("contact_absent", Place::contact, false, 0.02, late_flag<false>, nullptr),
       make("payload", Place::link, true, 0.5, payload, load_values),
@@ -239,8 +244,10 @@ std::vector<Kind> list() {
     if (k.id == "torque_delay" || k.id == "imu_delay") k.largest = 0.015;  // s
     if (k.id == "torque_lag") k.largest = 0.03;                            // s
     if (k.id == "torque_gain") k.largest = 0.6;
-    if (k.id == "link_length" || k.id == "contact_point") k.largest = 0.05;  // m
-    if (k.id == "payload" || k.id == "payload_from") k.largest = 3.0;        // kg
+    if (k.id == "link_length" || k.id == "contact_point" || k.id == "foot_radius") {
+      k.largest = 0.05;  // m
+    }
+    if (k.id == "payload" || k.id == "payload_from") k.largest = 3.0;  // kg
     if (k.id == "gravity_tilt" || k.id == "rotor_reaction") k.quadruped = false;
     if (k.id == "imu_delay" || k.place == Place::accelerometer || k.place == Place::contact) {
       k.arm = false;

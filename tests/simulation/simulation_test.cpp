@@ -70,6 +70,50 @@ TEST(Simulation, EquationOfMotionHoldsToRounding) {
   }
 }
 
+/// The robot with its contact points moved by so much (m, world axes).
+Robot with_contacts_moved(const Robot& robot, const SimulatedSample& sample,
+                          const std::vector<Eigen::Vector3d>& by) {
+  Robot marked = robot;  // three more points of each foot's link show how it is turned
+  for (const Contact& contact : robot.contacts) {
+    for (int axis = 0; axis < 3; ++axis) {
+      marked.contacts.push_back(contact);
+      marked.contacts.back().frame.translation() += Eigen::Vector3d::Unit(axis);
+    }
+  }
+  const Eigen::Matrix3Xd points = SimbodyRobot(marked).contact_positions(sample.sample.q);
+  Robot moved = robot;
+  for (std::size_t c = 0; c < by.size(); ++c) {
+    const auto foot = static_cast<Eigen::Index>(c);
+    const Eigen::Matrix3d turn =
+        points.middleCols<3>(std::ssize(by) + 3 * foot).colwise() - points.col(foot);
+    moved.contacts[c].frame.translation() +=
+        turn.transpose() * sample.state.base.linear().transpose() * by[c];
+  }
+  return moved;
+}
+
+// The ground pushes on a ball where it is lowest, however the leg stands.
+TEST(Simulation, BallsTouchWhereTheyAreLowest) {
+  SimulationOptions options = short_run(4);
+  options.ground.foot_radius = {0.02, 0.0, 0.013, 0.03};
+  const Robot robot = test::quadruped();
+  std::vector<Eigen::Vector3d> down;
+  for (const double r : options.ground.foot_radius) down.emplace_back(0.0, 0.0, -r);
+  const double weight = 9.81 * 13.0;
+  double largest_of_points = 0.0;
+  const std::vector<SimulatedSample> samples = run(options);
+  constexpr std::size_t every = 20;
+  for (std::size_t i = 0; i < samples.size(); i += every) {
+    const Robot moved = with_contacts_moved(robot, samples[i], down);
+    const Balance b = balance(SimbodyRobot(moved), moved, samples[i].sample);
+    ASSERT_LT(scaled((b.motion - b.forces).norm(), weight + b.forces.norm(), robot.dof()),
+              few_hundred_eps);
+    const Balance points = balance(SimbodyRobot(robot), robot, samples[i].sample);
+    largest_of_points = std::max(largest_of_points, (points.motion - points.forces).norm());
+  }
+  EXPECT_GT(largest_of_points, 0.1);  // N m: 13 mm beside a foot that bears some ten N
+}
+
 // The residual of the model without the load is the load's own Newton-Euler wrench.
 TEST(Simulation, ModelWithoutTheLoadMissesExactlyTheLoad) {
   SimulationOptions options = short_run(3);
