@@ -459,6 +459,7 @@ Outcome ActiveSet::iterate() noexcept {
     if (!(largest_slope() > refined_slope)) break;
     if (refine() && (!in_time || set_->keeps_slopes() || !some_enter())) break;
   }
+  ended_with_refused_ = !refused_.empty();
   admit_refused();
   if (!set_->sound()) return Outcome::ill_conditioned;
   // Rounding may let a shape in and out for ever. It is no matter if the answer is right all the
@@ -515,9 +516,11 @@ bool ActiveSet::passes_check() noexcept {
   if (!(largest_slope() <= allowed_slope)) return false;
   // No other shape enters at the slopes of the factorisation. Mostly these are the slopes of the
   // masses to the last digits; where a row is hardly felt they need not be, and shapes are asked.
+  // So are they if some were refused: a target that is all rounding refuses any.
   const Eigen::VectorXd& slopes = set_->slopes(slopes_);
   const auto allowed = allowed_slope * rows_.length * rows_.lengths.array();
-  if (((slopes_ - slopes).array().abs() <= allowed).all()) return true;
+  const bool same_slopes = ((slopes_ - slopes).array().abs() <= allowed).all();
+  if (same_slopes && !ended_with_refused_) return true;
   return columns_->steepest(slopes_, allowed_slope) < 0;
 }
 

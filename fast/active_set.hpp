@@ -130,6 +130,7 @@ class ActiveSet {
   std::vector<double> stiffness_;    ///< lambda / V of the passive shapes, once started
   std::vector<double> tried_;        ///< masses to come back to
   std::vector<int> refused_;         ///< barred until the next step that is taken
+  bool ended_with_refused_ = false;  ///< so that some were not asked at the end
   std::vector<ShapeMass> entering_;  ///< on their way into a fresh factorisation
   Eigen::VectorXd coefficients_, Phi_, r_, slopes_;
   Objective value_;

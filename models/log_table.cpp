@@ -33,6 +33,10 @@ double number(std::string_view text, const Place& place) {
     throw InputError(place, fmt::format("\"{}\" is not a number", text),
                      "write decimals with a point, and nothing for a missing value");
   }
+  if (std::abs(value) > largest_reading) {
+    throw InputError(place, fmt::format("\"{}\" is more than any sensor reads", text),
+                     "check the value and its unit");
+  }
   return value;
 }
 

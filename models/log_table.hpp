@@ -11,6 +11,9 @@
 
 namespace shapeid {
 
+/// No sensor reads more in any unit, and what is computed from readings stays far inside double.
+inline constexpr double largest_reading = 1e100;
+
 /// A row of numbers in the order of the columns. NaN marks an empty field.
 struct LogRow {
   int line = 0;  ///< in the file, from 1
