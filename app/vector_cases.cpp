@@ -66,6 +66,10 @@ void judge_masses(const json& vector, const json& output, Sentences& found) {
       Eigen::Map<const Eigen::VectorXd>(masses->data(), problem.masses.shapes());
   const Answer answer{problem_digest(problem), m, problem.masses.U * m,
                       objective(problem.masses, m).total()};
+  if (const Violation unfit = certificate::why_unfit(problem, answer)) {
+    found.push_back(*unfit);
+    return;
+  }
   certificate::Tolerance tolerance;
   tolerance.gap = number(vector["expected"]["certified_gap"], "certified_gap", {"vector", manual});
   for (const std::string& reason : certify(problem, answer, tolerance).reasons) {

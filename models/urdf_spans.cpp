@@ -5,9 +5,11 @@
 namespace shapeid::urdf {
 namespace {
 
-/// The end of something that begins at `begin` and is closed by `closing`.
-std::size_t after(std::string_view text, std::size_t begin, std::string_view closing) {
-  const std::size_t found = text.find(closing, begin);
+/// The end of what is opened at `begin` and closed by `closing`, which takes nothing of `opening`:
+/// in <!--> the comment is still open.
+std::size_t after(std::string_view text, std::size_t begin, std::string_view opening,
+                  std::string_view closing) {
+  const std::size_t found = text.find(closing, begin + opening.size());
   return found == std::string_view::npos ? text.size() : found + closing.size();
 }
 
@@ -54,11 +56,11 @@ std::vector<LinkSpan> find_links(std::string_view text) {
     std::size_t end = 0;
     const std::size_t begin = after_blanks(text, at);
     if (starts_with(text, at, "<!--")) {
-      end = after(text, at, "-->");
+      end = after(text, at, "<!--", "-->");
     } else if (starts_with(text, at, "<![CDATA[")) {
-      end = after(text, at, "]]>");
+      end = after(text, at, "<![CDATA[", "]]>");
     } else if (starts_with(text, at, "<?")) {
-      end = after(text, at, "?>");
+      end = after(text, at, "<?", "?>");
     } else if (is_closing(text, begin, after_tag(text, at))) {
       end = after_tag(text, at);
       --depth;

@@ -70,6 +70,7 @@ constexpr const char* original = R"(<?xml version="1.0"?>
   <joint name="a" type="fixed"><origin xyz="1 0 0"/><parent link="world"/><child link="body"/></joint>
   <joint name="b" type="fixed"><parent link="body"/><child link="plate"/></joint>
   <joint name="c" type="revolute"><parent link="plate"/><child link="bare"/><axis xyz="0 0 1"/></joint>
+  <!--><link name="neither"><inertial/></link>-->
   <gazebo><link name="body"><inertial/></link></gazebo>
 </robot>
 )";
@@ -101,6 +102,7 @@ constexpr const char* expected = R"(<?xml version="1.0"?>
   <joint name="a" type="fixed"><origin xyz="1 0 0"/><parent link="world"/><child link="body"/></joint>
   <joint name="b" type="fixed"><parent link="body"/><child link="plate"/></joint>
   <joint name="c" type="revolute"><parent link="plate"/><child link="bare"/><axis xyz="0 0 1"/></joint>
+  <!--><link name="neither"><inertial/></link>-->
   <gazebo><link name="body"><inertial/></link></gazebo>
 </robot>
 )";
