@@ -89,6 +89,16 @@ TEST(Loop, LoadThatComesIsFoundOnItsLinkFromItsMoment) {
   EXPECT_LT(std::abs(found.effect.value[0] - 0.8), 0.1);
 }
 
+/// What begins at a moment and is no load describes that log alone: it is not a part of the model.
+TEST(Loop, WhatBeginsAndIsNoLoadIsNoPartOfTheModel) {
+  const Recording log = record({}, [](std::vector<Sample>& samples) {
+    for (Sample& s : samples) {
+      if (s.time > 9.0) s.tau[1] *= 1.3;  // a load of the last link describes it best
+    }
+  });
+  for (const Found& f : test::loop_of(log).found) EXPECT_NE(f.id, "payload_from@link3");
+}
+
 TEST(Loop, StaticLoadIsFoundAgainstAReferenceLogAndNotWithout) {
   const AppliedEffect load =
       effect("payload", 3, {0.8, 0.02, 0.0, 0.2, 0.06, 0.0, -0.004, 0.06, 0.0, 0.002});

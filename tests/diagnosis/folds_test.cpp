@@ -1,0 +1,75 @@
+// Which blocks are left out together.
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "shapeid/diagnosis/fits.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+constexpr double of_the_prior = 1e-6;  // it is a million wide
+
+/// One column of ones; the force is the same in all samples of a block.
+Tally constant_forces(const std::vector<std::pair<std::size_t, double>>& logs_and_forces) {
+  constexpr double samples = 5.0;
+  Tally tally;
+  tally.inertial = 1;
+  tally.width = 2;
+  for (const auto& [log, force] : logs_and_forces) {
+    Block block;
+    block.log = log;
+    block.samples = 5;
+    block.sums.resize(2, 2);
+    block.sums << samples, samples * force, samples * force, samples * force * force;
+    tally.blocks.push_back(block);
+  }
+  return tally;
+}
+
+Eigen::VectorXd held_out(const std::vector<std::pair<std::size_t, double>>& blocks, int folds) {
+  const Eigen::VectorXd given = Eigen::VectorXd::Zero(1), wide = Eigen::VectorXd::Constant(1, 1e6);
+  const BlockFits fits(constant_forces(blocks), given, wide, folds);
+  return fits.held_out({{"level", {0}, {false}, 0}}) / 5.0;
+}
+
+// Each log is predicted by the others alone: the mean of their levels.
+TEST(Folds, AreWholeLogsWhereThereAreThree) {
+  const Eigen::VectorXd error =
+      held_out({{0, 1.0}, {0, 1.0}, {1, 2.0}, {1, 2.0}, {2, 6.0}, {2, 6.0}}, 6);
+  const Eigen::VectorXd expected = Eigen::Vector3d(9.0, 2.25, 20.25);
+  for (Eigen::Index b = 0; b < 6; ++b) EXPECT_NEAR(error[b], expected[b / 2], of_the_prior) << b;
+}
+
+// Of two logs each says too much that the other does not: stretches of both are left out.
+TEST(Folds, AreStretchesOfOneLogOrTwo) {
+  // Without one of the four the mean of the others is 2 or 3: away by 1 or 2, not by 3.
+  const Eigen::VectorXd error = held_out({{0, 1.0}, {0, 1.0}, {1, 4.0}, {1, 4.0}}, 4);
+  for (Eigen::Index b = 0; b < 4; ++b) EXPECT_NEAR(error[b], 4.0, of_the_prior) << b;
+  const Eigen::VectorXd one = held_out({{0, 1.0}, {0, 2.0}, {0, 3.0}, {0, 6.0}}, 2);
+  const std::vector<double> expected = {12.25, 6.25, 2.25, 20.25};
+  for (Eigen::Index b = 0; b < 4; ++b) {
+    EXPECT_NEAR(one[b], expected[static_cast<std::size_t>(b)], of_the_prior) << b;
+  }
+}
+
+TEST(Folds, NoBlockHasTwoLogs) {
+  const Robot robot = test::arm();
+  const Recording log = test::record({});
+  Tally tally = empty_tally(robot, {});
+  TallyOptions options;
+  options.weight = Eigen::VectorXd::Ones(robot.dof());
+  options.block_seconds = log.duration() / 4.0;
+  const std::size_t third = log.samples().size() / 3;
+  options.log_starts = {third, 2 * third};
+  add_to_tally(tally, robot, reference::ContactTreatment::ignore,
+               RichModel{stacked_parameters(robot), {}}, log, options, false);
+  ASSERT_EQ(tally.blocks.size(), 6U);
+  const std::vector<std::size_t> logs = {0, 0, 1, 1, 2, 2};
+  for (std::size_t b = 0; b < logs.size(); ++b) EXPECT_EQ(tally.blocks[b].log, logs[b]);
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
