@@ -52,6 +52,22 @@ TEST(Unnamed, EccentricGearIsNoRippleAndNoGain) {
   EXPECT_LT(std::abs(law.carrier.shape[0] - 9.0), resolved);
 }
 
+/// A sensor that reads no more than so much is no gain: it is one where the load is high.
+TEST(Unnamed, WhatSaturatesIsAGainOfPeaks) {
+  const LoopResult result = loop_of(record({}, [](std::vector<Sample>& samples) {
+    double most = 0.0;
+    for (const Sample& s : samples) most = std::max(most, std::abs(s.tau[1]));
+    const double limit = 0.85 * most;
+    for (Sample& s : samples) s.tau[1] = std::clamp(s.tau[1], -limit, limit);
+  }));
+  for (const Found& f : result.found) EXPECT_FALSE(f.name_stands()) << f.id;
+  ASSERT_FALSE(result.strangers.empty());
+  const Stranger& law = result.strangers.front();
+  EXPECT_EQ(law.carrier.effect->id, "torque_gain");
+  EXPECT_EQ(law.law.signal, Signal::peak);
+  EXPECT_EQ(law.law.joint, 1);
+}
+
 TEST(Unnamed, RippleThatIsThereKeepsItsName) {
   const LoopResult result = loop_of(record({{effect("cogging", 1, {0.08, 0.06})}}));
   ASSERT_EQ(result.found.size(), 1U);
