@@ -33,7 +33,7 @@ struct TestErrors {
   std::size_t samples = 0;
   Eigen::VectorXd zero, given, found;
   Eigen::VectorXd with_curves;  ///< found, and DiagnosisRun::curves; empty if there are none
-  Eigen::VectorXd at_rest;  ///< share of the samples in which a row does not count
+  Eigen::VectorXd at_rest;      ///< share of the samples in which a row does not count
   /// The same against the torque as logged, without any filter, joints only.
   Eigen::VectorXd unfiltered_zero, unfiltered_given, unfiltered_found;
   /// What noise of the logged torque leaves after the filter, joints only, N m: from what the
