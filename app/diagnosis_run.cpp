@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "shapeid/app/recordings.hpp"
@@ -152,6 +153,24 @@ std::vector<std::string> fitted_logs(const DiagnoseOptions& options) {
   return paths;
 }
 
+/// Held-out errors are of data that were used for nothing else.
+void refuse_same_logs(const DiagnoseOptions& options) {
+  std::vector<std::string> paths = fitted_logs(options);
+  const std::size_t fitted = paths.size();
+  paths.insert(paths.end(), options.test.begin(), options.test.end());
+  for (std::size_t k = 1; k < paths.size(); ++k) {
+    for (std::size_t i = 0; i < k; ++i) {
+      std::error_code unknown;  // a log that cannot be opened is said when it is read
+      if (!std::filesystem::equivalent(paths[k], paths[i], unknown)) continue;
+      if (i < fitted && k >= fitted) {
+        throw InputError({paths[k]}, "is fitted, too",
+                         "a test on data that are used for nothing else");
+      }
+      throw InputError({paths[k]}, "is given twice", "each log once");
+    }
+  }
+}
+
 /// The log at three times the cutoff, from which the filter's own error is computed; none if there
 /// is no filter, or one that works forward only.
 std::optional<RecordedLog> less_smooth(const RobotInputs& robot, const DiagnoseOptions& options,
@@ -211,6 +230,7 @@ void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
 }  // namespace
 
 DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& options) {
+  refuse_same_logs(options);
   const bool split = options.test.empty();
   const std::optional<Part> fitted_part = split ? std::optional(Part::fitted) : std::nullopt;
   RecordedLog log = read_recordings(fitted_logs(options), robot, options.inputs, fitted_part);

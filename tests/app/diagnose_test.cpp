@@ -98,7 +98,7 @@ TEST(Diagnose, WritesWhatHasNoNameAsCurves) {
 }
 
 TEST(Diagnose, FitsAndTestsSeveralLogsTogether) {
-  for (const char* seed : {"1", "2", "3"}) {
+  for (const char* seed : {"1", "2", "3", "4"}) {
     const std::string words = fmt::format("simulate --seconds 4 --seed {0} --out run{0}.csv", seed);
     ASSERT_EQ(shapeid(words).status, 0);
   }
@@ -108,12 +108,26 @@ TEST(Diagnose, FitsAndTestsSeveralLogsTogether) {
     return nlohmann::json::parse(run.out);
   };
   const auto one = diagnosed("--log run1.csv --test run3.csv");
-  const auto two = diagnosed("--log run1.csv --also run2.csv --test run3.csv run1.csv");
+  const auto two = diagnosed("--log run1.csv --also run2.csv --test run3.csv run4.csv");
   // Blocks have margins at their ends, which costs a few samples more or less.
   const auto samples = [](const nlohmann::json& r) { return r["samples"].get<double>(); };
   EXPECT_NEAR(samples(two) / samples(one), 2.0, 0.05);
   // Every second sample or so of each log counts: one more or less where the stride begins anew.
   EXPECT_NEAR(two["heldout"]["samples"].get<int>(), 2 * one["heldout"]["samples"].get<int>(), 1);
+}
+
+TEST(Diagnose, TestsOnNothingThatIsFitted) {
+  ASSERT_EQ(shapeid("simulate --seconds 2 --out run.csv").status, 0);
+  ASSERT_EQ(shapeid("simulate --seconds 2 --seed 2 --out other.csv").status, 0);
+  const auto expect_refused = [](const std::string& logs, const std::string& says) {
+    const CommandRun run = shapeid(fmt::format("diagnose {} {}", files, logs));
+    EXPECT_EQ(run.status, 2) << logs;
+    EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+  };
+  expect_refused("--log run.csv --test ./run.csv", "./run.csv: is fitted, too");
+  expect_refused("--log other.csv --also run.csv --test run.csv", "run.csv: is fitted, too");
+  expect_refused("--log run.csv --also other.csv run.csv", "run.csv: is given twice");
+  expect_refused("--log run.csv --test other.csv other.csv", "other.csv: is given twice");
 }
 
 TEST(Diagnose, LogsOfDifferentRatesAreNotMixed) {
