@@ -15,7 +15,7 @@ Candidate payload_candidate(const Robot& robot, const Effect& effect, int link,
   c.term.id = hypothesis_id(robot, c.effect);
   c.term.from_block = from_block;
   for (Eigen::Index p = 0; p < 10; ++p) {
-    c.term.columns.push_back(10 * link + p);
+    c.term.columns.push_back(Eigen::Index{10} * link + p);
     c.term.nonnegative.push_back(p == 0);
   }
   return c;

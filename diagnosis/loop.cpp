@@ -299,6 +299,7 @@ class Loop {
     result_.hypotheses = list.size();
     const auto ranked = [&](const std::vector<Scored>& scores) {
       std::vector<Ranked> ranking;
+      ranking.reserve(scores.size());
       for (const Scored& s : scores) {
         ranking.push_back({list[s.candidate].term.id, s.gain, s.t});
       }

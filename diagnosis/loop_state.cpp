@@ -37,7 +37,7 @@ LoopState::LoopState(const Robot& robot_, const Recording& log_, const Recording
   }
   masses.id = "masses";
   for (const int link : settings.shapes.free_links) {
-    for (Eigen::Index p = 0; p < 10; ++p) masses.columns.push_back(10 * link + p);
+    for (Eigen::Index p = 0; p < 10; ++p) masses.columns.push_back(Eigen::Index{10} * link + p);
   }
   masses.nonnegative.assign(masses.columns.size(), false);
 }

@@ -169,6 +169,7 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
     if (y.size() < 10 * bins) continue;
     const auto signal = [&](const auto& of) {
       std::vector<double> x;
+      x.reserve(places.size());
       for (const std::size_t i : places) x.push_back(of(recording[series.index[i]], i));
       return x;
     };

@@ -160,7 +160,8 @@ TEST(Diagnose, EffectsThatDoNotExistAreRefusedWithTheirLine) {
   EXPECT_NE(refused("effects:\n  - {effect: torque_offset, site: FR_nee, values: {o: 1}}\n")
                 .find("FR_nee"),
             std::string::npos);
-  EXPECT_NE(refused("effects:\n  - {effect: torque_offset, site: FR_knee, values: {}}\n").find("o"),
+  EXPECT_NE(refused("effects:\n  - {effect: torque_offset, site: FR_knee, values: {}}\n")
+                .find("does not give its o"),
             std::string::npos);
 }
 
