@@ -45,7 +45,7 @@ TEST(Folds, AreWholeLogsWhereThereAreThree) {
 
 // Of two logs each says too much that the other does not: stretches of both are left out.
 TEST(Folds, AreStretchesOfOneLogOrTwo) {
-  // Without one of the four the mean of the others is 2 or 3: away by 1 or 2, not by 3.
+  // Without one of the four the mean of the others is 2 or 3: 2 away, and 3 away of a whole log.
   const Eigen::VectorXd error = held_out({{0, 1.0}, {0, 1.0}, {1, 4.0}, {1, 4.0}}, 4);
   for (Eigen::Index b = 0; b < 4; ++b) EXPECT_NEAR(error[b], 4.0, of_the_prior) << b;
   const Eigen::VectorXd one = held_out({{0, 1.0}, {0, 2.0}, {0, 3.0}, {0, 6.0}}, 2);
