@@ -147,21 +147,45 @@ bool ActiveSet::damp(ColumnSet& set, double lambda) noexcept {
   for (std::size_t i = 0; i < passive_.size(); ++i) stiffness_[i] = lambda / (*V_)[passive_[i]];
   evaluated_ = false;
   tried_ = masses_;
-  evaluate();
-  bool is_positive = true;
-  for (int k = 0; k < most_refinements && is_positive && largest_slope() > refined_slope; ++k) {
-    is_positive = correct(set);
-    evaluate();
-  }
-  if (is_positive && largest_slope() <= refined_slope && is_at_a_vertex()) return true;
+  if (settle(set) && is_at_a_vertex()) return true;
   masses_ = tried_;
   evaluated_ = false;
   return false;
 }
 
+// The pivots may have gone astray, and the masses have the digits that a squared condition leaves.
+// Whether they are the minimum is asked of the masses alone, as of any other answer, and more
+// strictly: where no correction reaches the last digits the method itself is called.
+bool ActiveSet::settles_at(FewShapes& guess) noexcept {
+  clear();
+  stiffness_.clear();
+  columns_->unbar_all();
+  for (int j = 0; j < columns_->size(); ++j) {
+    if (!guess.is_passive(j)) continue;
+    if (!(guess.mass(j) > 0.0)) return false;
+    add(j, guess.mass(j));
+  }
+  iterations_ += guess.pivots() + 1;  // one to see that nothing is left to do
+  if (!settle(guess)) return false;
+  if (lambda_ > 0.0) return is_at_a_vertex() && tells_apart(guess);
+  return columns_->steepest(slopes_, smallest_slope) < 0;
+}
+
+/// Corrects the masses until the slopes of the passive shapes are rounding. False if that does not
+/// come about, or takes a mass away.
+bool ActiveSet::settle(NormalEquations& normal) noexcept {
+  evaluate();
+  bool is_positive = true;
+  for (int k = 0; k < most_refinements && is_positive && largest_slope() > refined_slope; ++k) {
+    is_positive = correct(normal);
+    evaluate();
+  }
+  return is_positive && largest_slope() <= refined_slope;
+}
+
 // What a rounding of each slope does to the masses. The signs that do the most are found as in
 // Hager's estimate of a condition: from any signs, by those of what they lead to.
-bool ActiveSet::tells_apart(ColumnSet& set) noexcept {
+bool ActiveSet::tells_apart(NormalEquations& normal) noexcept {
   const auto n = static_cast<Eigen::Index>(masses_.size());
   for (Eigen::Index i = 0; i < n; ++i) {
     coefficients_[i] = ((some_signs >> (i % 64)) & 1U) != 0 ? 1.0 : -1.0;
@@ -176,7 +200,7 @@ bool ActiveSet::tells_apart(ColumnSet& set) noexcept {
           std::copysign(std::numeric_limits<double>::epsilon() * terms, coefficients_[i]);
       all += masses_[place];
     }
-    set.solve_normal(coefficients_);
+    normal.solve_normal(coefficients_);
   }
   return n == 0 || coefficients_.head(n).lpNorm<Eigen::Infinity>() <= told_apart * all;
 }
@@ -198,11 +222,11 @@ void ActiveSet::for_each_slope(Use use) const noexcept {
 }
 
 /// One step of refinement of the masses; whether all stay positive.
-bool ActiveSet::correct(ColumnSet& set) noexcept {
+bool ActiveSet::correct(NormalEquations& normal) noexcept {
   ++iterations_;
   for_each_slope(
       [this](std::size_t i, double slope) { coefficients_[static_cast<Eigen::Index>(i)] = slope; });
-  set.solve_normal(coefficients_);
+  normal.solve_normal(coefficients_);
   evaluated_ = false;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < masses_.size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "shapeid/fast/few_shapes.hpp"
 #include "shapeid/fast/passive_set.hpp"
 #include "shapeid/fast/shape_columns.hpp"
 #include "shapeid/models/mass_problem.hpp"
@@ -63,6 +64,9 @@ class ActiveSet {
   /// After run() with lambda = 0 on `set`: on to the minimum for this lambda, if that has the same
   /// passive shapes. False if that is not certain; then the masses stay.
   [[nodiscard]] bool damp(ColumnSet& set, double lambda) noexcept;
+  /// From a guess at the minimum: whether it is the minimum once its masses are corrected. If not,
+  /// masses are to be restored.
+  [[nodiscard]] bool settles_at(FewShapes& guess) noexcept;
   /// Whether every shape that is not passive would certainly raise the objective, and there are no
   /// more passive ones than independent columns.
   [[nodiscard]] bool is_at_a_vertex() noexcept;
@@ -112,8 +116,9 @@ class ActiveSet {
   /// Phi, slopes and value of the masses, unless they are there already.
   void evaluate() noexcept;
   /// Whether the rows determine the passive masses.
-  [[nodiscard]] bool tells_apart(ColumnSet& set) noexcept;
-  [[nodiscard]] bool correct(ColumnSet& set) noexcept;
+  [[nodiscard]] bool tells_apart(NormalEquations& normal) noexcept;
+  [[nodiscard]] bool settle(NormalEquations& normal) noexcept;
+  [[nodiscard]] bool correct(NormalEquations& normal) noexcept;
   template <typename Use>
   void for_each_slope(Use use) const noexcept;
   [[nodiscard]] double largest_slope() noexcept;

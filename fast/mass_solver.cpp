@@ -29,12 +29,14 @@ MassSolver::MassSolver(int links, int most_shapes)
 
 void MassSolver::clear() noexcept {
   columns_.clear();
+  few_.clear();
   forget_masses();
 }
 
 bool MassSolver::append(int link, const Column& u, double V) noexcept {
   const int j = columns_.size();
   if (!columns_.append(link, u)) return false;
+  few_.put(j, u);
   m_[j] = 0.0;
   V_[j] = V;
   return true;
@@ -60,6 +62,7 @@ void MassSolver::start_at(int j, double mass) noexcept {
 
 Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
   if (!method_.take(R)) return Outcome::not_finite;
+  if (guess_is_right()) return Outcome::solved;
   const Outcome outcome = solve_again();
   if (outcome != Outcome::solved) method_.take_back();
   return outcome;
@@ -72,6 +75,23 @@ Outcome MassSolver::solve_again() noexcept {
   if (outcome != Outcome::solved) method_.restore();
   put_masses_in();
   return outcome;
+}
+
+// A new triangle of one link with few shapes: most answers are found by pivots on a dozen rows.
+bool MassSolver::guess_is_right() noexcept {
+  if (links() != 1 || !few_.fits()) return false;
+  if (!few_.guess(V_, lambda_, method_.R(), passive())) return false;
+  method_.save();
+  take_masses_out();
+  method_.use(*vertex_, lambda_);
+  const bool is_right = method_.settles_at(few_);
+  if (is_right) {
+    at_vertex_ = true;
+  } else {
+    method_.restore();
+  }
+  put_masses_in();
+  return is_right;
 }
 
 void MassSolver::take_masses_out() noexcept {
@@ -106,6 +126,7 @@ bool MassSolver::divide(int j, const Column& first, double V1, const Column& sec
   take_masses_out();
   if (mass > 0.0 && method_.has_rows()) method_.drop(j);
   columns_.replace(j, first);
+  few_.put(j, first);
   V_[j] = V1;
   if (mass > 0.0) {
     give(j, mass * V1 / (V1 + V2));

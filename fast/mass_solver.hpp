@@ -8,6 +8,7 @@
 
 #include "shapeid/fast/active_set.hpp"
 #include "shapeid/fast/even_density.hpp"
+#include "shapeid/fast/few_shapes.hpp"
 #include "shapeid/fast/shape_columns.hpp"
 #include "shapeid/models/mass_problem.hpp"
 
@@ -73,6 +74,7 @@ class MassSolver {
   [[nodiscard]] double gap(double mass_bound) const noexcept;
 
  private:
+  [[nodiscard]] bool guess_is_right() noexcept;
   [[nodiscard]] Outcome solve_damped() noexcept;
   void give(int j, double mass) noexcept;
   void take_masses_out() noexcept;
@@ -82,6 +84,7 @@ class MassSolver {
   Eigen::VectorXd m_, V_;
   double lambda_ = 0.0;
   std::unique_ptr<ColumnSet> vertex_;  ///< passive shapes with independent columns
+  FewShapes few_;                      ///< a first answer where a link has few shapes
   EvenDensity even_;                   ///< any number of them, for lambda > 0
   ActiveSet method_;
   bool at_vertex_ = true;  ///< where the next call may start, for lambda > 0

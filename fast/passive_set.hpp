@@ -47,12 +47,21 @@ class PassiveSet {
       const Eigen::VectorXd& of_residual) noexcept = 0;
 };
 
-/// A passive set whose columns are those of the shapes: for lambda = 0.
-class ColumnSet : public PassiveSet {
+/// What corrects masses.
+class NormalEquations {
  public:
+  NormalEquations() = default;
+  NormalEquations(const NormalEquations&) = delete;
+  NormalEquations& operator=(const NormalEquations&) = delete;
+  virtual ~NormalEquations() = default;
+
   /// Replaces x, an entry a passive shape, by the solution z of A^T A z = x with A = R U of the
-  /// passive shapes. The target stays as it is.
+  /// passive shapes, or what comes close to it.
   virtual void solve_normal(Eigen::VectorXd& x) noexcept = 0;
 };
+
+/// A passive set whose columns are those of the shapes: for lambda = 0. Solving the normal
+/// equations leaves the target as it is.
+class ColumnSet : public PassiveSet, public NormalEquations {};
 
 }  // namespace shapeid::fast

@@ -1,0 +1,182 @@
+#include "shapeid/fast/few_shapes.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "shapeid/fast/wide.hpp"
+
+namespace shapeid::fast {
+namespace {
+
+constexpr std::size_t dozen = FewShapes::most_shapes;
+using Exchanged = FewShapes::Exchanged;
+using TenRows = std::array<Dozen, 10>;
+using FourPlaces = std::uint64_t __attribute__((vector_size(32)));
+
+constexpr FourPlaces places[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
+
+/// a += factor b
+[[gnu::always_inline]] inline void add(Dozen& a, double factor, const Dozen& b) noexcept {
+  a.part[0] += factor * b.part[0];
+  a.part[1] += factor * b.part[1];
+  a.part[2] += factor * b.part[2];
+}
+
+/// A gain below the square of this share of || c || is rounding of H.
+constexpr double smallest_step = 1e-13;
+
+/// A column of which less than this share of its square is new counts as dependent: rounding of H
+/// may be a hundredth of it.
+constexpr double smallest_share = 1e-12;
+
+/// The bits of a number that hold a place among the dozen.
+constexpr std::uint64_t lanes = 15;
+
+/// H = A^T A and q = A^T c with A = R U, and the square of || c ||, from the triangle [R c] whose
+/// columns lie `stride` apart.
+SHAPEID_WIDE double form(const TenRows& U, const double* R, std::size_t stride, std::size_t shapes,
+                         std::array<Dozen, dozen>& H, Dozen& q) noexcept {
+  TenRows A;
+  Dozen sum;
+  double square = 0.0;
+  for (std::size_t i = 0; i < 10; ++i) {
+    Dozen row;
+    for (std::size_t l = i; l < 10; ++l) add(row, R[l * stride + i], U[l]);
+    const double c = R[10 * stride + i];
+    add(sum, c, row);
+    square += c * c;
+    A[i] = row;
+  }
+  q = sum;
+  for (std::size_t k = 0; k < shapes; ++k) {
+    Dozen row;
+    for (const Dozen& a : A) add(row, a[k], a);
+    H[k] = row;
+  }
+  return square;
+}
+
+/// What is out of place by most, and by how much: a passive shape of negative mass m by what it
+/// costs to hold it at zero, m^2 over its entry of the inverse; another of positive slope s by what
+/// it gains, s^2 over what is left of its column. The low bits of each carry its number, so that
+/// one maximum finds both.
+[[gnu::always_inline]] inline double furthest_out(const Exchanged& now) noexcept {
+  Four most = {};
+  for (std::size_t p = 0; p < 3; ++p) {
+    const Four x = now.x.part[p], size = x < 0.0 ? -x : x;
+    const Four out = now.side.part[p] * x * size / now.diagonal.part[p];
+    const Four marked =
+        reinterpret_cast<Four>((reinterpret_cast<FourPlaces>(out) & ~lanes) | places[p]);
+    most = marked > most ? marked : most;
+  }
+  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+}
+
+/// The exchange of x_k and its slope in  slope = q - H x,  for either direction. Column k is row k
+/// but for the signs of the rows on the other side. Entries k are set among their neighbours: what
+/// is written in part is slow to read as a whole.
+[[gnu::always_inline]] inline void exchange(Exchanged& now, std::size_t shapes,
+                                            std::size_t k) noexcept {
+  Dozen row = now.H[k], column;
+  FourPlaces others[3];
+  const double inverse = 1.0 / row[k], step = inverse * now.x[k], same = now.side[k];
+  for (std::size_t p = 0; p < 3; ++p) {
+    const auto is_k = places[p] == k;
+    others[p] = reinterpret_cast<FourPlaces>(~is_k);
+    Four &side = now.side.part[p], &x = now.x.part[p], &diagonal = now.diagonal.part[p];
+    column.part[p] = same * side * row.part[p];
+    row.part[p] = is_k ? Four{} + inverse : inverse * row.part[p];
+    x = is_k ? Four{} + step : x - step * column.part[p];
+    diagonal = is_k ? Four{} + inverse : diagonal - column.part[p] * row.part[p];
+    side = is_k ? -side : side;
+  }
+  for (std::size_t i = 0; i < shapes; ++i) {
+    for (std::size_t p = 0; p < 3; ++p) {
+      Four& entry = now.H[i].part[p];
+      entry = reinterpret_cast<Four>(reinterpret_cast<FourPlaces>(entry) & others[p]);
+      entry -= column[i] * row.part[p];
+    }
+  }
+  now.H[k] = row;
+  ++now.pivots;
+}
+
+/// Pivots until nothing is out of place by more than `smallest`; false if `most_pivots` were too
+/// few. `squares`: the diagonal of H.
+SHAPEID_WIDE bool settle(Exchanged& now, const Dozen& squares, std::size_t shapes, double smallest,
+                         int most_pivots) noexcept {
+  while (true) {
+    const double most = furthest_out(now);
+    if (!(most > smallest)) return true;
+    const std::size_t k = std::bit_cast<std::uint64_t>(most) & lanes;
+    if (now.side[k] > 0.0 && !(now.diagonal[k] > smallest_share * squares[k])) {
+      now.diagonal[k] = std::numeric_limits<double>::infinity();
+    } else if (now.pivots == most_pivots) {
+      return false;
+    } else {
+      exchange(now, shapes, k);
+    }
+  }
+}
+
+/// The passive shapes, as far as their columns do not depend on those before.
+SHAPEID_WIDE void start(Exchanged& now, const Dozen& squares, std::size_t shapes,
+                        const std::vector<int>& passive) noexcept {
+  for (const int j : passive) {
+    const auto k = static_cast<std::size_t>(j);
+    if (squares[k] > 0.0 && now.diagonal[k] > smallest_share * squares[k]) exchange(now, shapes, k);
+  }
+}
+
+}  // namespace
+
+void FewShapes::clear() noexcept {
+  shapes_ = 0;
+  U_.fill(Dozen{});
+}
+
+void FewShapes::put(int j, const ShapeColumns::Column& u) noexcept {
+  shapes_ = std::max(shapes_, j + 1);
+  if (!fits()) return;
+  for (int i = 0; i < 10; ++i) U_[place(i)][place(j)] = u[i];
+}
+
+bool FewShapes::guess(const Eigen::VectorXd& V, double lambda, const Eigen::MatrixXd& R,
+                      const std::vector<int>& passive) noexcept {
+  const std::size_t shapes = place(shapes_);
+  const double square =
+      form(U_, R.data(), static_cast<std::size_t>(R.outerStride()), shapes, now_.H, now_.x);
+  Dozen squares;
+  for (std::size_t j = 0; j < dozen; ++j) {
+    if (lambda > 0.0 && j < shapes) now_.H[j][j] += lambda / V[static_cast<Eigen::Index>(j)];
+    squares[j] = j < shapes ? now_.H[j][j] : 0.0;
+    now_.diagonal[j] = squares[j] > 0.0 ? squares[j] : std::numeric_limits<double>::infinity();
+  }
+  for (Four& side : now_.side.part) side = Four{1.0, 1.0, 1.0, 1.0};
+  if (square > 0.0) start(now_, squares, shapes, passive);  // without forces there is no mass
+  now_.pivots = 0;
+  // What is not out of place at all still carries a number in its low bits: hence the minimum.
+  const double smallest =
+      std::max(smallest_step * smallest_step * square, std::numeric_limits<double>::min());
+  return settle(now_, squares, shapes, smallest, 4 * shapes_);
+}
+
+void FewShapes::solve_normal(Eigen::VectorXd& x) noexcept {
+  Dozen right;
+  Eigen::Index entry = 0;
+  for (int j = 0; j < shapes_; ++j) {
+    if (is_passive(j)) right[place(j)] = x[entry++];
+  }
+  entry = 0;
+  for (int i = 0; i < shapes_; ++i) {
+    if (!is_passive(i)) continue;
+    double sum = 0.0;
+    for (std::size_t j = 0; j < dozen; ++j) sum += now_.H[place(i)][j] * right[j];
+    x[entry++] = sum;
+  }
+}
+
+}  // namespace shapeid::fast
