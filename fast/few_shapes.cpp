@@ -18,13 +18,6 @@ using FourPlaces = std::uint64_t __attribute__((vector_size(32)));
 
 constexpr FourPlaces places[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
 
-/// a += factor b
-[[gnu::always_inline]] inline void add(Dozen& a, double factor, const Dozen& b) noexcept {
-  a.part[0] += factor * b.part[0];
-  a.part[1] += factor * b.part[1];
-  a.part[2] += factor * b.part[2];
-}
-
 /// A gain below the square of this share of || c || is rounding of H.
 constexpr double smallest_step = 1e-13;
 

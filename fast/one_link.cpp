@@ -4,111 +4,174 @@
 #include <cstddef>
 
 #include "shapeid/fast/column_qr.hpp"
+#include "shapeid/fast/wide.hpp"
 
 namespace shapeid::fast {
+namespace {
+
+using Ten = std::array<Dozen, 10>;
+
+constexpr Four places[] = {{0.0, 1.0, 2.0, 3.0}, {4.0, 5.0, 6.0, 7.0}, {8.0, 9.0, 10.0, 11.0}};
+
+constexpr std::size_t place(int i) noexcept { return static_cast<std::size_t>(i); }
+
+/// What a column that enters makes of the rows from k on.
+struct Image {
+  double square = 0.0;  ///< of the length of its part there, and of the rest of it
+  double rest = 0.0;
+  Dozen w;  ///< Q^T of it
+  Dozen s;  ///< sum over these rows of w_i row_i
+};
+
+SHAPEID_WIDE void look_at(const Ten& rows, const double* column, std::size_t k,
+                          Image& image) noexcept {
+  const Dozen u = ten_from(column);
+  for (std::size_t i = 0; i < 10; ++i) {
+    const Dozen& row = rows[i];
+    const Four sum = row.part[0] * u.part[0] + row.part[1] * u.part[1] + row.part[2] * u.part[2];
+    image.w[i] = (sum[0] + sum[2]) + (sum[1] + sum[3]);
+  }
+  Dozen s;
+  double square = 0.0, rest = 0.0;
+  for (std::size_t i = 0; i < k; ++i) rest += image.w[i] * image.w[i];
+  for (std::size_t i = k; i < 10; ++i) {
+    square += image.w[i] * image.w[i];
+    add(s, image.w[i], rows[i]);
+  }
+  image.s = s;
+  image.square = square;
+  image.rest = rest;
+}
+
+/// Householder's reflection that makes w[k], of the rows from k on, `target` and the others zero;
+/// the inverse of T gains its column for (w_0 ... w_(k-1), target).
+SHAPEID_WIDE void reflect(Ten& rows, Ten& inverse, const Image& image, std::size_t k, double length,
+                          double target) noexcept {
+  const double inverse_length = 1.0 / target;
+  Dozen column;
+  for (std::size_t i = 0; i < k; ++i) add(column, -image.w[i] * inverse_length, inverse[i]);
+  for (std::size_t p = 0; p < 3; ++p) {
+    const Four is_k = places[p] == static_cast<double>(k) ? Four{} + 1.0 : Four{};
+    inverse[k].part[p] = column.part[p] + inverse_length * is_k;
+  }
+  const double first = image.w[k] - target;  // the signs differ, so that nothing cancels
+  const double factor = 1.0 / (length * (length + std::abs(image.w[k])));
+  Dozen s;
+  for (std::size_t p = 0; p < 3; ++p) {
+    s.part[p] = factor * (image.s.part[p] - target * rows[k].part[p]);
+  }
+  add(rows[k], -first, s);
+  for (std::size_t i = k + 1; i < 10; ++i) add(rows[i], -image.w[i], s);
+}
+
+/// (a, b) <- (c a - s b, c b + s a)
+[[gnu::always_inline]] inline void rotate(double c, double s, Dozen& a, Dozen& b) noexcept {
+  for (std::size_t p = 0; p < 3; ++p) {
+    const Four first = a.part[p], second = b.part[p];
+    a.part[p] = c * first - s * second;
+    b.part[p] = c * second + s * first;
+  }
+}
+
+/// Rotations of neighbouring rows and columns that gather entry `leaving` of the columns in column
+/// k, and that entry taken out of the columns before it.
+SHAPEID_WIDE void take_out(Ten& rows, Ten& columns, std::size_t leaving, std::size_t k) noexcept {
+  for (std::size_t i = leaving; i < k; ++i) {
+    const double a = columns[i + 1][leaving], b = columns[i][leaving];
+    const double scale = 1.0 / std::sqrt(a * a + b * b), c = a * scale, s = b * scale;
+    rotate(c, s, columns[i], columns[i + 1]);
+    rotate(c, s, rows[i], rows[i + 1]);
+  }
+  for (std::size_t i = leaving; i < k; ++i) {
+    // The last of the entries behind is the next column's first, and no place of this one's.
+    const auto* behind = reinterpret_cast<const LooseFour*>(&columns[i][1]);
+    for (std::size_t p = 0; p < 3; ++p) {
+      const Four moved = places[p] < static_cast<double>(k) ? behind[p] : Four{};
+      columns[i].part[p] = places[p] < static_cast<double>(leaving) ? columns[i].part[p] : moved;
+    }
+  }
+}
+
+}  // namespace
 
 OneLink::OneLink(const ShapeColumns& columns)
     : columns_(&columns),
       target_(Eigen::VectorXd::Zero(10)),
       slopes_(Eigen::VectorXd::Zero(10)),
-      correction_(Eigen::VectorXd::Zero(10)) {
-  rows_.setZero();
-  inverse_.setZero();
-}
+      correction_(Eigen::VectorXd::Zero(10)) {}
 
 void OneLink::start(const Eigen::MatrixXd& R) noexcept {
   size_ = 0;
-  rows_.leftCols<11>() = R.topRows<10>();
-  inverse_.setZero();
+  inverse_.fill(Dozen{});
   target_.setZero();
-  Row g = Row::Zero();
-  for (int i = 0; i < 10; ++i) g.noalias() += rows_(i, 10) * rows_.row(i);
-  slopes_ = g.head<10>().transpose();
+  Dozen g;
+  for (int i = 0; i < 10; ++i) {
+    Dozen& row = rows_[place(i)];
+    row[11] = 0.0;
+    for (int j = 0; j <= 10; ++j) row[place(j)] = R(i, j);
+    add(g, row[10], row);
+  }
+  for (int j = 0; j < 10; ++j) slopes_[j] = g[place(j)];
 }
 
-// Householder's reflection of rows size_ and below. With w the part of the column in these rows,
-// s = w^T rows and t = ||w||: the new row size_ is -+ s / t, so the slopes fall by s s_c / t^2 with
-// s_c the entry of the right-hand side. That needs no square root, and pricing need not wait for
-// one.
+// With w the part of the column in the rows from size_ on, s = w^T rows and t = ||w||: the new row
+// size_ is -+ s / t, so the slopes fall by s s_c / t^2 with s_c the entry of the right-hand side.
+// That needs no square root, and pricing need not wait for one.
 bool OneLink::enter(int j) noexcept {
-  const int k = size_;
-  if (k == 10) {
-    refused_.noalias() = rows_.leftCols<10>() * columns_->column(j);
+  const std::size_t k = place(size_);
+  Image image;
+  look_at(rows_, columns_->column(j).data(), k, image);
+  constexpr double share = ColumnQr::smallest_share * ColumnQr::smallest_share;
+  if (k == 10 || !(image.square > share * (image.rest + image.square))) {
+    refused_ = image.w;
     return false;
   }
-  Eigen::Map<Vector10> slopes(slopes_.data()), target(target_.data());
-  const Vector10 u = columns_->column(j);
-  Vector10 w;
-  for (int i = 0; i < 10; ++i) w[i] = rows_.row(i).head<10>().dot(u);
-  Vector10 tail = w;
-  for (int i = 0; i < k; ++i) tail[i] = 0.0;
-  const double square = tail.squaredNorm();
-  if (!(square > ColumnQr::smallest_share * ColumnQr::smallest_share * w.squaredNorm())) {
-    refused_ = w;
-    return false;
-  }
-  Row s = Row::Zero();
-  for (int i = k; i < 10; ++i) s.noalias() += w[i] * rows_.row(i);
-  slopes -= (s[10] / square) * s.head<10>().transpose();
+  const double fall = image.s[10] / image.square;
+  for (int i = 0; i < 10; ++i) slopes_[i] -= fall * image.s[place(i)];
 
-  const double length = std::sqrt(square), inverse_length = 1.0 / length;
-  const double image = w[k] > 0.0 ? -length : length;
-  const double inverse_image = w[k] > 0.0 ? -inverse_length : inverse_length;
-  // T gains the column (w_0 ... w_(k-1), image), so its inverse gains -T^-1 w / image, 1 / image.
-  Vector10 column = Vector10::Zero();
-  for (int i = 0; i < k; ++i) column.noalias() -= w[i] * inverse_.col(i);
-  column *= inverse_image;
-  column[k] = inverse_image;
-  inverse_.col(k) = column;
-  target += (s[10] * inverse_image) * column;
-
-  s = (inverse_length / (length + std::abs(w[k]))) * (s - image * rows_.row(k));
-  w[k] -= image;  // the signs differ, so that nothing cancels
-  for (int i = k; i < 10; ++i) rows_.row(i).noalias() -= w[i] * s;
-  passive_[static_cast<std::size_t>(k)] = j;
-  if (++size_ == 10) slopes.setZero();  // no row is left that a slope could come from
+  const double length = std::sqrt(image.square), target = image.w[k] > 0.0 ? -length : length;
+  reflect(rows_, inverse_, image, k, length, target);
+  const double gain = image.s[10] / target;
+  for (int i = 0; i <= size_; ++i) target_[i] += gain * inverse_[k][place(i)];
+  passive_[k] = j;
+  if (++size_ == 10) slopes_.setZero();  // no row is left that a slope could come from
   return true;
 }
 
 void OneLink::dependence(Eigen::VectorXd& coefficients) noexcept {
-  coefficients.head(size_).noalias() =
-      inverse_.topLeftCorner(size_, size_).triangularView<Eigen::Upper>() * refused_.head(size_);
+  Dozen sum;
+  for (int i = 0; i < size_; ++i) add(sum, refused_[place(i)], inverse_[place(i)]);
+  for (int i = 0; i < size_; ++i) coefficients[i] = sum[place(i)];
 }
 
 // Rotations of neighbouring rows of Q^T [R c], and of columns of T^-1, that gather row `place` of
 // T^-1 in its last column. Without that row and column it is the inverse of the triangle that is
 // left.
-void OneLink::leave(int place) noexcept {
+void OneLink::leave(int leaving) noexcept {
   const int k = --size_;
-  for (int i = place; i < k; ++i) {
-    const double a = inverse_(place, i + 1), b = inverse_(place, i);
-    const double scale = 1.0 / std::sqrt(a * a + b * b), c = a * scale, s = b * scale;
-    const Vector10 left = inverse_.col(i), right = inverse_.col(i + 1);
-    inverse_.col(i) = c * left - s * right;
-    inverse_.col(i + 1) = c * right + s * left;
-    const Row upper = rows_.row(i), lower = rows_.row(i + 1);
-    rows_.row(i) = c * upper - s * lower;
-    rows_.row(i + 1) = c * lower + s * upper;
+  take_out(rows_, inverse_, place(leaving), place(k));
+  const Dozen &row = rows_[place(k)], &column = inverse_[place(k)];
+  const double entry = row[10];
+  for (int i = 0; i < 10; ++i) slopes_[i] += entry * row[place(i)];
+  for (int i = 0; i <= k; ++i) target_[i] -= entry * column[place(i)];
+  inverse_[place(k)] = Dozen{};
+  for (int i = leaving; i < k; ++i) {
+    passive_[place(i)] = passive_[place(i + 1)];
+    target_[i] = target_[i + 1];
   }
-  Eigen::Map<Vector10> slopes(slopes_.data()), target(target_.data());
-  slopes += rows_(k, 10) * rows_.row(k).head<10>().transpose();
-  target -= rows_(k, 10) * inverse_.col(k);
-  inverse_.col(k).setZero();
-  for (int i = place; i < k; ++i) {
-    passive_[static_cast<std::size_t>(i)] = passive_[static_cast<std::size_t>(i) + 1];
-    inverse_.row(i) = inverse_.row(i + 1);
-    target[i] = target[i + 1];
-  }
-  inverse_.row(k).setZero();
-  target[k] = 0.0;
+  target_[k] = 0.0;
 }
 
 // T^T T z = x by the inverse of T.
 void OneLink::solve_normal(Eigen::VectorXd& x) noexcept {
-  Vector10 y = Vector10::Zero();
-  for (int i = 0; i < size_; ++i) y += x[i] * inverse_.row(i).transpose();  // becomes T^-T x
-  const Vector10 z = inverse_ * y;
-  x.head(size_) = z.head(size_);
+  Dozen z;
+  for (int c = 0; c < size_; ++c) {
+    const Dozen& column = inverse_[place(c)];
+    double y = 0.0;  // an entry of T^-T x
+    for (int i = 0; i <= c; ++i) y += column[place(i)] * x[i];
+    add(z, y, column);
+  }
+  for (int i = 0; i < size_; ++i) x[i] = z[place(i)];
 }
 
 // The normal equations of the correction, A^T A x = A^T r.

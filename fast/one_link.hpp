@@ -7,6 +7,7 @@
 #include <array>
 
 #include "shapeid/fast/passive_set.hpp"
+#include "shapeid/fast/wide.hpp"
 
 namespace shapeid::fast {
 
@@ -33,14 +34,13 @@ class OneLink final : public ColumnSet {
 
  private:
   using Vector10 = Eigen::Matrix<double, 10, 1>;
-  using Row = Eigen::Matrix<double, 1, 12>;
 
   const ShapeColumns* columns_;
   int size_ = 0;
   std::array<int, 10> passive_{};
-  Eigen::Matrix<double, 10, 12, Eigen::RowMajor> rows_;  ///< Q^T [R c 0]
-  Eigen::Matrix<double, 10, 10> inverse_;                ///< of T, upper triangle
-  Vector10 refused_;                                     ///< Q^T of the column refused last
+  std::array<Dozen, 10> rows_;     ///< Q^T [R c 0]
+  std::array<Dozen, 10> inverse_;  ///< columns of the inverse of T
+  Dozen refused_;                  ///< Q^T of the column refused last
   Eigen::VectorXd target_, slopes_, correction_;
 };
 

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+
+#include "shapeid/fast/wide.hpp"
 
 namespace shapeid::fast {
 namespace {
@@ -11,7 +15,7 @@ namespace {
 /// What a barred shape's price is lowered by. Prices lie in [-1, 1].
 constexpr float barred = 1e30F;
 /// And what no price reaches, unless products overflowed.
-constexpr float no_price = 2.0F;
+constexpr float no_price = 2.0F, impossible = 4.0F;
 
 /// What rounding to single precision may do to a price: thirteen roundings (ten products, the two
 /// operands, the scale) of terms whose sizes add up to one.
@@ -26,39 +30,92 @@ constexpr float almost = 0.1F;
 using Prices = Eigen::Array<float, 16, 1>;
 using Ten = Eigen::Array<float, 10, 1>;
 
-/// u . g of sixteen shapes, in two sums, so that one addition need not wait for the other.
-Prices slopes_of(const Eigen::Array<float, 16, 10>& U, const Ten& g) noexcept {
-  Prices even = U.col(0) * g[0], odd = U.col(1) * g[1];
-  for (int i = 2; i < 10; i += 2) {
-    even += U.col(i) * g[i];
-    odd += U.col(i + 1) * g[i + 1];
-  }
-  return even + odd;
-}
-
 struct Best {
   float price;
   std::size_t lane;
 };
 
-/// 1 / sum_i |u_i| sizes_i of each of sixteen shapes.
-Prices inverse_sizes(const Eigen::Array<float, 16, 10>& U, const Ten& sizes) noexcept {
-  Prices sum = Prices::Constant(smallest_scale);
-  for (int i = 0; i < 10; ++i) sum += U.col(i).abs() * sizes[i];
-  return sum.inverse();
+[[gnu::always_inline]] inline const Eight* parts_of(const float* numbers) noexcept {
+  return reinterpret_cast<const Eight*>(numbers);
 }
 
-/// The largest price and its lane. The lane's number is written into the last four bits of its
-/// price, which single precision cannot vouch for anyway: then one maximum finds both.
-Best best_of(const Prices& prices) noexcept {
-  Eigen::Array<std::uint32_t, 16, 1> bits;
-  for (unsigned i = 0; i < 16; ++i) {
-    bits[i] = (std::bit_cast<std::uint32_t>(prices[i]) & ~std::uint32_t{15}) | i;
+/// u . g of sixteen shapes, in two sums, so that one addition need not wait for the other.
+[[gnu::always_inline]] inline void slopes_of(const Eight* U, const float* g,
+                                             Eight* slopes) noexcept {
+  for (int p = 0; p < 2; ++p) {
+    Eight even = U[p] * g[0], odd = U[p + 2] * g[1];
+    for (int i = 2; i < 10; i += 2) {
+      even += U[2 * i + p] * g[i];
+      odd += U[2 * i + 2 + p] * g[i + 1];
+    }
+    slopes[p] = even + odd;
   }
-  Prices marked;
-  for (unsigned i = 0; i < 16; ++i) marked[i] = std::bit_cast<float>(bits[i]);
-  const float most = marked.maxCoeff();
-  return {most, std::bit_cast<std::uint32_t>(most) & 15U};
+}
+
+/// 1 / sum_i |u_i| sizes_i of each of sixteen shapes.
+[[gnu::always_inline]] inline void inverse_sizes(const Eight* U, const float* sizes,
+                                                 Eight* inverse) noexcept {
+  for (int p = 0; p < 2; ++p) {
+    Eight sum = Eight{} + smallest_scale;
+    for (int i = 0; i < 10; ++i) {
+      const Eight u = U[2 * i + p];
+      sum += (u < 0.0F ? -u : u) * sizes[i];
+    }
+    inverse[p] = 1.0F / sum;
+  }
+}
+
+/// The largest price and its lane; `impossible` if one of them cannot be a price. The lane's number
+/// is written into the last four bits of its price, which single precision cannot vouch for anyway:
+/// then one maximum finds both.
+[[gnu::always_inline]] inline Best best_of(const Eight* prices) noexcept {
+  using Bits = std::uint32_t __attribute__((vector_size(32)));
+  constexpr Bits lanes[] = {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10, 11, 12, 13, 14, 15}};
+  Eight most[2];
+  for (int p = 0; p < 2; ++p) {
+    const Eight possible = prices[p] <= no_price ? prices[p] : Eight{} + impossible;
+    most[p] = reinterpret_cast<Eight>((reinterpret_cast<Bits>(possible) & ~15U) | lanes[p]);
+  }
+  const Eight m = most[0] > most[1] ? most[0] : most[1];
+  const float best = std::max(std::max(std::max(m[0], m[1]), std::max(m[2], m[3])),
+                              std::max(std::max(m[4], m[5]), std::max(m[6], m[7])));
+  return {best, std::bit_cast<std::uint32_t>(best) & 15U};
+}
+
+/// Prices of sixteen shapes by their lengths.
+SHAPEID_WIDE Best price_by_lengths(const float* U, const float* g, const float* scale,
+                                   const float* barrier, float* prices) noexcept {
+  Eight slopes[2];
+  slopes_of(parts_of(U), g, slopes);
+  for (int p = 0; p < 2; ++p) {
+    slopes[p] = slopes[p] * parts_of(scale)[p] - parts_of(barrier)[p];
+    reinterpret_cast<Eight*>(prices)[p] = slopes[p];
+  }
+  return best_of(slopes);
+}
+
+/// And by their own terms, into `prices`. `by_length`: what slopes are multiplied by first for the
+/// former.
+SHAPEID_WIDE void price_by_both(const float* U, const float* g, const float* scale,
+                                const float* barrier, float by_length, float* prices,
+                                Best& by_lengths, Best& by_terms) noexcept {
+  Eight slopes[2], terms[2], here[2];
+  float sizes[10];
+  for (int i = 0; i < 10; ++i) sizes[i] = std::abs(g[i]);
+  slopes_of(parts_of(U), g, slopes);
+  inverse_sizes(parts_of(U), sizes, terms);
+  for (int p = 0; p < 2; ++p) {
+    here[p] = by_length * slopes[p] * parts_of(scale)[p] - parts_of(barrier)[p];
+    terms[p] = slopes[p] * terms[p] - parts_of(barrier)[p];
+    reinterpret_cast<Eight*>(prices)[p] = terms[p];
+  }
+  by_lengths = best_of(here);
+  by_terms = best_of(terms);
+}
+
+/// What slopes are multiplied by.
+SHAPEID_WIDE void scales(const float* U, const float* sizes, float* scale) noexcept {
+  inverse_sizes(parts_of(U), sizes, reinterpret_cast<Eight*>(scale));
 }
 
 }  // namespace
@@ -125,8 +182,8 @@ void ShapeColumns::set_scale(const Eigen::VectorXd& lengths, double length) noex
 }
 
 void ShapeColumns::set_scale(Chunk& chunk) noexcept {
-  chunk.scale = inverse_sizes(
-      chunk.U, lengths_.segment<10>(Eigen::Index{10} * chunk.link).cast<float>().array());
+  const Ten lengths = lengths_.segment<10>(Eigen::Index{10} * chunk.link).cast<float>();
+  scales(chunk.U.data(), lengths.data(), chunk.scale.data());
 }
 
 void ShapeColumns::bar(int j, bool is_barred) noexcept {
@@ -148,10 +205,16 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
   if (threshold >= 0.0 && g.isZero(0.0)) return -1;
   float most = uncertain;
   uncertain_.clear();
+  Ten gl;
+  int link = -1;
   for (int c = 0; c < used_chunks_; ++c) {
-    const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-    const Ten gl = (inverse_unit_ * g.segment<10>(Eigen::Index{10} * chunk.link)).cast<float>();
-    const Best here = best_of(slopes_of(chunk.U, gl) * chunk.scale - chunk.barrier);
+    Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+    if (chunk.link != link) {
+      link = chunk.link;
+      gl = (inverse_unit_ * g.segment<10>(Eigen::Index{10} * link)).cast<float>();
+    }
+    const Best here = price_by_lengths(chunk.U.data(), gl.data(), chunk.scale.data(),
+                                       chunk.barrier.data(), chunk.last.data());
     if (!(here.price <= no_price)) {
       // A float overflowed, and may stand above the barrier: double decides.
       uncertain_.push_back(c);
@@ -187,11 +250,11 @@ int ShapeColumns::steepest_or_by_terms(const Eigen::VectorXd& g, double threshol
   float most = uncertain, most_by_terms = uncertain;
   int steepest_by_terms = -1;
   for (int c = 0; c < used_chunks_; ++c) {
-    const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+    Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
     const Ten gl = (g.segment<10>(Eigen::Index{10} * chunk.link) / largest).cast<float>();
-    const Prices slopes = slopes_of(chunk.U, gl);
-    const Best here = best_of(by_length * slopes * chunk.scale - chunk.barrier);
-    const Best terms = best_of(slopes * inverse_sizes(chunk.U, gl.abs()) - chunk.barrier);
+    Best here{}, terms{};
+    price_by_both(chunk.U.data(), gl.data(), chunk.scale.data(), chunk.barrier.data(), by_length,
+                  chunk.last.data(), here, terms);
     if (!(here.price <= no_price && terms.price <= no_price)) {
       uncertain_.push_back(c);
       continue;
@@ -223,6 +286,7 @@ const std::vector<int>& ShapeColumns::steep_ones(Among among) noexcept {
   steep_ones_.clear();
   if (steepest_ < 0) return steep_ones_;
   steep_ones_.push_back(steepest_);
+  if (links() == 1 && among == Among::links) return steep_ones_;
   float most = 0.0F;
   for (const Priced& best : best_) most = std::max(most, best.price);
   for (const Priced& best : best_) {
@@ -243,7 +307,8 @@ int ShapeColumns::steepest_in_double(const Eigen::VectorXd& g, double threshold,
   for (const int c : uncertain_) {
     const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
     for (int lane = 0; lane < chunk.used; ++lane) {
-      if (chunk.barrier[lane] > 0.0F) continue;
+      // Barred, or certainly below any threshold.
+      if (chunk.barrier[lane] > 0.0F || chunk.last[lane] <= -uncertain) continue;
       const int j = chunk.shape[static_cast<std::size_t>(lane)];
       const auto gl = g.segment<10>(Eigen::Index{10} * chunk.link);
       const double slope = columns_.col(j).dot(gl);

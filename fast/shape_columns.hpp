@@ -71,6 +71,7 @@ class ShapeColumns {
     Eigen::Array<float, lanes, 10> U;
     Prices scale;    ///< 1 / sum_i |u_ij| lengths_i
     Prices barrier;  ///< 0, or barred
+    Prices last;     ///< by which the last pricing could not decide
     std::array<int, lanes> shape;
     int link;
     int used;

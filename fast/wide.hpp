@@ -9,7 +9,10 @@ namespace shapeid::fast {
 /// shorter.
 using Four = double __attribute__((vector_size(32)));
 
-/// A dozen of them.
+/// Wherever they lie in memory.
+using LooseFour = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+/// A dozen doubles.
 struct Dozen {
   Four part[3] = {};
   double& operator[](std::size_t i) noexcept { return reinterpret_cast<double*>(part)[i]; }
@@ -17,6 +20,22 @@ struct Dozen {
     return reinterpret_cast<const double*>(part)[i];
   }
 };
+
+/// a += factor b
+[[gnu::always_inline]] inline void add(Dozen& a, double factor, const Dozen& b) noexcept {
+  a.part[0] += factor * b.part[0];
+  a.part[1] += factor * b.part[1];
+  a.part[2] += factor * b.part[2];
+}
+
+/// The ten numbers from here on, and two zeros.
+[[gnu::always_inline]] inline Dozen ten_from(const double* x) noexcept {
+  const auto* parts = reinterpret_cast<const LooseFour*>(x);
+  return {{parts[0], parts[1], Four{x[8], x[9], 0.0, 0.0}}};
+}
+
+/// Eight floats likewise, wherever they lie in memory.
+using Eight = float __attribute__((vector_size(32), aligned(4), may_alias));
 
 }  // namespace shapeid::fast
 
