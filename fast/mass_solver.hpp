@@ -17,7 +17,8 @@ namespace shapeid::fast {
 /// Minimises  || R U m - c ||^2 + lambda sum_j m_j^2 / V_j  over m >= 0, with [R c] the triangle of
 /// a window: the same minimiser as `reference::solve_masses` (lambda > 0), or the same minimum
 /// (lambda = 0). By an active-set method on one of two sets of passive shapes: columns that are
-/// independent, or, where lambda decides among more of them, the even density.
+/// independent, or, where lambda decides among more of them, the even density. A link with few
+/// shapes is tried by pivots first.
 ///
 /// After construction nothing allocates or throws; the steps of a call are bounded.
 class MassSolver {

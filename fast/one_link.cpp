@@ -13,7 +13,7 @@ using Ten = std::array<Dozen, 10>;
 
 constexpr Four places[] = {{0.0, 1.0, 2.0, 3.0}, {4.0, 5.0, 6.0, 7.0}, {8.0, 9.0, 10.0, 11.0}};
 
-constexpr std::size_t place(int i) noexcept { return static_cast<std::size_t>(i); }
+constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// What a column that enters makes of the rows from k on.
 struct Image {
@@ -106,19 +106,19 @@ void OneLink::start(const Eigen::MatrixXd& R) noexcept {
   target_.setZero();
   Dozen g;
   for (int i = 0; i < 10; ++i) {
-    Dozen& row = rows_[place(i)];
+    Dozen& row = rows_[at(i)];
     row[11] = 0.0;
-    for (int j = 0; j <= 10; ++j) row[place(j)] = R(i, j);
+    for (int j = 0; j <= 10; ++j) row[at(j)] = R(i, j);
     add(g, row[10], row);
   }
-  for (int j = 0; j < 10; ++j) slopes_[j] = g[place(j)];
+  for (int j = 0; j < 10; ++j) slopes_[j] = g[at(j)];
 }
 
 // With w the part of the column in the rows from size_ on, s = w^T rows and t = ||w||: the new row
 // size_ is -+ s / t, so the slopes fall by s s_c / t^2 with s_c the entry of the right-hand side.
 // That needs no square root, and pricing need not wait for one.
 bool OneLink::enter(int j) noexcept {
-  const std::size_t k = place(size_);
+  const std::size_t k = at(size_);
   Image image;
   look_at(rows_, columns_->column(j).data(), k, image);
   constexpr double share = ColumnQr::smallest_share * ColumnQr::smallest_share;
@@ -127,12 +127,12 @@ bool OneLink::enter(int j) noexcept {
     return false;
   }
   const double fall = image.s[10] / image.square;
-  for (int i = 0; i < 10; ++i) slopes_[i] -= fall * image.s[place(i)];
+  for (int i = 0; i < 10; ++i) slopes_[i] -= fall * image.s[at(i)];
 
   const double length = std::sqrt(image.square), target = image.w[k] > 0.0 ? -length : length;
   reflect(rows_, inverse_, image, k, length, target);
   const double gain = image.s[10] / target;
-  for (int i = 0; i <= size_; ++i) target_[i] += gain * inverse_[k][place(i)];
+  for (int i = 0; i <= size_; ++i) target_[i] += gain * inverse_[k][at(i)];
   passive_[k] = j;
   if (++size_ == 10) slopes_.setZero();  // no row is left that a slope could come from
   return true;
@@ -140,23 +140,23 @@ bool OneLink::enter(int j) noexcept {
 
 void OneLink::dependence(Eigen::VectorXd& coefficients) noexcept {
   Dozen sum;
-  for (int i = 0; i < size_; ++i) add(sum, refused_[place(i)], inverse_[place(i)]);
-  for (int i = 0; i < size_; ++i) coefficients[i] = sum[place(i)];
+  for (int i = 0; i < size_; ++i) add(sum, refused_[at(i)], inverse_[at(i)]);
+  for (int i = 0; i < size_; ++i) coefficients[i] = sum[at(i)];
 }
 
 // Rotations of neighbouring rows of Q^T [R c], and of columns of T^-1, that gather row `place` of
 // T^-1 in its last column. Without that row and column it is the inverse of the triangle that is
 // left.
-void OneLink::leave(int leaving) noexcept {
+void OneLink::leave(int place) noexcept {
   const int k = --size_;
-  take_out(rows_, inverse_, place(leaving), place(k));
-  const Dozen &row = rows_[place(k)], &column = inverse_[place(k)];
+  take_out(rows_, inverse_, at(place), at(k));
+  const Dozen &row = rows_[at(k)], &column = inverse_[at(k)];
   const double entry = row[10];
-  for (int i = 0; i < 10; ++i) slopes_[i] += entry * row[place(i)];
-  for (int i = 0; i <= k; ++i) target_[i] -= entry * column[place(i)];
-  inverse_[place(k)] = Dozen{};
-  for (int i = leaving; i < k; ++i) {
-    passive_[place(i)] = passive_[place(i + 1)];
+  for (int i = 0; i < 10; ++i) slopes_[i] += entry * row[at(i)];
+  for (int i = 0; i <= k; ++i) target_[i] -= entry * column[at(i)];
+  inverse_[at(k)] = Dozen{};
+  for (int i = place; i < k; ++i) {
+    passive_[at(i)] = passive_[at(i + 1)];
     target_[i] = target_[i + 1];
   }
   target_[k] = 0.0;
@@ -166,12 +166,12 @@ void OneLink::leave(int leaving) noexcept {
 void OneLink::solve_normal(Eigen::VectorXd& x) noexcept {
   Dozen z;
   for (int c = 0; c < size_; ++c) {
-    const Dozen& column = inverse_[place(c)];
+    const Dozen& column = inverse_[at(c)];
     double y = 0.0;  // an entry of T^-T x
-    for (int i = 0; i <= c; ++i) y += column[place(i)] * x[i];
+    for (int i = 0; i <= c; ++i) y += column[at(i)] * x[i];
     add(z, y, column);
   }
-  for (int i = 0; i < size_; ++i) x[i] = z[place(i)];
+  for (int i = 0; i < size_; ++i) x[i] = z[at(i)];
 }
 
 // The normal equations of the correction, A^T A x = A^T r.

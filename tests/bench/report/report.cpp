@@ -44,7 +44,9 @@ void print_head(const Results& results) {
       "repetition by repetition (median, lowest to highest). A ratio of 3 means\nthat the peer "
       "takes "
       "three times as long.\n\n"
-      "- machine: {}\n- build: {}; Eigen's own vectorisation for plain x86-64 (SSE2), peers alike\n"
+      "- machine: {}\n- build: {}; Eigen's own vectorisation for plain x86-64 (SSE2), peers alike; "
+      "three "
+      "kernels of ours (`fast/wide.hpp`) take AVX2 where the processor has it\n"
       "- peers: {}, Lawson-Hanson of r-cran-nnls; ProxSuite without its optional simde\n"
       "- commit: {}\n- seeds: {}\n\n",
       context(results, "cpu"), context(results, "flags"), context(results, "peers"),
