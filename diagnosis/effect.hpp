@@ -87,11 +87,13 @@ struct Transformation {
 };
 
 /// Statements of C++ with which the identified effect predicts joint torque. They see `j` (the
-/// joint), the parameters and shape numbers by name, and arrays over the joints.
+/// site's number), the parameters and shape numbers by name, and arrays over the joints.
 struct TorqueCode {
   std::string motion;  ///< before the rigid links: changes q, dq, ddq
   std::string link;    ///< between: `at` (torque_header.cpp) has the links' motion and wrenches
-  std::string torque;  ///< after them: changes tau; load[j] holds what the rigid links ask for
+  /// After them: changes tau; load[j] holds what the rigid links ask for, load_rate[j] its change a
+  /// second (Effect::needs_load_rate).
+  std::string torque;
 };
 
 struct Effect {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
+#include "shapeid/diagnosis/best_round.hpp"
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/filter_error.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
@@ -73,41 +73,16 @@ class Loop {
       }
       if (round_ > 0) rounds.push_back(result_);
     }
-    if (!rounds.empty()) take_best_of(rounds);
+    if (!rounds.empty()) take_best_of(rounds, state_);
     try_large_transformation();
-  }
-
-  /// The round whose model leaves least on blocks that are held out, with the last one's weights.
-  void take_best_of(const std::vector<LoopResult>& rounds) {
-    const LoopResult last = result_;
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t best = 0;
-    for (std::size_t k = 0; k < rounds.size(); ++k) {
-      result_ = rounds[k];
-      result_.weight = last.weight;
-      use_correction(last.correction);
-      const double error = state_.held_out_of_model().sum();
-      if (error >= least) continue;
-      least = error;
-      best = k;
-    }
-    result_ = rounds[best];
-    result_.screening_seconds = last.screening_seconds;
-    result_.refit_seconds = last.refit_seconds;
-    use_correction(result_.correction);
   }
 
   /// What the filter makes of products, by the present model.
   void correct() {
     if (state_.settings.rough == nullptr) return;
     const Viewer viewer(state_.robot, state_.settings.contacts, result_.model.effects);
-    use_correction(filter_error(viewer, result_.model, state_.log, *state_.settings.rough,
-                                state_.settings.cutoff));
-  }
-
-  void use_correction(const std::vector<Eigen::VectorXd>& correction) {
-    result_.correction = correction;
-    state_.log.set_correction(correction);
+    state_.use_correction(filter_error(viewer, result_.model, state_.log, *state_.settings.rough,
+                                       state_.settings.cutoff));
   }
 
   /// W = 1 / variance of what the present model leaves, row by row.

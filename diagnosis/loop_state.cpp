@@ -78,6 +78,11 @@ void LoopState::collect_effects() {
   }
 }
 
+void LoopState::use_correction(const std::vector<Eigen::VectorXd>& correction) {
+  result.correction = correction;
+  log.set_correction(correction);
+}
+
 void LoopState::set_masses(const Fit& fit) {
   result.model.Phi = centre;
   for (std::size_t i = 0; i < masses.columns.size(); ++i) {

@@ -32,6 +32,8 @@ struct LoopState {
   [[nodiscard]] Series left_by(const RichModel& model) const;
   /// The model's effects from what was found; transformations are kept within their limits.
   void collect_effects();
+  /// Of the log from now on, and noted in the result.
+  void use_correction(const std::vector<Eigen::VectorXd>& correction);
   /// From a fit whose first term is the masses.
   void set_masses(const Fit& fit);
 

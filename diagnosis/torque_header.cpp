@@ -87,11 +87,16 @@ struct Links {
       }
     }
     for (int i = 0; i < link_count; ++i) {
-      const Vector h = R[i] * links[i].first_moment;
-      const Matrix tensor = R[i] * links[i].tensor * transposed(R[i]);
-      f[i] = links[i].mass * a[i] + cross(alpha[i], h) + cross(w[i], cross(w[i], h));
-      n[i] = cross(h, a[i]) + tensor * alpha[i] + cross(w[i], tensor * w[i]);
+      carry(i, links[i].mass, links[i].first_moment, links[i].tensor);
     }
+  }
+
+  /// A body that moves with link i, about the link's origin and in its axes.
+  void carry(int i, double mass, Vector first_moment, const Matrix& about_origin) {
+    const Vector h = R[i] * first_moment;
+    const Matrix tensor = R[i] * about_origin * transposed(R[i]);
+    f[i] += mass * a[i] + cross(alpha[i], h) + cross(w[i], cross(w[i], h));
+    n[i] += cross(h, a[i]) + tensor * alpha[i] + cross(w[i], tensor * w[i]);
   }
 
   void torques(double* tau) {
@@ -181,12 +186,48 @@ std::string curve_code(const Curve& curve) {
       law.code.torque);
 }
 
+// Both functions begin with the joints where they stand, and not where they were logged.
+std::string corrected(const std::string& motion) {
+  return "  double q[joint_count + 1] = {};\n"
+         "  for (int i = 0; i < joint_count; ++i) q[i] = q_logged[i];\n" +
+         motion;
+}
+
+/// What an effect needs that follows the load's rate: the load by itself, and its difference as
+/// the library takes it.
+std::string load_code(const std::string& motion) {
+  return "\n/// What the rigid links ask for, N m; arguments as of predict().\n"
+         "inline void rigid_load(const double* q_logged, const double* dq, const double* ddq,\n"
+         "                       const double* base, double* load) {\n" +
+         corrected(motion) +
+         "  for (int i = 0; i < joint_count; ++i) load[i] = 0.0;\n"
+         "  Links rigid;\n  rigid.move(q, dq, ddq, base);\n  rigid.torques(load);\n}\n";
+}
+
+std::string prediction_from_three(double step) {
+  return fmt::format(
+      R"(
+struct Motion {{
+  const double *q, *dq, *ddq, *base;
+}};
+
+/// The same from the motion now, and {0} s before and after: load_rate is their difference.
+inline void predict(const Motion& before, const Motion& now, const Motion& after, double* tau) {{
+  double earlier[joint_count + 1], later[joint_count + 1], load_rate[joint_count + 1];
+  rigid_load(before.q, before.dq, before.ddq, before.base, earlier);
+  rigid_load(after.q, after.dq, after.ddq, after.base, later);
+  for (int i = 0; i < joint_count; ++i) load_rate[i] = (later[i] - earlier[i]) / (2 * {0});
+  predict(now.q, now.dq, now.ddq, now.base, load_rate, tau);
+}}
+)",
+      step);
+}
+
 }  // namespace
 
 std::string torque_header(const Robot& robot, const RichModel& model) {
   const Viewer viewer(robot, reference::ContactTreatment::ignore, model.effects);
   std::string inertias, motion, between, torque, scaling, left_out;
-  Eigen::VectorXd Phi = model.Phi;
   for (const AppliedEffect& a : model.effects) {
     const TorqueCode& code = a.effect->code;
     if (!code.motion.empty()) motion += scoped(a, code.motion);
@@ -195,25 +236,23 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
     const bool scales = a.effect->transform.rows != nullptr;
     if (!code.torque.empty()) (scales ? scaling : torque) += scoped(a, code.torque);
     const bool in_robot = a.effect->transform.robot != nullptr;
-    const bool in_inertia = a.effect->is_payload && a.effect->shape.empty();
-    if (in_inertia) Phi.segment<10>(Eigen::Index{10} * a.site) += a.value;
-    if (code.motion.empty() && code.link.empty() && code.torque.empty() && !in_robot &&
-        !in_inertia) {
+    if (code.motion.empty() && code.link.empty() && code.torque.empty() && !in_robot) {
       left_out += fmt::format("//   {}\n", hypothesis_id(robot, a));
     }
   }
   for (const Curve& curve : model.curves) torque += curve_code(curve);
   for (int i = 0; i < robot.link_count(); ++i) {
     inertias += link_text(viewer.robot().links[static_cast<std::size_t>(i)],
-                          {Phi.segment<10>(Eigen::Index{10} * i)});
+                          {model.Phi.segment<10>(Eigen::Index{10} * i)});
   }
   std::string names;
   for (int j = 0; j < robot.joint_count(); ++j) {
     names += fmt::format("//   {} {}\n", j, robot.joint(j).name);
   }
-  std::string text =
-      "// Joint torques of " + robot.name +
-      ", as shapeid identified it. Without contact forces: add J^T f.\n// Joints:\n" + names;
+  std::string text = "// Joint torques of " + robot.name +
+                     ", as shapeid identified it. Without contact forces f on the robot: subtract "
+                     "J^T f.\n// Joints:\n" +
+                     names;
   if (!left_out.empty()) text += "// Found, and not part of this prediction:\n" + left_out;
   text += "#pragma once\n\n#include <cmath>\n\nnamespace shapeid_model {\n";
   text += algebra;
@@ -222,18 +261,28 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
   text += "const Link links[link_count] = {\n" + inertias + "};\n";
   text += dynamics;
   if (!model.curves.empty()) text += interpolation;
+  const bool rate = needs_load_rate(model.effects);
+  if (rate) text += load_code(motion);
   text +=
       "\n/// q, dq, ddq, tau: joint_count numbers each (rad, N m). base: gyro, its derivative, "
-      "specific\n/// force, in base axes; null: fixed and upright.\n"
+      "specific\n/// force, in base axes; null: fixed and upright.\n";
+  if (rate) {
+    text +=
+        "/// load_rate (N m/s): the change of rigid_load() a second; that of -J^T f "
+        "counts too\n/// where contact forces f are known.\n";
+  }
+  text +=
       "inline void predict(const double* q_logged, const double* dq, const double* ddq,\n"
-      "                    const double* base, double* tau) {\n"
-      "  double q[joint_count + 1] = {}, load[joint_count + 1] = {};\n"
-      "  for (int i = 0; i < joint_count; ++i) q[i] = q_logged[i];\n" +
-      motion +
+      "                    const double* base, " +
+      std::string(rate ? "const double* load_rate, " : "") + "double* tau) {\n" +
+      corrected(motion) +
+      "  double load[joint_count + 1] = {};\n"
       "  Links at;\n  at.move(q, dq, ddq, base);\n"
       "  for (int i = 0; i < joint_count; ++i) tau[i] = 0.0;\n"
       "  Links rigid = at;\n  rigid.torques(load);\n" +
-      between + "  at.torques(tau);\n" + torque + scaling + "}\n\n}  // namespace shapeid_model\n";
+      between + "  at.torques(tau);\n" + torque + scaling + "}\n";
+  if (rate) text += prediction_from_three(neighbour_step);
+  text += "\n}  // namespace shapeid_model\n";
   return text;
 }
 

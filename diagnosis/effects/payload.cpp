@@ -24,6 +24,8 @@ Effect payload() {
   e.applies = moves;
   e.columns = columns;
   e.is_payload = true;
+  e.code.link =
+      "at.carry(j, m, {mrx, mry, mrz}, {{Ixx, Ixy, Ixz}, {Ixy, Iyy, Iyz}, {Ixz, Iyz, Izz}});";
   return e;
 }
 

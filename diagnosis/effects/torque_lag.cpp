@@ -26,6 +26,7 @@ Effect torque_lag() {
   e.source = "docs/derivations/filtering.md";
   e.columns = columns;
   e.needs_load_rate = true;
+  e.code.torque = "tau[j] -= T * load_rate[j];";
   return e;
 }
 
