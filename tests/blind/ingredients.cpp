@@ -75,14 +75,18 @@ void torque_gain(Ingredients& in, const Machine&, const Amount& a) {
   change_each(in, [a](Reading& r) { r.sample.tau[a.site] *= 1.0 + a.size; });
 }
 /// The drive reports its torque through a filter of first order; size is its time constant, s.
+/// Between readings the torque goes straight: a constant one would be half an interval late or
+/// early, which is as much as the smallest lags.
 void torque_lag(Ingredients& in, const Machine&, const Amount& a) {
   in.signals.emplace_back([a](Readings& readings) {
-    double state = readings.front().sample.tau[a.site];
+    double before = readings.front().sample.tau[a.site], behind = 0.0;
     for (std::size_t i = 1; i < readings.size(); ++i) {
       const double dt = readings[i].sample.time - readings[i - 1].sample.time;
       double& tau = readings[i].sample.tau[a.site];
-      state += (tau - state) * (1.0 - std::exp(-dt / a.size));
-      tau = state;
+      const double late = a.size * (tau - before) / dt;
+      before = tau;
+      behind = late + (behind - late) * std::exp(-dt / a.size);
+      tau -= behind;
     }
   });
 }

@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 constexpr std::array<double, 5> ratios = {0.5, 1.0, 2.0, 4.0, 8.0};
 constexpr std::uint64_t motions = 5;  // of each robot; clean ones are simulated once
 
-/// A motion with nothing in it, and its log.
-struct Clean {
-  Readings readings;
-  diagnosis::Recording log;
-};
-
 class Generator {
  public:
   Generator(const PlanOptions& options, const std::string& folder)
@@ -55,7 +49,7 @@ class Generator {
     if (is_dynamic(trial)) {
       readings = simulate_trial(m, trial);
     } else {
-      readings = clean(m, trial.motion_seed).readings;
+      readings = clean(m, trial.motion_seed);
       change_signals(m, trial.items, readings);
     }
     if (readings.empty()) {
@@ -73,14 +67,21 @@ class Generator {
     return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
   }
 
-  const Clean& clean(const Machine& m, std::uint64_t seed) {
+  /// A motion with nothing in it.
+  const Readings& clean(const Machine& m, std::uint64_t seed) {
     const auto key = std::pair(m.name, seed);
     const auto known = clean_.find(key);
     if (known != clean_.end()) return known->second;
     Readings readings = simulate_clean(m, seed);
     if (readings.empty()) throw std::runtime_error("a clean robot fell: choose another seed");
-    write_logs(m, reference_trial(seed), readings, scratch_);
-    return clean_.emplace(key, Clean{readings, read_log(m, scratch_ + "/log.csv")}).first->second;
+    return clean_.emplace(key, std::move(readings)).first->second;
+  }
+
+  /// Its log, with this noise.
+  diagnosis::Recording clean_log(const Machine& m, std::uint64_t motion_seed,
+                                 std::uint64_t noise_seed) {
+    write_logs(m, without_items(noise_seed), clean(m, motion_seed), scratch_);
+    return read_log(m, scratch_ + "/log.csv");
   }
 
   static bool needs_reference(const Trial& trial) {
@@ -90,12 +91,13 @@ class Generator {
 
   /// The same robot earlier, with nothing in it and other noise.
   void write_reference(const Machine& m, const Trial& trial, const std::string& own) {
-    Trial earlier = reference_trial(trial.noise_seed + 3);
-    write_logs(m, earlier, clean(m, trial.motion_seed).readings, scratch_);
+    write_logs(m, without_items(reference_seed(trial)), clean(m, trial.motion_seed), scratch_);
     fs::rename(scratch_ + "/log.csv", own + "/reference.csv");
   }
 
-  static Trial reference_trial(std::uint64_t seed) {
+  static std::uint64_t reference_seed(const Trial& trial) { return trial.noise_seed + 3; }
+
+  static Trial without_items(std::uint64_t seed) {
     Trial trial;
     trial.noise_seed = seed;
     return trial;
@@ -140,24 +142,25 @@ class Generator {
       item.ratio = 0.0;
       return item;
     }
-    item.amount.size = ratio * detectable(m, k, item, clean(m, trial.motion_seed),
-                                          reference_trial(trial.motion_seed).noise_seed);
+    item.amount.size = ratio * detectable(m, k, item, trial);
     if (!(item.amount.size < k.largest)) return std::nullopt;
     return item;
   }
 
   /// The item's smallest detectable size. What is not in proportion to its size, as what saturates,
   /// is looked at again at the size that was found; infinity if that does not settle.
-  [[nodiscard]] double detectable(const Machine& m, const Kind& k, Item item, const Clean& base,
-                                  std::uint64_t noise_seed) const {
+  [[nodiscard]] double detectable(const Machine& m, const Kind& k, Item item, const Trial& trial) {
     constexpr int most_looks = 20;
     constexpr double close = 0.02;
+    const Readings& readings = clean(m, trial.motion_seed);
+    const diagnosis::Recording log = clean_log(m, trial.motion_seed, trial.noise_seed);
     // A load that was never absent is told from its link by a log without it alone.
-    const bool against_reference = k.id == "payload";
+    std::optional<diagnosis::Recording> reference;
+    if (k.id == "payload") reference = clean_log(m, trial.motion_seed, reference_seed(trial));
     for (int look = 0; look < most_looks; ++look) {
       const Eigen::MatrixXd change =
-          unit_change(m, item, base.readings, base.log, scratch_, noise_seed);
-      const double size = detectable_size(m, base.log, change, against_reference);
+          unit_change(m, item, readings, log, scratch_, trial.noise_seed);
+      const double size = detectable_size(m, log, change, reference ? &*reference : nullptr);
       if (!k.foreign || std::abs(size - item.amount.size) < close * size) return size;
       if (std::isinf(size)) return size;
       // What grows with its square would go to and fro.
@@ -168,7 +171,7 @@ class Generator {
 
   PlanOptions options_;
   std::string folder_, scratch_;
-  std::map<std::pair<std::string, std::uint64_t>, Clean> clean_;
+  std::map<std::pair<std::string, std::uint64_t>, Readings> clean_;
 };
 
 }  // namespace

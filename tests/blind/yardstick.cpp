@@ -187,18 +187,25 @@ Eigen::MatrixXd unit_change(const Machine& machine, const Item& item,
 }
 
 double detectable_size(const Machine& machine, const Recording& clean,
-                       const Eigen::MatrixXd& unit_change, bool masses_known) {
+                       const Eigen::MatrixXd& unit_change, const Recording* without) {
   const RichModel truth{stacked_parameters(machine.robot), {}};
   const std::vector<Block> blocks = blocks_of(machine, clean, truth, unit_change);
   const Eigen::VectorXd prior = precision(machine);
   const Eigen::Index n = prior.size();
+  // Masses from the other log have nothing of the item in them, and that log's noise.
+  Eigen::MatrixXd from_other = Eigen::MatrixXd::Zero(n, 2);
+  if (without != nullptr) {
+    const Eigen::MatrixXd nothing =
+        Eigen::MatrixXd::Zero(machine.robot.dof(), std::ssize(without->usable(1)));
+    from_other = masses(blocks_of(machine, *without, truth, nothing), prior, 0, 0);
+  }
   Eigen::VectorXd p(std::ssize(blocks)), q(p.size());
   constexpr std::size_t folds = 8;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::size_t fold = b * folds / blocks.size();
     const auto start = [&](std::size_t f) { return (f * blocks.size() + folds - 1) / folds; };
-    const Eigen::MatrixXd x = masses_known ? Eigen::MatrixXd(Eigen::MatrixXd::Zero(n, 2))
-                                           : masses(blocks, prior, start(fold), start(fold + 1));
+    const Eigen::MatrixXd x =
+        without != nullptr ? from_other : masses(blocks, prior, start(fold), start(fold + 1));
     // What is left of the change and of the residual, each after its own masses.
     Eigen::MatrixXd left(n + 2, 2);
     left << -x, Eigen::Matrix2d::Identity();
@@ -207,8 +214,6 @@ double detectable_size(const Machine& machine, const Recording& clean,
     p[at] = G(0, 0);
     q[at] = G(0, 1);
   }
-  // On average a clean residual has nothing of the change in it; what the filter makes of it has.
-  q.array() -= q.mean();
   constexpr double standard_errors = 3.0;
   return size_at(p, q, standard_errors);
 }

@@ -26,11 +26,13 @@ namespace shapeid::blind {
                                           const std::string& scratch_folder,
                                           std::uint64_t noise_seed);
 
-/// The smallest size from which on a model that knows the item lowers the blocked held-out error by
-/// three standard errors, masses refitted by both (or known to both, from a log without the item);
-/// infinity if there is none.
+/// The smallest size from which on a model that knows the item lowers the blocked held-out error of
+/// this log by three standard errors, masses refitted by both; or both with the masses of a log
+/// `without` the item. Infinity if there is none. `clean` has the noise of the log that the item
+/// comes into, and this noise counts as it is: where it hides the item, more of it is needed.
 [[nodiscard]] double detectable_size(const Machine& machine, const diagnosis::Recording& clean,
-                                     const Eigen::MatrixXd& unit_change, bool masses_known = false);
+                                     const Eigen::MatrixXd& unit_change,
+                                     const diagnosis::Recording* without = nullptr);
 
 /// Root of the sum over joints of the mean squared residual on the test log, N m, of the model that
 /// is told the trial's effects and fits the masses to the other log.
