@@ -93,11 +93,13 @@ Eigen::VectorXd precision(const Machine& machine) {
   return p;
 }
 
-/// Masses for [change, residual] as targets, of all blocks but those from `first` to `last`.
+/// Masses for [change, residual] as targets, of all blocks but those from `first` to `last`, and of
+/// `others`.
 Eigen::MatrixXd masses(const std::vector<Block>& blocks, const Eigen::VectorXd& prior,
-                       std::size_t first, std::size_t last) {
+                       std::size_t first, std::size_t last, const std::vector<Block>& others = {}) {
   const Eigen::Index n = prior.size();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n + 2, n + 2);
+  for (const Block& other : others) sum += other.gram;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (b < first || b >= last) sum += blocks[b].gram;
   }
@@ -192,20 +194,18 @@ double detectable_size(const Machine& machine, const Recording& clean,
   const std::vector<Block> blocks = blocks_of(machine, clean, truth, unit_change);
   const Eigen::VectorXd prior = precision(machine);
   const Eigen::Index n = prior.size();
-  // Masses from the other log have nothing of the item in them, and that log's noise.
-  Eigen::MatrixXd from_other = Eigen::MatrixXd::Zero(n, 2);
+  std::vector<Block> others;
   if (without != nullptr) {
     const Eigen::MatrixXd nothing =
         Eigen::MatrixXd::Zero(machine.robot.dof(), std::ssize(without->usable(1)));
-    from_other = masses(blocks_of(machine, *without, truth, nothing), prior, 0, 0);
+    others = blocks_of(machine, *without, truth, nothing);
   }
   Eigen::VectorXd p(std::ssize(blocks)), q(p.size());
   constexpr std::size_t folds = 8;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::size_t fold = b * folds / blocks.size();
     const auto start = [&](std::size_t f) { return (f * blocks.size() + folds - 1) / folds; };
-    const Eigen::MatrixXd x =
-        without != nullptr ? from_other : masses(blocks, prior, start(fold), start(fold + 1));
+    const Eigen::MatrixXd x = masses(blocks, prior, start(fold), start(fold + 1), others);
     // What is left of the change and of the residual, each after its own masses.
     Eigen::MatrixXd left(n + 2, 2);
     left << -x, Eigen::Matrix2d::Identity();

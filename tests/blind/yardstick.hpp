@@ -27,8 +27,8 @@ namespace shapeid::blind {
                                           std::uint64_t noise_seed);
 
 /// The smallest size from which on a model that knows the item lowers the blocked held-out error of
-/// this log by three standard errors, masses refitted by both; or both with the masses of a log
-/// `without` the item. Infinity if there is none. `clean` has the noise of the log that the item
+/// this log by three standard errors, masses refitted by both; to a log `without` the item, too, if
+/// there is one. Infinity if there is no such size. `clean` has the noise of the log that the item
 /// comes into, and this noise counts as it is: where it hides the item, more of it is needed.
 [[nodiscard]] double detectable_size(const Machine& machine, const diagnosis::Recording& clean,
                                      const Eigen::MatrixXd& unit_change,
