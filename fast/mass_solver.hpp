@@ -81,11 +81,11 @@ class MassSolver {
   void take_masses_out() noexcept;
   void put_masses_in() noexcept;
 
+  FewShapes few_;  ///< a first answer where a link has few shapes
   ShapeColumns columns_;
   Eigen::VectorXd m_, V_;
   double lambda_ = 0.0;
   std::unique_ptr<ColumnSet> vertex_;  ///< passive shapes with independent columns
-  FewShapes few_;                      ///< a first answer where a link has few shapes
   EvenDensity even_;                   ///< any number of them, for lambda > 0
   ActiveSet method_;
   bool at_vertex_ = true;  ///< where the next call may start, for lambda > 0
