@@ -69,7 +69,8 @@ DivisionOptions options_of(const IdentifierSettings& settings) {
 
 Identifier::Identifier(const Robot& robot, const BodyModel& model,
                        const IdentifierSettings& settings)
-    : block_(std::gcd(checked(settings).window, settings.stride)),
+    : division_(model, options_of(checked(settings))),
+      block_(std::gcd(settings.window, settings.stride)),
       window_(settings.window),
       stride_(settings.stride),
       warm_(settings.warm),
@@ -81,7 +82,6 @@ Identifier::Identifier(const Robot& robot, const BodyModel& model,
       volume_(shape_volumes(model).sum()),
       rows_(robot, model, settings.contacts, weight_of(robot, settings)),
       last_window_(10 * static_cast<Eigen::Index>(model.free_links.size())),
-      division_(model, options_of(settings)),
       Phi_(Eigen::VectorXd::Zero(10 * static_cast<Eigen::Index>(model.free_links.size()))),
       filtered_(Phi_) {
   if (block_ < window_) sliding_.emplace(Phi_.size(), window_ / block_);

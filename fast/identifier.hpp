@@ -112,8 +112,10 @@ class Identifier {
  private:
   [[nodiscard]] bool solve(const Eigen::MatrixXd& R) noexcept;
 
+  Division division_;
   std::size_t block_, window_, stride_;  ///< samples
-  bool warm_;
+  bool warm_, has_answer_ = false;
+  Outcome outcome_ = Outcome::solved;
   double alpha_, expected_mass_, mass_bound_;
   std::optional<double> lambda_;
   double most_;  ///< of || b ||^2
@@ -121,11 +123,8 @@ class Identifier {
   Window rows_;                             ///< of the present block
   std::optional<SlidingTriangle> sliding_;  ///< the last blocks, if windows overlap
   Triangle last_window_;
-  Division division_;
   std::size_t in_block_ = 0, in_window_ = 0, since_last_ = 0;
   std::size_t by_six_rows_ = 0;  ///< samples of earlier blocks
-  bool has_answer_ = false;
-  Outcome outcome_ = Outcome::solved;
   WindowAnswer answer_;
   double spent_ = 0.0, slowest_ = 0.0;
   Eigen::VectorXd Phi_, filtered_;
