@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 
+#include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
 #include "shapeid/tests/blind/yardstick.hpp"
 
@@ -158,8 +159,12 @@ class Generator {
     std::optional<diagnosis::Recording> reference;
     if (k.id == "payload") reference = clean_log(m, trial.motion_seed, reference_seed(trial));
     for (int look = 0; look < most_looks; ++look) {
-      const Eigen::MatrixXd change =
-          unit_change(m, item, readings, log, scratch_, trial.noise_seed);
+      Eigen::MatrixXd change;
+      try {
+        change = unit_change(m, item, readings, log, scratch_, trial.noise_seed);
+      } catch (const InputError&) {
+        return std::numeric_limits<double>::infinity();  // so much of it that logs are refused
+      }
       const double size = detectable_size(m, log, change, reference ? &*reference : nullptr);
       if (!k.foreign || std::abs(size - item.amount.size) < close * size) return size;
       if (std::isinf(size)) return size;
