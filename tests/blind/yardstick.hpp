@@ -29,7 +29,7 @@ namespace shapeid::blind {
 /// The smallest size from which on a model that knows the item lowers the blocked held-out error of
 /// this log by three standard errors, masses refitted by both; to a log `without` the item, too, if
 /// there is one. Infinity if there is no such size. `clean` has the noise of the log that the item
-/// comes into, and this noise counts as it is: where it hides the item, more of it is needed.
+/// comes into: where this noise hides the item, more of it is needed.
 [[nodiscard]] double detectable_size(const Machine& machine, const diagnosis::Recording& clean,
                                      const Eigen::MatrixXd& unit_change,
                                      const diagnosis::Recording* without = nullptr);
