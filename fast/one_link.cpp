@@ -25,7 +25,8 @@ struct Image {
 
 SHAPEID_WIDE void look_at(const Ten& rows, const double* column, std::size_t k,
                           Image& image) noexcept {
-  const Dozen u = ten_from(column);
+  Dozen u;
+  load_ten(column, u);
   for (std::size_t i = 0; i < 10; ++i) {
     const Dozen& row = rows[i];
     const Four sum = row.part[0] * u.part[0] + row.part[1] * u.part[1] + row.part[2] * u.part[2];
@@ -84,9 +85,10 @@ SHAPEID_WIDE void take_out(Ten& rows, Ten& columns, std::size_t leaving, std::si
   }
   for (std::size_t i = leaving; i < k; ++i) {
     // The last of the entries behind is the next column's first, and no place of this one's.
-    const auto* behind = reinterpret_cast<const LooseFour*>(&columns[i][1]);
     for (std::size_t p = 0; p < 3; ++p) {
-      const Four moved = places[p] < static_cast<double>(k) ? behind[p] : Four{};
+      Four behind;
+      load(&columns[i][4 * p + 1], behind);
+      const Four moved = places[p] < static_cast<double>(k) ? behind : Four{};
       columns[i].part[p] = places[p] < static_cast<double>(leaving) ? columns[i].part[p] : moved;
     }
   }

@@ -35,30 +35,30 @@ struct Best {
   std::size_t lane;
 };
 
-[[gnu::always_inline]] inline const Eight* parts_of(const float* numbers) noexcept {
-  return reinterpret_cast<const Eight*>(numbers);
-}
-
 /// u . g of sixteen shapes, in two sums, so that one addition need not wait for the other.
-[[gnu::always_inline]] inline void slopes_of(const Eight* U, const float* g,
+[[gnu::always_inline]] inline void slopes_of(const float* U, const float* g,
                                              Eight* slopes) noexcept {
   for (int p = 0; p < 2; ++p) {
-    Eight even = U[p] * g[0], odd = U[p + 2] * g[1];
-    for (int i = 2; i < 10; i += 2) {
-      even += U[2 * i + p] * g[i];
-      odd += U[2 * i + 2 + p] * g[i + 1];
+    Eight even = {}, odd = {};
+    for (int i = 0; i < 10; i += 2) {
+      Eight u, v;
+      load(U + 16 * i + 8 * p, u);
+      load(U + 16 * (i + 1) + 8 * p, v);
+      even += u * g[i];
+      odd += v * g[i + 1];
     }
     slopes[p] = even + odd;
   }
 }
 
 /// 1 / sum_i |u_i| sizes_i of each of sixteen shapes.
-[[gnu::always_inline]] inline void inverse_sizes(const Eight* U, const float* sizes,
+[[gnu::always_inline]] inline void inverse_sizes(const float* U, const float* sizes,
                                                  Eight* inverse) noexcept {
   for (int p = 0; p < 2; ++p) {
     Eight sum = Eight{} + smallest_scale;
     for (int i = 0; i < 10; ++i) {
-      const Eight u = U[2 * i + p];
+      Eight u;
+      load(U + 16 * i + 8 * p, u);
       sum += (u < 0.0F ? -u : u) * sizes[i];
     }
     inverse[p] = 1.0F / sum;
@@ -86,10 +86,13 @@ struct Best {
 SHAPEID_WIDE Best price_by_lengths(const float* U, const float* g, const float* scale,
                                    const float* barrier, float* prices) noexcept {
   Eight slopes[2];
-  slopes_of(parts_of(U), g, slopes);
+  slopes_of(U, g, slopes);
   for (int p = 0; p < 2; ++p) {
-    slopes[p] = slopes[p] * parts_of(scale)[p] - parts_of(barrier)[p];
-    reinterpret_cast<Eight*>(prices)[p] = slopes[p];
+    Eight factor, barred_by;
+    load(scale + 8 * p, factor);
+    load(barrier + 8 * p, barred_by);
+    slopes[p] = slopes[p] * factor - barred_by;
+    store(slopes[p], prices + 8 * p);
   }
   return best_of(slopes);
 }
@@ -102,12 +105,15 @@ SHAPEID_WIDE void price_by_both(const float* U, const float* g, const float* sca
   Eight slopes[2], terms[2], here[2];
   float sizes[10];
   for (int i = 0; i < 10; ++i) sizes[i] = std::abs(g[i]);
-  slopes_of(parts_of(U), g, slopes);
-  inverse_sizes(parts_of(U), sizes, terms);
+  slopes_of(U, g, slopes);
+  inverse_sizes(U, sizes, terms);
   for (int p = 0; p < 2; ++p) {
-    here[p] = by_length * slopes[p] * parts_of(scale)[p] - parts_of(barrier)[p];
-    terms[p] = slopes[p] * terms[p] - parts_of(barrier)[p];
-    reinterpret_cast<Eight*>(prices)[p] = terms[p];
+    Eight factor, barred_by;
+    load(scale + 8 * p, factor);
+    load(barrier + 8 * p, barred_by);
+    here[p] = by_length * slopes[p] * factor - barred_by;
+    terms[p] = slopes[p] * terms[p] - barred_by;
+    store(terms[p], prices + 8 * p);
   }
   by_lengths = best_of(here);
   by_terms = best_of(terms);
@@ -115,7 +121,9 @@ SHAPEID_WIDE void price_by_both(const float* U, const float* g, const float* sca
 
 /// What slopes are multiplied by.
 SHAPEID_WIDE void scales(const float* U, const float* sizes, float* scale) noexcept {
-  inverse_sizes(parts_of(U), sizes, reinterpret_cast<Eight*>(scale));
+  Eight inverse[2];
+  inverse_sizes(U, sizes, inverse);
+  for (int p = 0; p < 2; ++p) store(inverse[p], scale + 8 * p);
 }
 
 }  // namespace

@@ -1,0 +1,10 @@
+# Two programs that print the same: cmake -DFIRST=... -DSECOND=... -P same_output.cmake
+foreach(which FIRST SECOND)
+  execute_process(COMMAND ${${which}} OUTPUT_VARIABLE ${which}_said RESULT_VARIABLE status)
+  if(NOT status EQUAL 0 OR "${${which}_said}" STREQUAL "")
+    message(FATAL_ERROR "${${which}} ends with ${status}")
+  endif()
+endforeach()
+if(NOT FIRST_said STREQUAL SECOND_said)
+  message(FATAL_ERROR "${FIRST} and ${SECOND} do not print the same")
+endif()
