@@ -51,8 +51,10 @@ struct Instant {
   /// Predicted joint torques of the rigid links, with contact forces from the base's balance
   /// (predicted_load()), n. Contains no measured torque on a floating base.
   const Eigen::VectorXd& load;
-  const Eigen::VectorXd& load_rate;  ///< its change a second, n (Effect::needs_load_rate)
-  double elapsed = 0.0;              ///< s since the log's first sample
+  /// The load's change a second, n (Effect::needs_load_rate). On a floating base that of the logged
+  /// torque: contact forces are not predicted well enough to be differentiated.
+  const Eigen::VectorXd& load_rate;
+  double elapsed = 0.0;  ///< s since the log's first sample
 };
 
 /// An instant with its neighbours: `at(dt)` is the sample dt seconds later, interpolated. dt stays
@@ -142,7 +144,7 @@ struct AppliedEffect {
 struct PredictedLoad {
   Eigen::VectorXd force;  ///< contact rows of J
   Eigen::VectorXd joint;  ///< n
-  Eigen::VectorXd rate;   ///< of `joint`, 1/s, n; zero where nobody asks for it
+  Eigen::VectorXd rate;   ///< Instant::load_rate, N m/s, n; zero where nobody asks for it
 };
 [[nodiscard]] PredictedLoad predicted_load(const Robot& robot, const Eigen::VectorXd& applied,
                                            const Eigen::VectorXd& YPhi, const Eigen::MatrixXd& J);

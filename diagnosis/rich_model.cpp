@@ -47,11 +47,12 @@ View Viewer::view(const Recording& recording, std::size_t index) const {
   View result = view(moved(recording, index), recording.elapsed(index));
   result.correction = recording.correction(index);
   if (!load_rate_) return result;
-  for (const double dt : {-neighbour_step, neighbour_step}) {
+  const double step = neighbour_step(robot_);
+  for (const double dt : {-step, step}) {
     Sample sample = moved(recording, index, dt, transforming_.size());
     sample.in_contact = result.sample.in_contact;
     const View near = view(std::move(sample), result.elapsed + dt);
-    result.around.push_back({logged_force(*this, near), near.Y, near.J});
+    result.around.push_back({near.sample.tau, logged_force(*this, near), near.Y, near.J});
   }
   return result;
 }
@@ -113,9 +114,12 @@ PredictedLoad load_of(const Viewer& viewer, const View& view, const Eigen::Vecto
   PredictedLoad now = load(logged_force(viewer, view), view.Y, view.J);
   if (view.around.size() == 2) {
     const Neighbour &before = view.around[0], &after = view.around[1];
-    now.rate = (load(after.applied, after.Y, after.J).joint -
-                load(before.applied, before.Y, before.J).joint) /
-               (2.0 * neighbour_step);
+    const auto change = [&]() -> Eigen::VectorXd {
+      if (viewer.robot().root == Root::floating) return after.tau - before.tau;
+      return load(after.applied, after.Y, after.J).joint -
+             load(before.applied, before.Y, before.J).joint;
+    };
+    now.rate = change() / (2.0 * neighbour_step(viewer.robot()));
   }
   return now;
 }

@@ -24,6 +24,7 @@ struct RichModel {
 
 /// What the load is predicted from, a little earlier or later than a view.
 struct Neighbour {
+  Eigen::VectorXd tau;      ///< as logged, n
   Eigen::VectorXd applied;  ///< S^T tau and measured forces, dof
   Eigen::MatrixXd Y, J;     ///< as in View, with the contacts of the view
 };
@@ -36,10 +37,17 @@ struct View {
   Eigen::MatrixXd J;  ///< contact rows x dof, likewise
   double elapsed = 0.0;
   Eigen::VectorXd correction;  ///< Recording::correction()
-  /// neighbour_step s before and after, or empty if nothing needs the load's rate.
+  /// neighbour_step() before and after, or empty if nothing needs the load's rate.
   std::vector<Neighbour> around;
 };
-inline constexpr double neighbour_step = 0.002;  // s: a small part of any filter's reach
+
+/// s to either side over which the load's rate is a central difference. A predicted load (fixed
+/// base) has the position's second derivative in it, its rate the third, whose noise is largest
+/// just below the filter's cutoff: 20 ms take half of what is at 15 Hz, and 2 % of 3 Hz. A logged
+/// torque (floating base) needs no more than two readings.
+[[nodiscard]] inline double neighbour_step(const Robot& robot) {
+  return robot.root == Root::fixed ? 0.02 : 0.002;
+}
 
 /// Whether some of them look at Instant::load_rate.
 [[nodiscard]] bool needs_load_rate(const std::vector<AppliedEffect>& effects);

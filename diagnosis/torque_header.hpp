@@ -17,7 +17,7 @@ namespace shapeid::diagnosis {
 /// (torque_lag) has instead
 ///   void shapeid_model::predict(const Motion& before, const Motion& now, const Motion& after,
 ///                               double* tau);
-/// of the motion now and neighbour_step s to either side, and the same of one motion and the rate.
+/// of the motion now and neighbour_step() to either side, and the same of one motion and the rate.
 [[nodiscard]] std::string torque_header(const Robot& robot, const RichModel& model);
 
 }  // namespace shapeid::diagnosis

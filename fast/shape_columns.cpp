@@ -213,7 +213,7 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
   if (threshold >= 0.0 && g.isZero(0.0)) return -1;
   float most = uncertain;
   uncertain_.clear();
-  Ten gl;
+  Ten gl = Ten::Zero();
   int link = -1;
   for (int c = 0; c < used_chunks_; ++c) {
     Chunk& chunk = chunks_[static_cast<std::size_t>(c)];

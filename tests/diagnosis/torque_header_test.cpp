@@ -19,20 +19,25 @@
 namespace shapeid::diagnosis {
 namespace {
 
-/// "q, dq, ddq, base": the names of arrays, whose declarations are added to `arrays`.
-std::string arguments(const Sample& s, Root root, std::string& arrays) {
-  std::vector<Eigen::VectorXd> numbers = {s.q, s.dq, s.ddq};
-  if (root == Root::floating) {
-    numbers.emplace_back(9);
-    numbers.back() << s.base_angular_velocity, s.base_angular_acceleration, s.base_specific_force;
-  }
+/// The names of arrays, whose declarations are added to `arrays`.
+std::string declared(const std::vector<Eigen::VectorXd>& numbers, std::string& arrays) {
   std::string names;
   for (const Eigen::VectorXd& v : numbers) {
     const std::string name = fmt::format("s{}", arrays.size());
     arrays += fmt::format("  const double {}[] = {{{}}};\n", name, fmt::join(v, ", "));
     names += (names.empty() ? "" : ", ") + name;
   }
-  return names + (root == Root::floating ? "" : ", nullptr");
+  return names;
+}
+
+/// "q, dq, ddq, base", likewise.
+std::string arguments(const Sample& s, Root root, std::string& arrays) {
+  std::vector<Eigen::VectorXd> numbers = {s.q, s.dq, s.ddq};
+  if (root == Root::floating) {
+    numbers.emplace_back(9);
+    numbers.back() << s.base_angular_velocity, s.base_angular_acceleration, s.base_specific_force;
+  }
+  return declared(numbers, arrays) + (root == Root::floating ? "" : ", nullptr");
 }
 
 /// What predict() of the compiled header says, one column for each `call` (its arguments).
@@ -89,20 +94,12 @@ TEST(TorqueHeader, PredictsWhatTheModelPredicts) {
   EXPECT_LT(test::scaled_difference(got, wanted, 20), test::few_hundred_eps);
 }
 
-/// With the motion before and after, a lag too; what a payload weighs is no part of the load that
-/// lags and rubs, in the library and so here.
-TEST(TorqueHeader, LagOfADriveFollowsTheLoadOfTheRigidLinks) {
+/// With the motion before and after, a lag too, and with the logged torque's rate on a floating
+/// base; what a payload weighs is no part of the load that lags and rubs, in the library and so
+/// here.
+void expect_lag_follows_the_rigid_links(Root root) {
   Robot robot = test::arm();
-  robot.root = Root::floating;
-  const Recording recording = test::record({}, [](std::vector<Sample>& samples) {
-    for (Sample& s : samples) {
-      const double t = s.time;
-      s.base_angular_velocity = {0.8 * std::sin(3.0 * t), 0.5 * std::cos(4.0 * t), std::sin(t)};
-      s.base_angular_acceleration = {2.4 * std::cos(3.0 * t), -2.0 * std::sin(4.0 * t),
-                                     std::cos(t)};
-      s.base_specific_force = {std::sin(5.0 * t), 0.3, 9.6 + 1.5 * std::cos(2.0 * t)};
-    }
-  });
+  robot.root = root;
   const std::vector<AppliedEffect> effects = {
       test::effect("torque_gain", 1, {0.1}),
       test::effect("torque_lag", 1, {0.03}),
@@ -112,16 +109,34 @@ TEST(TorqueHeader, LagOfADriveFollowsTheLoadOfTheRigidLinks) {
       test::effect("link_length", 2, {0.01}),
       test::effect("payload", 3, {0.8, 0.02, 0.01, 0.2, 0.06, 0.001, -0.004, 0.06, 0.002, 0.01})};
   const RichModel model{stacked_parameters(robot), effects};
+  const Recording recording = test::record({}, [&](std::vector<Sample>& samples) {
+    if (root == Root::fixed) return;
+    for (Sample& s : samples) {
+      const double t = s.time;
+      s.base_angular_velocity = {0.8 * std::sin(3.0 * t), 0.5 * std::cos(4.0 * t), std::sin(t)};
+      s.base_angular_acceleration = {2.4 * std::cos(3.0 * t), -2.0 * std::sin(4.0 * t),
+                                     std::cos(t)};
+      s.base_specific_force = {std::sin(5.0 * t), 0.3, 9.6 + 1.5 * std::cos(2.0 * t)};
+    }
+  });
   const Viewer viewer(robot, reference::ContactTreatment::ignore, effects);
   const std::vector<std::size_t> instants = {300, 551, 902, 1203, 1604};
   Eigen::MatrixXd wanted(3, std::ssize(instants));
   std::string arrays;
   std::vector<std::string> calls;
+  const double step = neighbour_step(robot);
   for (const std::size_t i : instants) {
     wanted.col(std::ssize(calls)) =
         predict(viewer, viewer.view(recording, i), model).force.tail<3>();
+    if (root == Root::floating) {
+      const Eigen::VectorXd rate =
+          (recording.shifted(i, step).tau - recording.shifted(i, -step).tau) / (2.0 * step);
+      const std::string now = arguments(recording[i], root, arrays);
+      calls.push_back(now + ", " + declared({rate}, arrays));
+      continue;
+    }
     std::string call;
-    for (const double dt : {-neighbour_step, 0.0, neighbour_step}) {
+    for (const double dt : {-step, 0.0, step}) {
       call += (call.empty() ? "{" : ", {") +
               arguments(recording.shifted(i, dt), robot.root, arrays) + "}";
     }
@@ -131,11 +146,18 @@ TEST(TorqueHeader, LagOfADriveFollowsTheLoadOfTheRigidLinks) {
   EXPECT_EQ(header.find("not part of this prediction"), std::string::npos);
   const Eigen::MatrixXd got = said_by_header(header, arrays, calls);
   // The rate divides the rounding of loads by twice the step.
-  const double magnified = 1.0 + 0.03 / neighbour_step;
+  const double magnified = 1.0 + 0.03 / step;
   for (Eigen::Index k = 0; k < wanted.cols(); ++k) {
     EXPECT_LT(test::scaled_difference(got.col(k), wanted.col(k), 20),
               magnified * test::few_hundred_eps);
   }
+}
+
+TEST(TorqueHeader, LagOfADriveFollowsTheLoadOfTheRigidLinks) {
+  expect_lag_follows_the_rigid_links(Root::fixed);
+}
+TEST(TorqueHeader, LagOfADriveFollowsTheLoadOfTheRigidLinksInTheAir) {
+  expect_lag_follows_the_rigid_links(Root::floating);
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ int main() {
       std::cout << solver.iterations() << '\n';
     };
     for (int window = 0; window < 3; ++window) {
+      if (window > 0) given.R.rightCols<1>() += 1e-3 * given.R.leftCols(10).rowwise().sum();
       if (solver.solve(given.R) != fast::Outcome::solved) return 1;
       print();
-      given.R.rightCols<1>() += 1e-3 * given.R.leftCols(10).rowwise().sum();
     }
     for (int k = 0; k < divisions; ++k) {
       const int j = static_cast<int>(seed) % given.shapes(), last = given.shapes();
