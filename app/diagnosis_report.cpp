@@ -49,6 +49,9 @@ Table findings_table(const DiagnosisRun& run, const Robot& robot) {
       gain = short_number(100.0 * f.gain);
       t = short_number(f.t);
       for (const std::string& id : f.ambiguous_with) others += (others.empty() ? "" : ", ") + id;
+      if (f.rival) {
+        others += (others.empty() ? "" : "; ") + ("no name: " + law_text(*f.rival, robot));
+      }
       if (!f.name_stands()) others = "a description, not the cause: " + doubt(run, f, robot);
     }
     for (std::size_t p = 0; p < a.effect->parameters.size(); ++p) {

@@ -11,6 +11,7 @@
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/diagnosis/checks.hpp"
 #include "shapeid/diagnosis/regions.hpp"
+#include "shapeid/diagnosis/slowness.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
 
@@ -282,10 +283,9 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   run.errors = test_errors(robot, options, run, raw.recording);
   // On the log itself, which is longer and has no error of the filter in it; curves are judged on
   // blocks that they were not fitted to.
-  run.structures = diagnosis::unexplained(
-      robot.robot, log.recording,
-      diagnosis::series(robot.robot, run.settings.contacts, run.consistent.model, log.recording,
-                        run.settings.stride));
+  const diagnosis::Series remaining = diagnosis::series(
+      robot.robot, run.settings.contacts, run.consistent.model, log.recording, run.settings.stride);
+  run.structures = diagnosis::unexplained(robot.robot, log.recording, remaining);
   diagnosis::RichModel richest = run.consistent.model;
   richest.curves = run.curves =
       diagnosis::curves_for(robot.robot, run.settings.contacts, run.consistent.model, run.loop,
@@ -302,6 +302,14 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                                                 run.settings.stride, s));
   }
   run.structures.insert(run.structures.begin(), unnamed_effects.begin(), unnamed_effects.end());
+  // Where no curve was found the residual may still be no noise.
+  const double cutoff = options.inputs.cutoff > 0.0 ? options.inputs.cutoff : 0.5 * run.motion.rate;
+  for (const diagnosis::Structure& slow :
+       diagnosis::slow_remains(robot.robot, log.recording, remaining, cutoff)) {
+    const bool known = std::any_of(run.structures.begin(), run.structures.end(),
+                                   [&](const auto& s) { return s.joint == slow.joint; });
+    if (!known) run.structures.push_back(slow);
+  }
   note_rests(robot.robot, run);
   note_worse_joints(robot.robot, run);
   return run;

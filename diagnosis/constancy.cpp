@@ -23,6 +23,8 @@ std::string variable_of(const Variation& variation, const Robot& robot) {
     case Signal::side:
     case Signal::peak:
     case Signal::row:
+    case Signal::yield:
+    case Signal::play:
       return "tau." + joint;
     case Signal::turned:
       return "turn." + joint;

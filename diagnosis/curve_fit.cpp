@@ -31,6 +31,8 @@ std::optional<CurveVariable> variable_of_signal(Signal signal, int joint) {
     case Signal::turned:
     case Signal::time:
     case Signal::row:
+    case Signal::yield:
+    case Signal::play:
       break;
   }
   return std::nullopt;

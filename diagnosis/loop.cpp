@@ -245,6 +245,7 @@ class Loop {
                   verdict.t,
                   candidate.since_reference,
                   {},
+                  {},
                   {}};
       found.effect.value = selection.fit.value.segment(column, n);
       column += n;

@@ -41,6 +41,8 @@ struct Found {
   double gain = 0.0, t = 0.0;    ///< of having it, all others in
   bool since_reference = false;  ///< not there in the reference log
   std::vector<std::string> ambiguous_with = {};
+  /// A law without a name that predicts better in its place, though not by more than chance.
+  std::optional<Stranger> rival = {};
   /// Its number follows a signal: something is there, but not what the name says.
   std::optional<Variation> varies = {};
   /// It is worth less than the best placebo: laws that no robot has explain as much.

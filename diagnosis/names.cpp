@@ -40,9 +40,8 @@ class Names {
       found_[k].displaced = against.displaced[k];
       found_[k].drowned = own < placebo;
       found_[k].any_period = is_any_ripple(asked, k, errors);
-      if (!asked.own_term[k] && !found_[k].displaced) {
-        found_[k].displaced = stranger_in_place_of(k, errors, own);
-      }
+      found_[k].rival = against.rivals[k];
+      if (!asked.own_term[k] && !found_[k].displaced) contest_transformation(k, errors, own);
     }
     mark_beside_unknown();
   }
@@ -99,10 +98,12 @@ class Names {
       found_ = all;
       state_.collect_effects();
       if (fewer) {
-        Contest result{fewer->strangers, {}};
+        Contest result{fewer->strangers, {}, {}};
         std::size_t column = 0;
         for (const Found& f : all) {
-          result.displaced.push_back(transforms(f) || fewer->displaced[column++]);
+          const std::size_t own = transforms(f) ? all.size() : column++;
+          result.displaced.push_back(transforms(f) || fewer->displaced[own]);
+          result.rivals.push_back(transforms(f) ? std::nullopt : fewer->rivals[own]);
         }
         return result;
       }
@@ -112,15 +113,16 @@ class Names {
 
   /// Whether a law without a name predicts better than an applied transformation: the sums are made
   /// once more without it.
-  [[nodiscard]] bool stranger_in_place_of(std::size_t k, const Eigen::VectorXd& named,
-                                          double own_gain) {
+  void contest_transformation(std::size_t k, const Eigen::VectorXd& named, double own_gain) {
     const std::vector<Found> all = found_;
     found_.erase(found_.begin() + static_cast<std::ptrdiff_t>(k));
     state_.collect_effects();
-    const std::optional<Eigen::VectorXd> instead = with_best_stranger(questions(false));
+    const std::optional<BestStranger> instead = best_stranger(questions(false));
     found_ = all;
     state_.collect_effects();
-    return instead && takes_the_place(named, *instead, own_gain);
+    if (!instead) return;
+    found_[k].displaced = takes_the_place(named, instead->error, own_gain);
+    if (instead->error.sum() < named.sum()) found_[k].rival = instead->stranger;
   }
 
   /// What is worth less than all that is unknown on the same joints may be a part of it: laws

@@ -99,7 +99,7 @@ std::size_t Recording::reach() const {
 std::vector<std::size_t> Recording::usable(std::size_t stride) const {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < samples_.size(); i += stride) {
-    if (i >= segment_begin_[i] + reach() && i + reach() < segment_end_[i]) indices.push_back(i);
+    if (surrounded(i, reach())) indices.push_back(i);
   }
   return indices;
 }

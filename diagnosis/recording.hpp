@@ -44,6 +44,11 @@ class Recording {
   /// serve every hypothesis, also those that look at no neighbour.
   [[nodiscard]] std::vector<std::size_t> usable(std::size_t stride) const;
 
+  /// Whether so many samples go before, and follow, without a gap.
+  [[nodiscard]] bool surrounded(std::size_t index, std::size_t samples) const {
+    return index >= segment_begin_[index] + samples && index + samples < segment_end_[index];
+  }
+
   /// Whether the joint stands still: slower than a hundredth of a radian (a centimetre) a second
   /// for a quarter of a second or longer.
   [[nodiscard]] bool at_rest(std::size_t index, Eigen::Index joint) const {

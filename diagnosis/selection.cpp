@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace shapeid::diagnosis {
 namespace {
@@ -112,13 +113,22 @@ class Search {
 
   /// Some parameter differs from zero, and none leaves the range in which it is believed.
   [[nodiscard]] bool credible(std::size_t k, const Fit& fit) const {
-    const Effect& effect = *candidates_[k].effect.effect;
     if (!candidates_[k].members.empty()) return true;  // judged one by one at the end
-    const Eigen::ArrayXd each = fit.value.array() / fit.standard_error.array();
-    const double z = effect.is_payload ? each[0] : each.abs().maxCoeff();  // a load has mass
+    return significant(k, fit) && within_limits(k, fit);
+  }
+
+  [[nodiscard]] bool significant(std::size_t k, const Fit& fit) const {
     const double tried = parameters_ * candidates_[k].choices;
-    if (!(z > limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks()))) return false;
-    return within_limits(k, fit);
+    return differs(k, fit) > limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks());
+  }
+
+  /// Standard errors by which some parameter differs from zero. A load has mass. A sine and a
+  /// cosine of a period that was sought have one error, which is known badly from so few blocks: of
+  /// two estimates, among many periods, the smaller one would be small by chance.
+  [[nodiscard]] double differs(std::size_t k, const Fit& fit) const {
+    if (candidates_[k].choices > 1.0) return fit.value.norm() / fit.standard_error.maxCoeff();
+    const Eigen::ArrayXd each = fit.value.array() / fit.standard_error.array();
+    return candidates_[k].effect.effect->is_payload ? each[0] : each.abs().maxCoeff();
   }
 
   /// None of its values leaves the range in which it is believed.
@@ -191,6 +201,7 @@ class Search {
     const auto& members = candidates_[k].members;
     if (members.empty()) accepted_.push_back(k);
     accepted_.insert(accepted_.end(), members.begin(), members.end());
+    of_group_.insert(members.begin(), members.end());
   }
 
   [[nodiscard]] bool passes(const Scored& s) const { return s.t > limit_ && s.gain > 0.0; }
@@ -234,7 +245,9 @@ class Search {
         without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
         const Gain gain = gain_of(fits_.held_out(terms(without)), with_all);
         const std::pair<bool, double> own_worth = {
-            !wrong_sign(chosen[i], own, 0.0) && gain.share >= 0.0 && within_limits(chosen[i], own),
+            !wrong_sign(chosen[i], own, 0.0) && gain.share >= 0.0 &&
+                within_limits(chosen[i], own) &&
+                (of_group_.count(chosen[i]) == 0 || significant(chosen[i], own)),
             gain.t};
         if (own_worth < least) {
           least = own_worth;
@@ -299,6 +312,63 @@ class Search {
       result_.accepted.push_back(verdict(k));
     }
     accepted_ = all;
+    name_common_causes();
+  }
+
+  /// What could take the place of several at once, and was not simpler, is named with each of them:
+  /// a load has more numbers than the two gains that it looks like.
+  void name_common_causes() {
+    if (accepted_.size() < 2) return;
+    const std::vector<std::size_t> all = accepted_, hidden = result_.hidden;
+    accepted_.clear();
+    const std::vector<std::size_t> rivals = shortlist(rule_.rivals);
+    accepted_ = all;
+    result_.hidden = hidden;
+    for (const std::size_t r : rivals) {
+      if (taken(r) || !candidates_[r].members.empty()) continue;
+      accepted_ = not_superfluous_beside(r, all);
+      const Eigen::VectorXd instead = fits_.held_out(with(r));
+      const Gain own = gain_of(fits_.held_out(terms(accepted_)), instead);
+      const bool takes_their_place =
+          accepted_.size() + 1 < all.size() && own.t > rival_t && own.share > 0.0 &&
+          !(gain_of(instead, result_.error_end).t > separable) &&
+          !wrong_sign(r, fit_of(r), rival_sign_t) && within_limits(r, fit_of(r));
+      for (std::size_t i = 0; takes_their_place && i < all.size(); ++i) {
+        std::vector<std::size_t>& named = result_.accepted[i].ambiguous;
+        if (std::count(accepted_.begin(), accepted_.end(), all[i]) == 0 &&
+            std::count(named.begin(), named.end(), r) == 0) {
+          named.push_back(r);
+        }
+      }
+      accepted_ = all;
+    }
+  }
+
+  /// Those of `chosen` that gain something beside them all and r.
+  [[nodiscard]] std::vector<std::size_t> not_superfluous_beside(
+      std::size_t r, std::vector<std::size_t> chosen) const {
+    const auto error_of = [&](const std::vector<std::size_t>& some) {
+      std::vector<Term> list = terms(some);
+      list.push_back(candidates_[r].term);
+      return fits_.held_out(list);
+    };
+    while (!chosen.empty()) {
+      const Eigen::VectorXd with_all = error_of(chosen);
+      double least = keep_t;
+      std::size_t worst = chosen.size();
+      for (std::size_t i = 0; i < chosen.size(); ++i) {
+        std::vector<std::size_t> without = chosen;
+        without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
+        const double t = gain_of(error_of(without), with_all).t;
+        if (t < least) {
+          least = t;
+          worst = i;
+        }
+      }
+      if (worst == chosen.size()) break;
+      chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(worst));
+    }
+    return chosen;
   }
 
   /// Of candidate k, beside those that are accepted now.
@@ -356,6 +426,7 @@ class Search {
   double limit_ = 0.0;
   double parameters_ = 0.0;  ///< of all candidates
   std::vector<std::size_t> accepted_, dropped_;
+  std::set<std::size_t> of_group_;  ///< came with others, none of them judged by itself
   Selection result_;
 };
 

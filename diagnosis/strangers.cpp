@@ -7,6 +7,7 @@
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/constancy.hpp"
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/gears.hpp"
 #include "shapeid/diagnosis/selection.hpp"
 
 namespace shapeid::diagnosis {
@@ -34,7 +35,8 @@ class Ring {
       : fits_(asked.fits),
         terms_(asked.terms),
         own_term_(asked.own_term),
-        is_out_(asked.effects(), false) {
+        is_out_(asked.effects(), false),
+        rivals_(asked.effects()) {
     const Tally& tally = fits_.tally();
     double parameters = 0.0;
     for (std::size_t k = 0; k < tally.modulations.size(); ++k) {
@@ -44,11 +46,12 @@ class Ring {
       if (!is_law || carrier.effect->site != SiteKind::joint) continue;
       laws_.push_back(k);
       Term& term = law_terms_.emplace_back();
-      for (Eigen::Index p = 0; p < carrier.value.size(); ++p) {
+      const Eigen::Index count = m.columns_of(carrier.value.size());
+      for (Eigen::Index p = 0; p < count; ++p) {
         term.columns.push_back(tally.first_modulated[k] + p);
-        term.nonnegative.push_back(false);
+        term.nonnegative.push_back(m.of_gear());
       }
-      parameters += static_cast<double>(carrier.value.size());
+      parameters += static_cast<double>(count);
     }
     for (const std::size_t k : laws_) {
       const double tried = parameters * asked.choices[tally.modulations[k].hypothesis];
@@ -68,9 +71,11 @@ class Ring {
     return rest();
   }
 
-  [[nodiscard]] std::optional<Eigen::VectorXd> best_beside_all() const {
+  [[nodiscard]] std::optional<BestStranger> best_beside_all() const {
     const std::optional<Best> found = best(present());
-    return found ? std::optional(found->error) : std::nullopt;
+    if (!found) return std::nullopt;
+    return BestStranger{as_stranger(found->law, gain_of(fits_.held_out(present()), found->error)),
+                        found->error};
   }
 
  private:
@@ -82,16 +87,20 @@ class Ring {
     judge_again();
     Contest result;
     result.displaced = is_out_;
+    result.rivals = rivals_;
     const Eigen::VectorXd with_all = fits_.held_out(present());
     for (const std::size_t s : in_) {
       const Gain gain = gain_of(fits_.held_out(present(no_effect, s)), with_all);
-      const Modulation& law = fits_.tally().modulations[laws_[s]];
-      result.strangers.push_back(
-          {law, fits_.tally().hypotheses[law.hypothesis], gain.share, gain.t});
+      result.strangers.push_back(as_stranger(s, gain));
     }
     std::stable_sort(result.strangers.begin(), result.strangers.end(),
                      [](const Stranger& a, const Stranger& b) { return a.gain > b.gain; });
     return result;
+  }
+
+  [[nodiscard]] Stranger as_stranger(std::size_t s, const Gain& gain) const {
+    const Modulation& law = fits_.tally().modulations[laws_[s]];
+    return {law, fits_.tally().hypotheses[law.hypothesis], gain.share, gain.t};
   }
 
   /// Masses, names that are left and strangers that are in, but without one of each.
@@ -143,6 +152,7 @@ class Ring {
     if (!(gain.t > least_t && gain.share > 0.0)) return std::nullopt;
     const Fit fit = fits_.fit(with);
     const Eigen::Index n = std::ssize(law_terms_[s].columns);
+    if (law_terms_[s].nonnegative[0] && fit.value.tail(n)[0] < 0.0) return std::nullopt;
     const double z =
         (fit.value.tail(n).array() / fit.standard_error.tail(n).array()).abs().maxCoeff();
     return z > least_z_[s] ? std::optional(error) : std::nullopt;
@@ -215,10 +225,15 @@ class Ring {
       if (!own_term_[k] || is_out_[k]) continue;
       const Eigen::VectorXd named = fits_.held_out(present());
       const std::vector<Term> others = present(k);
-      const double own_gain = (fits_.held_out(others) - named).sum();
+      const Eigen::VectorXd without = fits_.held_out(others);
       const std::optional<Best> rival = best(others);
       if (!rival) continue;
-      if (!takes_the_place(named, rival->error, own_gain)) continue;
+      if (!takes_the_place(named, rival->error, (without - named).sum())) {
+        if (rival->error.sum() < named.sum()) {
+          rivals_[k] = as_stranger(rival->law, gain_of(without, rival->error));
+        }
+        continue;
+      }
       is_out_[k] = true;
       in_.push_back(rival->law);
     }
@@ -255,12 +270,26 @@ class Ring {
   const std::vector<std::optional<std::size_t>>& own_term_;
   std::vector<std::size_t> laws_;  ///< modulations of the tally
   std::vector<Term> law_terms_;
-  std::vector<double> least_z_;  ///< one a law
-  std::vector<std::size_t> in_;  ///< of laws_
-  std::vector<bool> is_out_;     ///< of the effects
+  std::vector<double> least_z_;                  ///< one a law
+  std::vector<std::size_t> in_;                  ///< of laws_
+  std::vector<bool> is_out_;                     ///< of the effects
+  std::vector<std::optional<Stranger>> rivals_;  ///< likewise
 };
 
 }  // namespace
+
+std::string law_id(const Stranger& stranger, const Robot& robot) {
+  std::string id = hypothesis_id(robot, stranger.carrier);
+  if (stranger.law.signal == Signal::yield) id += " that yields";
+  if (stranger.law.signal == Signal::play) id += " with play";
+  return id;
+}
+
+std::string law_text(const Stranger& stranger, const Robot& robot) {
+  if (stranger.law.of_gear()) return law_id(stranger, robot);
+  return law_id(stranger, robot) + " over " +
+         variable_of({stranger.law.signal, stranger.law.joint}, robot);
+}
 
 std::vector<AppliedEffect> carriers(const Robot& robot, const std::vector<AppliedEffect>& effects) {
   std::vector<AppliedEffect> list;
@@ -271,6 +300,9 @@ std::vector<AppliedEffect> carriers(const Robot& robot, const std::vector<Applie
     const bool known = std::any_of(effects.begin(), effects.end(),
                                    [&](const AppliedEffect& a) { return same_place(a, h); });
     if (!known) list.push_back(h);
+  }
+  for (int joint = 0; joint < robot.joint_count(); ++joint) {
+    list.push_back(at_start(motor_ahead(), joint));
   }
   return list;
 }
@@ -298,6 +330,11 @@ std::vector<Modulation> modulated_carriers(const std::vector<AppliedEffect>& hyp
                                            std::size_t first, std::size_t last) {
   std::vector<Modulation> list;
   for (std::size_t k = first; k < last; ++k) {
+    if (hypotheses[k].effect == &motor_ahead()) {
+      list.push_back({k, Signal::yield, hypotheses[k].site});
+      list.push_back({k, Signal::play, hypotheses[k].site});
+      continue;
+    }
     if (hypotheses[k].value.size() > 1) {
       list.push_back({k, Signal::load, hypotheses[k].site});
       continue;
@@ -319,7 +356,7 @@ std::optional<Contest> contest_if_fewer(const Questions& asked, const Eigen::Vec
   return Ring(asked).run_if_fewer(named, taken_out);
 }
 
-std::optional<Eigen::VectorXd> with_best_stranger(const Questions& asked) {
+std::optional<BestStranger> best_stranger(const Questions& asked) {
   return Ring(asked).best_beside_all();
 }
 

@@ -19,6 +19,11 @@ struct Stranger {
   double t = 0.0;         ///< over its standard error
 };
 
+/// "viscous_friction@lift", "gear@lift that yields": the law whose number follows a signal.
+[[nodiscard]] std::string law_id(const Stranger& stranger, const Robot& robot);
+/// The same with the signal: "viscous_friction@lift over q.lift".
+[[nodiscard]] std::string law_text(const Stranger& stranger, const Robot& robot);
+
 /// Laws at joints that lend their columns: one number, at most one shape number. A carrier that is
 /// among `effects` is left out: it is in every tally of these.
 [[nodiscard]] std::vector<AppliedEffect> carriers(const Robot& robot,
@@ -50,6 +55,8 @@ struct Questions {
 struct Contest {
   std::vector<Stranger> strangers;  ///< the strongest first, at most one a joint
   std::vector<bool> displaced;      ///< one an effect
+  /// One an effect: a stranger that predicts better in its place, though not by more than chance.
+  std::vector<std::optional<Stranger>> rivals;
 };
 
 /// A name is displaced if a stranger in its place predicts better by more than chance and by more
@@ -65,8 +72,13 @@ struct Contest {
                                                       const Eigen::VectorXd& named,
                                                       std::size_t taken_out);
 
-/// Held-out errors with the best significant stranger beside all terms; none if there is none.
-[[nodiscard]] std::optional<Eigen::VectorXd> with_best_stranger(const Questions& asked);
+/// The best significant stranger beside all terms, with which they leave `error` on the held-out
+/// blocks; none if there is none.
+struct BestStranger {
+  Stranger stranger;
+  Eigen::VectorXd error;
+};
+[[nodiscard]] std::optional<BestStranger> best_stranger(const Questions& asked);
 
 /// Whether a stranger that leaves `instead` on the blocks may displace a name that leaves `named`
 /// and takes away `own_gain` in all: better by more than chance, and by more than a name may be

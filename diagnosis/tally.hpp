@@ -26,17 +26,22 @@ struct Block {
 };
 
 /// What the size of an effect might follow.
-enum class Signal { position, speed, direction, load, side, turned, peak, time, row };
+enum class Signal { position, speed, direction, load, side, turned, peak, time, row, yield, play };
 
 /// A hypothesis whose size follows a signal of a joint: its columns times the signal. `side` is the
 /// direction of the load, `turned` that of Recording::turned(), `peak` the share of the load that
 /// is beyond Recording::high_torque() of a level; `row` keeps the joint's own row of the columns
-/// alone.
+/// alone. `yield` and `play` are of a gear between motor and joint (gears.hpp): in proportion to
+/// the load or by its side, and by how that changes.
 struct Modulation {
   std::size_t hypothesis = 0;
   Signal signal = Signal::time;
   int joint = 0;
   std::size_t level = 0;
+
+  [[nodiscard]] bool of_gear() const { return signal == Signal::yield || signal == Signal::play; }
+  /// Columns that it makes of so many.
+  [[nodiscard]] Eigen::Index columns_of(Eigen::Index own) const { return of_gear() ? 1 : own; }
 };
 
 struct Tally {
@@ -63,9 +68,12 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
                   const RichModel& model, const Recording& recording, const TallyOptions& options,
                   bool reference);
 
-/// The signal's value at a sample. `load` is the predicted one of all joints.
-[[nodiscard]] double value_of(const Modulation& modulation, const Recording& recording,
-                              std::size_t index, const View& view, const PredictedLoad& load);
+/// What a modulation makes of the columns `own` of its hypothesis at a sample, dof x columns_of().
+/// `load` is the predicted one of all joints.
+[[nodiscard]] Eigen::MatrixXd modulated(const Modulation& modulation, const Eigen::MatrixXd& own,
+                                        const Robot& robot, const Recording& recording,
+                                        std::size_t index, const View& view,
+                                        const PredictedLoad& load);
 
 [[nodiscard]] Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses,
                                 const std::vector<Modulation>& modulations = {});

@@ -142,6 +142,8 @@ double abscissa(Signal signal, int joint, const Recording& recording, std::size_
     case Signal::side:
     case Signal::peak:
     case Signal::row:
+    case Signal::yield:
+    case Signal::play:
       return load;
     case Signal::turned:
       return recording.turned(index, joint);
@@ -267,13 +269,18 @@ Structure lawless(const Robot& robot, reference::ContactTreatment contacts, cons
     const Prediction predicted = predict(viewer, view, model);
     x.push_back(
         abscissa(stranger.law.signal, joint, recording, index, predicted.load.joint[joint]));
-    carrier.push_back(columns.at(recording, index, view, predicted)(row, 0));
+    Eigen::MatrixXd own = columns.at(recording, index, view, predicted);
+    // The number of a gear is what there is to see; that of others follows the signal.
+    if (stranger.law.of_gear()) {
+      own = modulated(stranger.law, own, robot, recording, index, view, predicted.load);
+    }
+    carrier.push_back(own(row, 0));
     missing.push_back(-residual(viewer, view, model)[row]);
   }
   Structure structure;
   structure.joint = robot.joint(joint).name;
   structure.variable = variable_of({stranger.law.signal, joint}, robot);
-  structure.law = hypothesis_id(robot, stranger.carrier);
+  structure.law = law_id(stranger, robot);
   structure.share = stranger.gain;
   structure.t = stranger.t;
   const std::vector<double> edges = quantiles(x);

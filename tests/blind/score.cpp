@@ -19,6 +19,7 @@ std::string id_of(const Machine& m, const Item& item) {
 struct Said {
   std::string id, effect;
   std::vector<std::string> set;  ///< other names for it
+  bool doubted = false;          ///< a law without a name is said to do as well
 };
 
 std::vector<Said> said_in(const json& result) {
@@ -28,6 +29,7 @@ std::vector<Said> said_in(const json& result) {
     s.effect = f.at("effect").get<std::string>();
     s.id = fmt::format("{}@{}", s.effect, f.at("site").get<std::string>());
     if (f.contains("ambiguous_with")) s.set = f.at("ambiguous_with");
+    s.doubted = f.contains("or_without_name");
     list.push_back(s);
   }
   return list;
@@ -41,14 +43,17 @@ Outcome judge_foreign(const Machine& m, const Item& item, const std::vector<Said
                       bool structure) {
   const Kind& k = kind(item.kind);
   const std::string site = place_name(m, k.place, item.amount.site);
+  bool doubted = false;
   for (const Said& s : said) {
     const bool described =
         std::any_of(k.described_by.begin(), k.described_by.end(), [&](const std::string& effect) {
           const std::string id = fmt::format("{}@{}", effect, site);
           return s.id == id || in_set(s, id);
         });
-    if (!described) return Outcome::wrong;
+    if (!described && !s.doubted) return Outcome::wrong;
+    doubted = doubted || !described;
   }
+  if (doubted) return Outcome::ambiguous;
   if (!said.empty()) return Outcome::described;
   return structure ? Outcome::unexplained : Outcome::abstained;
 }
@@ -78,7 +83,12 @@ Outcome judge_known(const Machine& m, const Trial& trial, const std::vector<Said
   }
   bool wrong = false, misplaced = false;
   for (std::size_t i = 0; i < said.size(); ++i) {
-    if (used[i]) continue;
+    // Of one cause several names may be said, each with the cause among what it cannot be told
+    // from.
+    const bool within_set =
+        std::any_of(trial.items.begin(), trial.items.end(),
+                    [&](const Item& item) { return in_set(said[i], id_of(m, item)); });
+    if (used[i] || within_set) continue;
     const bool same = std::any_of(trial.items.begin(), trial.items.end(),
                                   [&](const Item& item) { return item.kind == said[i].effect; });
     (same ? misplaced : wrong) = true;
@@ -233,6 +243,7 @@ Judgement judge(const Trial& trial, const json& result) {
   for (const Said& s : said) {
     j.said += (j.said.empty() ? "" : ", ") + s.id;
     if (!s.set.empty()) j.said += fmt::format(" (or {} others)", s.set.size());
+    if (s.doubted) j.said += " (or no name)";
     j.set_size = std::max(j.set_size, s.set.size());
   }
   const bool structure = !result.at("unexplained").empty();
@@ -280,7 +291,7 @@ std::string tables(const std::vector<Scored>& all) {
   text += share("something unexplained on clean logs", clean(Outcome::unexplained), clean.all,
                 "<= 1 %");
   const auto described = [](const Count& c) {
-    return c(Outcome::unexplained) + c(Outcome::described);
+    return c(Outcome::unexplained) + c(Outcome::described) + c(Outcome::ambiguous);
   };
   text += share("foreign effects unexplained or rightly described, at twice the detectable size",
                 described(foreign_at_twice), foreign_at_twice.all, ">= 90 %");

@@ -11,10 +11,11 @@
 namespace shapeid::blind {
 
 enum class Outcome {
-  right,        ///< every item by name and place, nothing else (clean: nothing at all)
-  ambiguous,    ///< likewise, some item within the set of names that are said to be inseparable
-  partly,       ///< of two items one, nothing wrong
-  described,    ///< a foreign effect by the part of it that the catalogue has
+  right,      ///< every item by name and place, nothing else (clean: nothing at all)
+  ambiguous,  ///< likewise, some item within the set of names that are said to be inseparable; a
+              ///< foreign effect by a name beside which a law without a name is said to do as well
+  partly,     ///< of two items one, nothing wrong
+  described,  ///< a foreign effect by the part of it that the catalogue has
   unexplained,  ///< no name, structure reported
   abstained,    ///< nothing said though something was there
   refused,      ///< the log was refused
