@@ -40,11 +40,8 @@ int site_count(const Robot& robot, SiteKind kind) {
 
 PredictedLoad predicted_load(const Robot& robot, const Eigen::VectorXd& applied,
                              const Eigen::VectorXd& YPhi, const Eigen::MatrixXd& J) {
-  PredictedLoad load{Eigen::VectorXd::Zero(J.rows()),
-                     YPhi.tail(robot.joint_count()),
-                     Eigen::VectorXd::Zero(robot.joint_count()),
-                     {},
-                     {}};
+  PredictedLoad load{Eigen::VectorXd::Zero(J.rows()), YPhi.tail(robot.joint_count()),
+                     Eigen::VectorXd::Zero(robot.joint_count())};
   if (J.rows() == 0) return load;
   using Solver = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
   const int base = robot.base_dof();

@@ -145,8 +145,6 @@ struct PredictedLoad {
   Eigen::VectorXd force;  ///< contact rows of J
   Eigen::VectorXd joint;  ///< n
   Eigen::VectorXd rate;   ///< Instant::load_rate, N m/s, n; zero where nobody asks for it
-  /// What the rate is the difference of, n; empty where nobody asks for it.
-  Eigen::VectorXd before, after;
 };
 [[nodiscard]] PredictedLoad predicted_load(const Robot& robot, const Eigen::VectorXd& applied,
                                            const Eigen::VectorXd& YPhi, const Eigen::MatrixXd& J);

@@ -18,7 +18,6 @@ Effect make() {
   e.site = SiteKind::joint;
   e.parameters = {{"d", "rad", false, 0.02}, {"a", "rad/s^2", false, 1.0}};
   e.transform.sample = ahead;
-  e.needs_load_rate = true;
   return e;
 }
 

@@ -68,7 +68,7 @@ class Names {
     append(ripple_carriers(state_.robot, state_.log, state_.left_by(state_.rigid),
                            state_.left_by(state_.result.model)));
     std::vector<Modulation> products = modulations(state_.robot, state_.result.model.effects);
-    for (const Modulation& m : modulated_carriers(all, first_carrier, all.size())) {
+    for (const Modulation& m : modulated_carriers(state_.log, all, first_carrier, all.size())) {
       products.push_back(m);
     }
     BlockFits fits = state_.tallied(all, products);

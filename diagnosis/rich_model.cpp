@@ -114,13 +114,12 @@ PredictedLoad load_of(const Viewer& viewer, const View& view, const Eigen::Vecto
   PredictedLoad now = load(logged_force(viewer, view), view.Y, view.J);
   if (view.around.size() == 2) {
     const Neighbour &before = view.around[0], &after = view.around[1];
-    const bool predicted = viewer.robot().root == Root::fixed;
-    const auto at = [&](const Neighbour& n) {
-      return predicted ? load(n.applied, n.Y, n.J).joint : n.tau;
+    const auto change = [&]() -> Eigen::VectorXd {
+      if (viewer.robot().root == Root::floating) return after.tau - before.tau;
+      return load(after.applied, after.Y, after.J).joint -
+             load(before.applied, before.Y, before.J).joint;
     };
-    now.before = at(before);
-    now.after = at(after);
-    now.rate = (now.after - now.before) / (2.0 * neighbour_step(viewer.robot()));
+    now.rate = change() / (2.0 * neighbour_step(viewer.robot()));
   }
   return now;
 }

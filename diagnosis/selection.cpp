@@ -8,8 +8,11 @@
 namespace shapeid::diagnosis {
 namespace {
 
-// Gains closer than this many standard errors of their difference are not told apart.
+// A simpler set of causes is taken if it is not worse than this many standard errors.
 constexpr double separable = 2.0;
+// What comes within this many is named beside an accepted one: of a hundred causes that are there
+// about one is further behind by chance, with so few blocks.
+constexpr double told_apart_t = 2.5;
 // A simpler hypothesis is taken if the best is not better by more than this: one standard error, as
 // usual in cross-validation. Two would leave so much of a large effect that further names take it.
 constexpr double simpler_t = 1.0;
@@ -20,6 +23,8 @@ constexpr double rival_sign_t = 2.0;
 constexpr double rival_t = 1.0;
 // Less than this share of a candidate's columns left free by the others: the data cannot see it.
 constexpr double hidden_share = 1e-4;
+// Onsets of one load that are looked at more closely.
+constexpr std::ptrdiff_t most_of_one_place = 2;
 // One hypothesis contains another if this share of its columns is in the other's span.
 constexpr double nested_share = 0.9999;
 
@@ -92,9 +97,12 @@ class Search {
     result_.hidden.clear();
     std::vector<std::size_t> list;
     for (const std::size_t i : order) {
+      // A load's moments must not crowd out what is something else.
+      const auto listed = std::count_if(
+          list.begin(), list.end(), [&](std::size_t other) { return same_place(open[i], other); });
       if (promises[i].free_share < hidden_share) {
         result_.hidden.push_back(open[i]);
-      } else if (std::ssize(list) < length) {
+      } else if (std::ssize(list) < length && listed < most_of_one_place) {
         list.push_back(open[i]);
       }
     }
@@ -331,7 +339,7 @@ class Search {
       const Gain own = gain_of(fits_.held_out(terms(accepted_)), instead);
       const bool takes_their_place =
           accepted_.size() + 1 < all.size() && own.t > rival_t && own.share > 0.0 &&
-          !(gain_of(instead, result_.error_end).t > separable) &&
+          !(gain_of(instead, result_.error_end).t > told_apart_t) &&
           !wrong_sign(r, fit_of(r), rival_sign_t) && within_limits(r, fit_of(r));
       for (std::size_t i = 0; takes_their_place && i < all.size(); ++i) {
         std::vector<std::size_t>& named = result_.accepted[i].ambiguous;
@@ -383,7 +391,7 @@ class Search {
       const Gain own = gain_of(without, instead);
       // Near the limit chance decides which of two passes: a rival need only gain something.
       if (!(own.t > rival_t && own.share > 0.0)) continue;
-      if (gain_of(instead, result_.error_end).t > separable) continue;
+      if (gain_of(instead, result_.error_end).t > told_apart_t) continue;
       if (wrong_sign(other, fit_of(other), rival_sign_t)) continue;
       // Two that say the same contain each other: that is no reason to keep silent about one.
       const auto within = [&](std::size_t inner, std::size_t outer) {
@@ -414,7 +422,7 @@ class Search {
       const Eigen::VectorXd instead = fits_.held_out(list);
       const Gain own = gain_of(without, instead);
       if (!(own.t > rival_t && own.share > 0.0)) continue;
-      if (gain_of(instead, result_.error_end).t <= separable) return true;
+      if (gain_of(instead, result_.error_end).t <= told_apart_t) return true;
     }
     return false;
   }

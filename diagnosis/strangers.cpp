@@ -74,7 +74,7 @@ class Ring {
   [[nodiscard]] std::optional<BestStranger> best_beside_all() const {
     const std::optional<Best> found = best(present());
     if (!found) return std::nullopt;
-    return BestStranger{as_stranger(found->law, gain_of(fits_.held_out(present()), found->error)),
+    return BestStranger{as_stranger(found->law, present(), fits_.held_out(present()), found->error),
                         found->error};
   }
 
@@ -90,17 +90,24 @@ class Ring {
     result.rivals = rivals_;
     const Eigen::VectorXd with_all = fits_.held_out(present());
     for (const std::size_t s : in_) {
-      const Gain gain = gain_of(fits_.held_out(present(no_effect, s)), with_all);
-      result.strangers.push_back(as_stranger(s, gain));
+      const std::vector<Term> others = present(no_effect, s);
+      result.strangers.push_back(as_stranger(s, others, fits_.held_out(others), with_all));
     }
     std::stable_sort(result.strangers.begin(), result.strangers.end(),
                      [](const Stranger& a, const Stranger& b) { return a.gain > b.gain; });
     return result;
   }
 
-  [[nodiscard]] Stranger as_stranger(std::size_t s, const Gain& gain) const {
+  /// Beside other terms, of which it takes the held-out error from `before` to `after`.
+  [[nodiscard]] Stranger as_stranger(std::size_t s, std::vector<Term> beside,
+                                     const Eigen::VectorXd& before,
+                                     const Eigen::VectorXd& after) const {
     const Modulation& law = fits_.tally().modulations[laws_[s]];
-    return {law, fits_.tally().hypotheses[law.hypothesis], gain.share, gain.t};
+    const Gain gain = gain_of(before, after);
+    beside.push_back(law_terms_[s]);
+    const Eigen::VectorXd value = fits_.fit(beside).value;
+    const double number = value[value.size() - std::ssize(law_terms_[s].columns)];
+    return {law, fits_.tally().hypotheses[law.hypothesis], gain.share, gain.t, number};
   }
 
   /// Masses, names that are left and strangers that are in, but without one of each.
@@ -230,7 +237,7 @@ class Ring {
       if (!rival) continue;
       if (!takes_the_place(named, rival->error, (without - named).sum())) {
         if (rival->error.sum() < named.sum()) {
-          rivals_[k] = as_stranger(rival->law, gain_of(without, rival->error));
+          rivals_[k] = as_stranger(rival->law, others, without, rival->error);
         }
         continue;
       }
@@ -326,13 +333,29 @@ std::vector<AppliedEffect> ripple_carriers(const Robot& robot, const Recording& 
   return list;
 }
 
-std::vector<Modulation> modulated_carriers(const std::vector<AppliedEffect>& hypotheses,
+namespace {
+
+/// Whether the joint's torque is seldom so light that noise decides its side: play of an unloaded
+/// gear cannot be seen.
+bool drives_from_a_side(const Recording& log, int joint) {
+  constexpr double light = 0.1, seldom = 0.1;  // N m or N; of the samples
+  const auto count = std::count_if(log.samples().begin(), log.samples().end(),
+                                   [&](const Sample& s) { return std::abs(s.tau[joint]) < light; });
+  return static_cast<double>(count) < seldom * static_cast<double>(log.samples().size());
+}
+
+}  // namespace
+
+std::vector<Modulation> modulated_carriers(const Recording& log,
+                                           const std::vector<AppliedEffect>& hypotheses,
                                            std::size_t first, std::size_t last) {
   std::vector<Modulation> list;
   for (std::size_t k = first; k < last; ++k) {
     if (hypotheses[k].effect == &motor_ahead()) {
       list.push_back({k, Signal::yield, hypotheses[k].site});
-      list.push_back({k, Signal::play, hypotheses[k].site});
+      if (drives_from_a_side(log, hypotheses[k].site)) {
+        list.push_back({k, Signal::play, hypotheses[k].site});
+      }
       continue;
     }
     if (hypotheses[k].value.size() > 1) {

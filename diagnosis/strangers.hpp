@@ -17,6 +17,7 @@ struct Stranger {
   AppliedEffect carrier;  ///< that hypothesis
   double gain = 0.0;      ///< share of the held-out squared error that it takes away
   double t = 0.0;         ///< over its standard error
+  double number = 0.0;    ///< of the law, per unit of the signal; the first, if it has two
 };
 
 /// "viscous_friction@lift", "gear@lift that yields": the law whose number follows a signal.
@@ -37,7 +38,8 @@ struct Stranger {
 /// Hypotheses `first` to `last` of a tally times the signals of their joint, and times time;
 /// ripples times the load; gains also where the load is high, as what saturates.
 [[nodiscard]] std::vector<Modulation> modulated_carriers(
-    const std::vector<AppliedEffect>& hypotheses, std::size_t first, std::size_t last);
+    const Recording& log, const std::vector<AppliedEffect>& hypotheses, std::size_t first,
+    std::size_t last);
 
 /// What names are asked against: sums of the present effects, which come first, of placebos and of
 /// carriers, and products of these.

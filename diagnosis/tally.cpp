@@ -92,27 +92,23 @@ Lead lead_of_load(const Recording& recording, std::size_t index, Eigen::Index jo
   return {torque(index), (far - near) / (3.0 * h * h)};
 }
 
-/// By the side that drives, of logged and predicted load together. A light joint's noise decides
-/// its side: that of the logged torque alone looks like play, that of the prediction like its
-/// opposite.
-Lead lead_of_side(const Robot& robot, const Recording& recording, std::size_t index,
-                  Eigen::Index joint, const PredictedLoad& load) {
-  const double h = 0.02;
-  const auto k = static_cast<std::size_t>(std::lround(h * recording.rate()));
-  const bool predicted = robot.root == Root::fixed;  // else contact forces are in it, badly known
+/// By the side that drives, of the logged torque: the predicted load feels the acceleration that
+/// play only pretends.
+Lead lead_of_side(const Recording& recording, std::size_t index, Eigen::Index joint) {
+  const auto k = static_cast<std::size_t>(std::lround(0.02 * recording.rate()));
   if (k == 0 || !recording.surrounded(index, k)) return {};
-  const auto side = [&](std::size_t i, const Eigen::VectorXd& of_model) {
-    const double logged = recording[i].tau[joint];
-    constexpr double share = 0.3;  // on simulated clean logs neither noise prevails
-    const double torque = predicted ? share * logged + (1.0 - share) * of_model[joint] : logged;
-    return std::tanh(torque / light_load);
+  const auto side = [&](std::size_t i) {
+    return lead_of({.signal = Signal::play}, recording[i].tau[joint]);
   };
-  const double now = side(index, load.joint);
-  const double change = side(index + k, load.after) - 2.0 * now + side(index - k, load.before);
-  return {now, change / (h * h)};
+  const double h = static_cast<double>(k) / recording.rate();
+  return {side(index), (side(index + k) - 2.0 * side(index) + side(index - k)) / (h * h)};
 }
 
 }  // namespace
+
+double lead_of(const Modulation& gear, double load) {
+  return gear.signal == Signal::play ? std::tanh(load / light_load) : load;
+}
 
 Eigen::MatrixXd modulated(const Modulation& modulation, const Eigen::MatrixXd& own,
                           const Robot& robot, const Recording& recording, std::size_t index,
@@ -124,9 +120,8 @@ Eigen::MatrixXd modulated(const Modulation& modulation, const Eigen::MatrixXd& o
     return row;
   }
   if (!modulation.of_gear()) return value_of(modulation, recording, index, view, load) * own;
-  const Lead lead = modulation.signal == Signal::yield
-                        ? lead_of_load(recording, index, j)
-                        : lead_of_side(robot, recording, index, j, load);
+  const Lead lead = modulation.signal == Signal::yield ? lead_of_load(recording, index, j)
+                                                       : lead_of_side(recording, index, j);
   return -lead.now * own.col(0) - lead.acceleration * own.col(1);
 }
 

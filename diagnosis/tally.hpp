@@ -75,6 +75,9 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
                                         std::size_t index, const View& view,
                                         const PredictedLoad& load);
 
+/// How far a motor is ahead of its joint by a gear of number one under a load.
+[[nodiscard]] double lead_of(const Modulation& gear, double load);
+
 [[nodiscard]] Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses,
                                 const std::vector<Modulation>& modulations = {});
 

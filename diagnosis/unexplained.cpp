@@ -269,12 +269,7 @@ Structure lawless(const Robot& robot, reference::ContactTreatment contacts, cons
     const Prediction predicted = predict(viewer, view, model);
     x.push_back(
         abscissa(stranger.law.signal, joint, recording, index, predicted.load.joint[joint]));
-    Eigen::MatrixXd own = columns.at(recording, index, view, predicted);
-    // The number of a gear is what there is to see; that of others follows the signal.
-    if (stranger.law.of_gear()) {
-      own = modulated(stranger.law, own, robot, recording, index, view, predicted.load);
-    }
-    carrier.push_back(own(row, 0));
+    carrier.push_back(columns.at(recording, index, view, predicted)(row, 0));
     missing.push_back(-residual(viewer, view, model)[row]);
   }
   Structure structure;
@@ -284,10 +279,17 @@ Structure lawless(const Robot& robot, reference::ContactTreatment contacts, cons
   structure.share = stranger.gain;
   structure.t = stranger.t;
   const std::vector<double> edges = quantiles(x);
-  Binned places, numbers;  // the number is that of least squares within each bin
+  // The number is that of least squares within each bin; of a gear, which acts by how its number
+  // changes, that of the law.
+  Binned places, numbers;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    places.add(bin_of(x[i], edges), x[i]);
-    numbers.add(bin_of(x[i], edges), carrier[i] * missing[i], carrier[i] * carrier[i]);
+    const std::size_t bin = bin_of(x[i], edges);
+    places.add(bin, x[i]);
+    if (stranger.law.of_gear()) {
+      numbers.add(bin, stranger.number * lead_of(stranger.law, x[i]));
+    } else {
+      numbers.add(bin, carrier[i] * missing[i], carrier[i] * carrier[i]);
+    }
   }
   set_curve(places, numbers, structure);
   return structure;

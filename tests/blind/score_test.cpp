@@ -63,6 +63,16 @@ TEST(Score, NamesWithinTheSet) {
             Outcome::wrong);
 }
 
+/// Of one cause two names may be said, each with the cause among what it cannot be told from.
+TEST(Score, OneCauseWithinTwoSets) {
+  const Trial t = trial({item("payload", 3)});
+  const std::string load = "payload@fore";
+  const json first = finding("torque_gain", "bend", {load});
+  EXPECT_EQ(outcome(t, answer({first, finding("torque_gain", "lift", {load})})),
+            Outcome::ambiguous);
+  EXPECT_EQ(outcome(t, answer({first, finding("torque_gain", "lift")})), Outcome::wrong);
+}
+
 TEST(Score, OneOfTwoAndMoreThanThereIs) {
   const Trial two = trial({item("torque_offset", 0), item("cogging", 3)});
   const json first = finding("torque_offset", "turn"), second = finding("cogging", "twist");
@@ -91,8 +101,15 @@ TEST(Score, ForeignEffects) {
   EXPECT_EQ(outcome(warm, answer({finding("torque_offset", "lift")})), Outcome::described);
   EXPECT_EQ(outcome(warm, answer({finding("torque_offset", "turn")})), Outcome::wrong);
   EXPECT_EQ(outcome(warm, answer({}, true)), Outcome::unexplained);
-  EXPECT_EQ(outcome(trial({item("backlash", 1)}), answer({finding("torque_offset", "lift")})),
-            Outcome::wrong);
+  const Trial foreign = trial({item("backlash", 1)});
+  json said = finding("torque_offset", "lift");
+  EXPECT_EQ(outcome(foreign, answer({said})), Outcome::wrong);
+  // A law without a name is said to do as well: that is honest of what has no name, and no excuse
+  // for a wrong name of what has one.
+  said["or_without_name"] = "gear@lift with play";
+  EXPECT_EQ(outcome(foreign, answer({said})), Outcome::ambiguous);
+  EXPECT_EQ(outcome(foreign, answer({said, finding("drag", "hand")})), Outcome::wrong);
+  EXPECT_EQ(outcome(trial({item("cogging", 1)}), answer({said})), Outcome::wrong);
 }
 
 TEST(Score, InertiasAreComparedWithTheTruth) {

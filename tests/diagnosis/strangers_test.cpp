@@ -86,7 +86,7 @@ TEST(Strangers, AreLawsOfDrivesTimesSignals) {
     EXPECT_FALSE(a.effect->built_in) << a.effect->id;
     EXPECT_FALSE(same_place(a, own[0])) << "it is in the tally already";
   }
-  const auto products = modulated_carriers(list, 1, 3);
+  const auto products = modulated_carriers(record({}), list, 1, 3);
   EXPECT_EQ(products.size(), 2U * (joint_signals.size() + 1U));
   for (const Modulation& m : products) EXPECT_EQ(m.joint, list[m.hypothesis].site);
 }

@@ -9,6 +9,7 @@
 #include "shapeid/diagnosis/placebo.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/diagnosis/strangers.hpp"
+#include "shapeid/diagnosis/unexplained.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
 namespace shapeid::diagnosis {
@@ -25,16 +26,66 @@ void change_each(std::vector<Sample>& samples, void (*change)(Sample&)) {
   for (Sample& s : samples) change(s);
 }
 
-/// An encoder ahead of its joint by what the gear yields: gains, lengths and offsets of several
-/// joints together do what this one law does.
-TEST(Unnamed, ElasticGearIsNotSeveralNames) {
-  const LoopResult result = loop_of(record({}, [](std::vector<Sample>& samples) {
-    change_each(samples, [](Sample& s) { s.q[1] += 0.003 * s.tau[1]; });
-  }));
+/// A log whose encoder of joint 2 sits on the motor, ahead of the joint by `lead` of the drive's
+/// torque, in position, speed and acceleration.
+Recording before_a_gear(double (*lead)(double torque)) {
+  const std::vector<Sample> quiet = record({{}, 20.0, 0.0}).samples();
+  return record({}, [&](std::vector<Sample>& samples) {
+    const auto at = [&](std::size_t i) { return lead(quiet[i].tau[1]); };
+    for (std::size_t i = 2; i + 2 < samples.size(); ++i) {  // as a filter would leave it
+      const double h = 0.5 * (samples[i + 2].time - samples[i - 2].time);
+      samples[i].q[1] += at(i);
+      samples[i].dq[1] += (at(i + 2) - at(i - 2)) / (2.0 * h);
+      samples[i].ddq[1] += (at(i + 2) - 2.0 * at(i) + at(i - 2)) / (h * h);
+    }
+  });
+}
+
+void expect_one_gear(const LoopResult& result, Signal signal) {
   for (const Found& f : result.found) EXPECT_FALSE(f.name_stands()) << f.id;
   ASSERT_FALSE(result.strangers.empty());
-  EXPECT_EQ(result.strangers.front().carrier.effect->id, "encoder_offset");
-  EXPECT_EQ(result.strangers.front().law.signal, Signal::load);
+  const Stranger& law = result.strangers.front();
+  EXPECT_EQ(law.carrier.effect->id, "gear");
+  EXPECT_EQ(law.law.signal, signal);
+  EXPECT_EQ(law.law.joint, 1);
+}
+
+/// Gains, lengths and offsets of several joints together do what this one law does.
+TEST(Unnamed, ElasticGearIsNotSeveralNames) {
+  const LoopResult result = loop_of(before_a_gear([](double torque) { return 0.0005 * torque; }));
+  expect_one_gear(result, Signal::yield);
+  EXPECT_EQ(law_text(result.strangers.front(), arm()), "gear@joint2 that yields");
+}
+
+TEST(Unnamed, PlayOfAGearIsSeen) {
+  const LoopResult result =
+      loop_of(before_a_gear([](double torque) { return 0.0002 * std::tanh(torque / 0.1); }));
+  expect_one_gear(result, Signal::play);
+  EXPECT_EQ(law_text(result.strangers.front(), arm()), "gear@joint2 with play");
+}
+
+/// The curve of a gear is how far the encoder is ahead of the joint, over the load.
+TEST(Unnamed, GearsNumberIsWhatTheGearYields) {
+  const Recording log = before_a_gear([](double torque) { return 0.0005 * torque; });
+  const LoopResult result = loop_of(log);
+  ASSERT_FALSE(result.strangers.empty());
+  const Stranger& law = result.strangers.front();
+  EXPECT_GT(law.number, 0.0004);
+  EXPECT_LT(law.number, 0.0006);
+  const Structure curve =
+      lawless(arm(), reference::ContactTreatment::ignore, result.model, log, 2, law);
+  EXPECT_EQ(curve.law, "gear@joint2 that yields");
+  for (std::size_t i = 0; i < curve.at.size(); ++i) {
+    EXPECT_NEAR(curve.value[i], law.number * curve.at[i], 1e-12);
+  }
+}
+
+/// Noise of torque goes against its own second derivative, as the load of a gear does: on a clean
+/// log no gear may be seen for that, not at a joint that is loaded and not at one that is not.
+TEST(Unnamed, NoiseIsNoGear) {
+  for (const double noise : {0.02, 0.2}) {
+    EXPECT_TRUE(loop_of(record({{}, 20.0, noise, 7})).strangers.empty()) << noise;
+  }
 }
 
 /// A ripple in proportion to the load is none of the position alone, and none of the load alone.
