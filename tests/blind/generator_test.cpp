@@ -120,5 +120,46 @@ TEST(Yardstick, DetectableSizeFollowsTheNoise) {
   EXPECT_LT(loud, 6.0 * quiet);
 }
 
+/// Rows that are missing from a log by the true model: its noise.
+Eigen::MatrixXd noise_of(const Machine& m, const diagnosis::Recording& log) {
+  const diagnosis::RichModel truth{stacked_parameters(m.robot), {}};
+  const diagnosis::Viewer viewer(m.robot, reference::ContactTreatment::ignore, {});
+  const auto indices = log.usable(1);
+  Eigen::MatrixXd noise(m.robot.dof(), std::ssize(indices));
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    noise.col(static_cast<Eigen::Index>(i)) =
+        -diagnosis::residual(viewer, viewer.view(log, indices[i]), truth);
+  }
+  return noise;
+}
+
+/// Noise may hide an item, and by luck does not show one: an item that is the noise itself has a
+/// size, and what is its opposite must first make up for it.
+TEST(Yardstick, LuckShowsNothingAndMayHide) {
+  const test::Scratch scratch;
+  const Machine m = arm();
+  write_logs(m, arm_trial({}), simulate_clean(m, 5), scratch.path(""));
+  const diagnosis::Recording log = read_log(m, scratch.path("log.csv"));
+  const Eigen::MatrixXd noise = noise_of(m, log);
+  EXPECT_GT(detectable_size(m, log, noise), 0.05);
+  EXPECT_GT(detectable_size(m, log, -noise), 2.0);
+}
+
+/// A load that was never absent is a part of its link, but for a log without it.
+TEST(Yardstick, LogWithoutALoadShowsIt) {
+  const test::Scratch scratch;
+  const Machine m = arm();
+  const Readings readings = simulate_clean(m, 5);
+  Trial earlier = arm_trial({});
+  ++earlier.noise_seed;
+  write_logs(m, earlier, readings, scratch.path(""));
+  const diagnosis::Recording without = read_log(m, scratch.path("log.csv"));
+  write_logs(m, arm_trial({}), readings, scratch.path(""));
+  const diagnosis::Recording log = read_log(m, scratch.path("log.csv"));
+  const Eigen::MatrixXd change =
+      unit_change(m, some("payload", 4), readings, log, scratch.path(""), 1);
+  EXPECT_LT(10.0 * detectable_size(m, log, change, &without), detectable_size(m, log, change));
+}
+
 }  // namespace
 }  // namespace shapeid::blind

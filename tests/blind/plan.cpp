@@ -42,6 +42,7 @@ class Generator {
     trial.motion_seed = 100 * options_.seed + 1 + draw(random, motions);
     trial.noise_seed = options_.seed * 10007 + static_cast<std::uint64_t>(number);
     trial.inertia_seed = trial.noise_seed + 5;
+    logs_.clear();
     put_items(m, number, random, trial);
 
     const std::string own = fmt::format("{}/trial{:04}", folder_, number);
@@ -78,11 +79,13 @@ class Generator {
     return clean_.emplace(key, std::move(readings)).first->second;
   }
 
-  /// Its log, with this noise.
-  diagnosis::Recording clean_log(const Machine& m, std::uint64_t motion_seed,
-                                 std::uint64_t noise_seed) {
-    write_logs(m, without_items(noise_seed), clean(m, motion_seed), scratch_);
-    return read_log(m, scratch_ + "/log.csv");
+  /// The log of the trial's motion with this noise.
+  const diagnosis::Recording& clean_log(const Machine& m, const Trial& trial,
+                                        std::uint64_t noise_seed) {
+    const auto known = logs_.find(noise_seed);
+    if (known != logs_.end()) return known->second;
+    write_logs(m, without_items(noise_seed), clean(m, trial.motion_seed), scratch_);
+    return logs_.emplace(noise_seed, read_log(m, scratch_ + "/log.csv")).first->second;
   }
 
   static bool needs_reference(const Trial& trial) {
@@ -154,10 +157,10 @@ class Generator {
     constexpr int most_looks = 20;
     constexpr double close = 0.02;
     const Readings& readings = clean(m, trial.motion_seed);
-    const diagnosis::Recording log = clean_log(m, trial.motion_seed, trial.noise_seed);
+    const diagnosis::Recording& log = clean_log(m, trial, trial.noise_seed);
     // A load that was never absent is told from its link by a log without it alone.
-    std::optional<diagnosis::Recording> reference;
-    if (k.id == "payload") reference = clean_log(m, trial.motion_seed, reference_seed(trial));
+    const diagnosis::Recording* reference =
+        k.id == "payload" ? &clean_log(m, trial, reference_seed(trial)) : nullptr;
     for (int look = 0; look < most_looks; ++look) {
       Eigen::MatrixXd change;
       try {
@@ -165,7 +168,7 @@ class Generator {
       } catch (const InputError&) {
         return std::numeric_limits<double>::infinity();  // so much of it that logs are refused
       }
-      const double size = detectable_size(m, log, change, reference ? &*reference : nullptr);
+      const double size = detectable_size(m, log, change, reference);
       if (!k.foreign || std::abs(size - item.amount.size) < close * size) return size;
       if (std::isinf(size)) return size;
       // What grows with its square would go to and fro.
@@ -177,6 +180,7 @@ class Generator {
   PlanOptions options_;
   std::string folder_, scratch_;
   std::map<std::pair<std::string, std::uint64_t>, Readings> clean_;
+  std::map<std::uint64_t, diagnosis::Recording> logs_;  ///< of one trial's motion, by their noise
 };
 
 }  // namespace
