@@ -19,25 +19,20 @@
 namespace shapeid::diagnosis {
 namespace {
 
-/// The names of arrays, whose declarations are added to `arrays`.
-std::string declared(const std::vector<Eigen::VectorXd>& numbers, std::string& arrays) {
-  std::string names;
-  for (const Eigen::VectorXd& v : numbers) {
-    const std::string name = fmt::format("s{}", arrays.size());
-    arrays += fmt::format("  const double {}[] = {{{}}};\n", name, fmt::join(v, ", "));
-    names += (names.empty() ? "" : ", ") + name;
-  }
-  return names;
-}
-
-/// "q, dq, ddq, base", likewise.
+/// "q, dq, ddq, base": the names of arrays, whose declarations are added to `arrays`.
 std::string arguments(const Sample& s, Root root, std::string& arrays) {
   std::vector<Eigen::VectorXd> numbers = {s.q, s.dq, s.ddq};
   if (root == Root::floating) {
     numbers.emplace_back(9);
     numbers.back() << s.base_angular_velocity, s.base_angular_acceleration, s.base_specific_force;
   }
-  return declared(numbers, arrays) + (root == Root::floating ? "" : ", nullptr");
+  std::string names;
+  for (const Eigen::VectorXd& v : numbers) {
+    const std::string name = fmt::format("s{}", arrays.size());
+    arrays += fmt::format("  const double {}[] = {{{}}};\n", name, fmt::join(v, ", "));
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  return names + (root == Root::floating ? "" : ", nullptr");
 }
 
 /// What predict() of the compiled header says, one column for each `call` (its arguments).
@@ -94,9 +89,8 @@ TEST(TorqueHeader, PredictsWhatTheModelPredicts) {
   EXPECT_LT(test::scaled_difference(got, wanted, 20), test::few_hundred_eps);
 }
 
-/// With the motion before and after, a lag too, and with the logged torque's rate on a floating
-/// base; what a payload weighs is no part of the load that lags and rubs, in the library and so
-/// here.
+/// With the motion before and after, a lag too; what a payload weighs is no part of the load that
+/// lags and rubs, in the library and so here.
 void expect_lag_follows_the_rigid_links(Root root) {
   Robot robot = test::arm();
   robot.root = root;
@@ -128,13 +122,6 @@ void expect_lag_follows_the_rigid_links(Root root) {
   for (const std::size_t i : instants) {
     wanted.col(std::ssize(calls)) =
         predict(viewer, viewer.view(recording, i), model).force.tail<3>();
-    if (root == Root::floating) {
-      const Eigen::VectorXd rate =
-          (recording.shifted(i, step).tau - recording.shifted(i, -step).tau) / (2.0 * step);
-      const std::string now = arguments(recording[i], root, arrays);
-      calls.push_back(now + ", " + declared({rate}, arrays));
-      continue;
-    }
     std::string call;
     for (const double dt : {-step, 0.0, step}) {
       call += (call.empty() ? "{" : ", {") +
