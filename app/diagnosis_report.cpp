@@ -11,6 +11,7 @@
 #include "shapeid/app/html.hpp"
 #include "shapeid/app/result.hpp"
 #include "shapeid/diagnosis/hypotheses.hpp"
+#include "shapeid/diagnosis/slowness.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -114,7 +115,11 @@ void add_undetermined(Page& page, const DiagnosisRun& run, const Robot& robot) {
   for (std::size_t i = 0; i < std::min(shown, run.structures.size()); ++i) {
     const diagnosis::Structure& s = run.structures[i];
     page.picture(structure_picture(s),
-                 !s.law.empty()
+                 s.variable == diagnosis::slow
+                     ? fmt::format("Unexplained: the residual of {} is no noise: {:.1f} % of its "
+                                   "variance is slower",
+                                   s.joint, 100.0 * s.share)
+                 : !s.law.empty()
                      ? fmt::format("Unexplained: as {}, but its number follows {}; {:.1f} % of the "
                                    "held-out error, {:.1f} standard errors",
                                    s.law, s.variable, 100.0 * s.share, s.t)

@@ -8,6 +8,7 @@
 
 #include "shapeid/app/result.hpp"
 #include "shapeid/diagnosis/hypotheses.hpp"
+#include "shapeid/diagnosis/slowness.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/models/version.hpp"
 
@@ -181,6 +182,11 @@ std::string structures_text(const DiagnosisRun& run) {
     if (!s.under_name.empty()) {
       text += fmt::format("  {:<24}over {:<28}what {} describes in part\n", s.joint, s.variable,
                           s.under_name);
+      continue;
+    }
+    if (s.variable == diagnosis::slow) {
+      text += fmt::format("  {:<24}none of them, but slowly: {:.1f} % more than noise\n", s.joint,
+                          100.0 * s.share);
       continue;
     }
     const std::string what = s.law.empty() ? s.joint : "as " + s.law;

@@ -69,21 +69,21 @@ std::vector<Structure> slow_remains(const Robot& robot, const Recording& recordi
     Eigen::ArrayXd y = series.residual.row(row).transpose();
     y = (y - (y * counts).sum() / std::max(counts.sum(), 1.0)) * counts;
     const Spectrum power = spectrum(time, y, noise_below * cutoff);
-    const std::size_t slow = power.at(slow_below * cutoff), from = power.at(noise_from * cutoff);
+    const std::size_t low_end = power.at(slow_below * cutoff), from = power.at(noise_from * cutoff);
     const std::size_t end = power.power.size();
-    if (slow < fewest || end - from < fewest) continue;
-    const double low = power.mean(0, slow), noise = power.mean(from, end);
+    if (low_end < fewest || end - from < fewest) continue;
+    const double low = power.mean(0, low_end), noise = power.mean(from, end);
     // The logarithm of a mean of n exponential numbers has a standard deviation of 1 / sqrt(n).
     const double error =
-        std::sqrt(1.0 / static_cast<double>(slow) + 1.0 / static_cast<double>(end - from));
+        std::sqrt(1.0 / static_cast<double>(low_end) + 1.0 / static_cast<double>(end - from));
     const double z = std::log(low / noise) / error;
     if (!(z > least_z)) continue;
     Structure structure;
     structure.joint = robot.joint(j).name;
-    structure.variable = "frequency";
+    structure.variable = slow;
     const double all = y.square().sum() / static_cast<double>(time.size());
     structure.share = std::clamp(
-        2.0 * (low - noise) * static_cast<double>(slow) / static_cast<double>(time.size()) / all,
+        2.0 * (low - noise) * static_cast<double>(low_end) / static_cast<double>(time.size()) / all,
         0.0, 1.0);
     structure.t = z;
     set_curve(power, structure);

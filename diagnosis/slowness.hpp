@@ -8,6 +8,9 @@
 
 namespace shapeid::diagnosis {
 
+/// Structure::variable of what is slow.
+inline constexpr const char* slow = "frequency";
+
 /// Joints whose residual is slow: its power below a fifth of the filter's `cutoff` (Hz) is larger
 /// than between a quarter and a half of it, by more than chance. Noise of torque is as strong at
 /// all frequencies that the filter leaves, noise of motion grows with frequency, and what masses

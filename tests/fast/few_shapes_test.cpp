@@ -53,10 +53,10 @@ class Judged {
  private:
   [[nodiscard]] const Eigen::VectorXd& V() const { return given_.problem.V; }
 
+  FewShapes guess_;  // first: its members are the most strictly aligned
   const TriangleCase& given_;
   ShapeColumns columns_;
   OneLink vertex_;
-  FewShapes guess_;
   ActiveSet method_;
 };
 
@@ -91,9 +91,9 @@ int settled(bool density_term, bool warm) {
 
 TEST(FewShapes, AreSettledAlmostAlways) {
   for (const bool warm : {false, true}) {
-    EXPECT_GE(settled(false, warm), 295);
-    // With lambda only where the rows decide which shapes have mass.
-    EXPECT_GE(settled(true, warm), 200);
+    // All 300 where this was written; other compilers may round a tie otherwise.
+    EXPECT_GE(settled(false, warm), 298);
+    EXPECT_GE(settled(true, warm), 298);
   }
 }
 

@@ -20,7 +20,7 @@ struct TriangleCase {
   [[nodiscard]] int link_count() const { return static_cast<int>(problem.U.rows() / 10); }
   [[nodiscard]] int shapes() const { return static_cast<int>(problem.U.cols()); }
   [[nodiscard]] fast::MassSolver::Column column(int j) const {
-    return problem.U.col(j).segment<10>(10 * links[static_cast<std::size_t>(j)]);
+    return problem.U.col(j).segment<10>(Eigen::Index{10} * links[static_cast<std::size_t>(j)]);
   }
 };
 
