@@ -1,5 +1,6 @@
 #include "shapeid/diagnosis/tally.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "shapeid/reference/projection.hpp"
@@ -80,10 +81,10 @@ struct Lead {
 };
 
 /// By the logged torque. Its noise is the residual's, and goes against its own second derivative: a
-/// gear would be seen in every log. Readings 40 and 80 ms away have other noise, after any filter
-/// that leaves 15 Hz. The curvature of the parabola through these four.
-Lead lead_of_load(const Recording& recording, std::size_t index, Eigen::Index joint) {
-  const auto k = static_cast<std::size_t>(std::lround(0.04 * recording.rate()));
+/// gear would be seen in every log. Readings beyond the filter's reach have other noise. The
+/// curvature of the parabola through four of these, `apart` (s) and twice as far away.
+Lead lead_of_load(const Recording& recording, std::size_t index, Eigen::Index joint, double apart) {
+  const auto k = static_cast<std::size_t>(std::lround(apart * recording.rate()));
   if (k == 0 || !recording.surrounded(index, 2 * k)) return {};
   const auto torque = [&](std::size_t i) { return recording[i].tau[joint]; };
   const double near = torque(index - k) + torque(index + k);
@@ -112,7 +113,7 @@ double lead_of(const Modulation& gear, double load) {
 
 Eigen::MatrixXd modulated(const Modulation& modulation, const Eigen::MatrixXd& own,
                           const Robot& robot, const Recording& recording, std::size_t index,
-                          const View& view, const PredictedLoad& load) {
+                          const View& view, const PredictedLoad& load, double margin) {
   const Eigen::Index j = modulation.joint;
   if (modulation.signal == Signal::row) {
     Eigen::MatrixXd row = Eigen::MatrixXd::Zero(own.rows(), own.cols());
@@ -120,7 +121,9 @@ Eigen::MatrixXd modulated(const Modulation& modulation, const Eigen::MatrixXd& o
     return row;
   }
   if (!modulation.of_gear()) return value_of(modulation, recording, index, view, load) * own;
-  const Lead lead = modulation.signal == Signal::yield ? lead_of_load(recording, index, j)
+  // 40 ms where 15 Hz pass, and without a filter.
+  const double apart = std::max(0.04, 1.2 * margin);
+  const Lead lead = modulation.signal == Signal::yield ? lead_of_load(recording, index, j, apart)
                                                        : lead_of_side(recording, index, j);
   return -lead.now * own.col(0) - lead.acceleration * own.col(1);
 }
@@ -187,7 +190,7 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
       const Eigen::Index n = tally.hypotheses[m.hypothesis].value.size();
       M.middleCols(tally.first_modulated[k], m.columns_of(n)) =
           modulated(m, M.middleCols(tally.first[m.hypothesis], n), robot, recording, index, view,
-                    predicted.load);
+                    predicted.load, options.margin);
     }
     M.rightCols<1>() = logged_force(viewer, view);
     for (Eigen::Index row = 0; row < M.rows(); ++row) {

@@ -69,11 +69,11 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
                   bool reference);
 
 /// What a modulation makes of the columns `own` of its hypothesis at a sample, dof x columns_of().
-/// `load` is the predicted one of all joints.
+/// `load` is the predicted one of all joints, `margin` (s) how far noise is filtered.
 [[nodiscard]] Eigen::MatrixXd modulated(const Modulation& modulation, const Eigen::MatrixXd& own,
                                         const Robot& robot, const Recording& recording,
                                         std::size_t index, const View& view,
-                                        const PredictedLoad& load);
+                                        const PredictedLoad& load, double margin);
 
 /// How far a motor is ahead of its joint by a gear of number one under a load.
 [[nodiscard]] double lead_of(const Modulation& gear, double load);
