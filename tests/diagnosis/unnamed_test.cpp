@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "shapeid/diagnosis/constancy.hpp"
 #include "shapeid/diagnosis/placebo.hpp"
@@ -85,6 +86,30 @@ TEST(Unnamed, GearsNumberIsWhatTheGearYields) {
 TEST(Unnamed, NoiseIsNoGear) {
   for (const double noise : {0.02, 0.2}) {
     EXPECT_TRUE(loop_of(record({{}, 20.0, noise, 7})).strangers.empty()) << noise;
+  }
+}
+
+/// Behind a slow filter noise remembers itself for longer, and readings further away are taken.
+TEST(Unnamed, FilteredNoiseIsNoGear) {
+  std::mt19937 generator(5);
+  std::normal_distribution<double> noise(0.0, 0.3);
+  const std::vector<Sample> quiet = record({{}, 20.0, 0.0}).samples();
+  const Recording log = record({}, [&](std::vector<Sample>& samples) {
+    constexpr std::size_t reach = 5;  // samples: 50 ms
+    Eigen::Matrix3Xd white(3, 2 * std::ssize(samples));
+    for (double& w : white.reshaped()) w = noise(generator);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      samples[i].tau = quiet[i].tau;
+      for (std::size_t k = 0; k <= 2 * reach; ++k) {
+        const double share = std::cos(0.785 * (static_cast<double>(k) / reach - 1.0));
+        samples[i].tau += share / reach * white.col(static_cast<Eigen::Index>(i + k));
+      }
+    }
+  });
+  LoopSettings settings = test::arm_settings();
+  settings.margin = 0.1;
+  for (const Stranger& s : close_loop(arm(), log, nullptr, settings).strangers) {
+    EXPECT_NE(s.carrier.effect->id, "gear") << law_text(s, arm());
   }
 }
 
