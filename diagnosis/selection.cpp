@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 
 namespace shapeid::diagnosis {
 namespace {
@@ -209,7 +208,6 @@ class Search {
     const auto& members = candidates_[k].members;
     if (members.empty()) accepted_.push_back(k);
     accepted_.insert(accepted_.end(), members.begin(), members.end());
-    of_group_.insert(members.begin(), members.end());
   }
 
   [[nodiscard]] bool passes(const Scored& s) const { return s.t > limit_ && s.gain > 0.0; }
@@ -236,8 +234,9 @@ class Search {
   }
 
   /// Without what others in it make superfluous, or give an impossible sign or a size that is not
-  /// believed (a delay and the lags of all drives may cancel); these first, and of them the one
-  /// that gains least.
+  /// believed (a delay and the lags of all drives may cancel), and without ripples that came with
+  /// those of other joints and are nothing by themselves; these first, and of them the one that
+  /// gains least.
   [[nodiscard]] std::vector<std::size_t> pruned(std::vector<std::size_t> chosen) const {
     while (!chosen.empty()) {
       const Fit all = fits_.fit(terms(chosen));
@@ -255,7 +254,7 @@ class Search {
         const std::pair<bool, double> own_worth = {
             !wrong_sign(chosen[i], own, 0.0) && gain.share >= 0.0 &&
                 within_limits(chosen[i], own) &&
-                (of_group_.count(chosen[i]) == 0 || significant(chosen[i], own)),
+                (!(candidates_[chosen[i]].choices > 1.0) || significant(chosen[i], own)),
             gain.t};
         if (own_worth < least) {
           least = own_worth;
@@ -434,7 +433,6 @@ class Search {
   double limit_ = 0.0;
   double parameters_ = 0.0;  ///< of all candidates
   std::vector<std::size_t> accepted_, dropped_;
-  std::set<std::size_t> of_group_;  ///< came with others, none of them judged by itself
   Selection result_;
 };
 
