@@ -67,12 +67,14 @@ Table findings_table(const DiagnosisRun& run, const Robot& robot) {
   return table;
 }
 
-Table parameters_table(const DiagnosisRun& run, const Robot& robot, int link) {
+Table parameters_table(const DiagnosisRun& run, const Robot& robot, std::size_t sought) {
   constexpr std::array<const char*, 10> names = {
       "m (kg)",       "m rx (kg m)",  "m ry (kg m)",  "m rz (kg m)",  "Ixx (kg m^2)",
       "Ixy (kg m^2)", "Ixz (kg m^2)", "Iyy (kg m^2)", "Iyz (kg m^2)", "Izz (kg m^2)"};
   constexpr double of_95_percent = 1.96;
-  Table table = {{"parameter", "given", "found", "95 % interval"}};
+  const int link = run.settings.shapes.free_links[sought];
+  Table table = {{"parameter", "given", "found", "95 % interval", "determined by"}};
+  if (run.causes_alone) table[0].push_back("beside causes alone");
   const Link& given = robot.links[static_cast<std::size_t>(link)];
   for (Eigen::Index p = 0; p < 10; ++p) {
     const Eigen::Index at = Eigen::Index{10} * link + p;
@@ -80,7 +82,13 @@ Table parameters_table(const DiagnosisRun& run, const Robot& robot, int link) {
     const double half = of_95_percent * run.consistent.Phi_error[at];
     table.push_back({names[static_cast<std::size_t>(p)], short_number(given.inertia.values[p]),
                      short_number(value),
-                     fmt::format("{:.3g} to {:.3g}", value - half, value + half)});
+                     fmt::format("{:.3g} to {:.3g}", value - half, value + half),
+                     run.consistent.data.determined[10 * sought + static_cast<std::size_t>(p)]
+                         ? "data"
+                         : "given inertia and bodies"});
+    if (run.causes_alone) {
+      table.back().push_back(short_number(run.causes_alone->model.Phi[at]));
+    }
   }
   return table;
 }
@@ -172,9 +180,15 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
       autocorrelation_picture(run, robot),
       "Over the lag in s, before (orange) and after (blue); the band is that of white noise");
   page.heading("Inertial parameters");
-  for (const int link : run.settings.shapes.free_links) {
+  if (run.causes_alone) {
+    page.paragraph(
+        "Beside causes alone: fitted again without the effects whose name does not stand. What "
+        "differs there by more than its error is not determined by this log.");
+  }
+  for (std::size_t i = 0; i < run.settings.shapes.free_links.size(); ++i) {
+    const int link = run.settings.shapes.free_links[i];
     page.paragraph("Link " + robot.links[static_cast<std::size_t>(link)].name);
-    page.table(parameters_table(run, robot, link));
+    page.table(parameters_table(run, robot, i));
     const std::string picture = inertia_picture(run, robot, link);
     if (!picture.empty()) page.picture(picture, "Ellipsoids of the same mass and moments");
   }

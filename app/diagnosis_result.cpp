@@ -82,13 +82,25 @@ json ranking_json(const std::vector<diagnosis::Ranked>& ranking) {
 
 json links_json(const DiagnosisRun& run, const Robot& robot) {
   json links = json::array();
-  for (const int link : run.settings.shapes.free_links) {
-    const Eigen::Index at = Eigen::Index{10} * link;
-    const Link& given = robot.links[static_cast<std::size_t>(link)];
-    links.push_back({{"name", given.name},
-                     {"parameters", numbers(run.consistent.model.Phi.segment<10>(at))},
-                     {"given", numbers(given.inertia.values)},
-                     {"standard_error", numbers(run.consistent.Phi_error.segment<10>(at))}});
+  const auto& free_links = run.settings.shapes.free_links;
+  for (std::size_t i = 0; i < free_links.size(); ++i) {
+    const Eigen::Index at = Eigen::Index{10} * free_links[i];
+    const Link& given = robot.links[static_cast<std::size_t>(free_links[i])];
+    const auto own = 10 * static_cast<std::ptrdiff_t>(i);
+    const reference::Determination& data = run.consistent.data;
+    json entry = {{"name", given.name},
+                  {"parameters", numbers(run.consistent.model.Phi.segment<10>(at))},
+                  {"given", numbers(given.inertia.values)},
+                  {"standard_error", numbers(run.consistent.Phi_error.segment<10>(at))},
+                  {"data_standard_error", numbers(data.standard_error.segment<10>(own))},
+                  {"determined", std::vector<bool>(data.determined.begin() + own,
+                                                   data.determined.begin() + own + 10)}};
+    if (run.causes_alone) {
+      entry["beside_causes_alone"] = numbers(run.causes_alone->model.Phi.segment<10>(at));
+      entry["hangs_on_descriptions"] =
+          diagnosis::hangs_on_descriptions(run.consistent, *run.causes_alone, free_links[i]);
+    }
+    links.push_back(entry);
   }
   return links;
 }

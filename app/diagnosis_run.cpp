@@ -215,6 +215,21 @@ void note_rests(const Robot& robot, DiagnosisRun& run) {
   }
 }
 
+void note_unsettled_links(const Robot& robot, DiagnosisRun& run) {
+  for (const int link : run.settings.shapes.free_links) {
+    if (!run.causes_alone ||
+        !diagnosis::hangs_on_descriptions(run.consistent, *run.causes_alone, link)) {
+      continue;
+    }
+    const Eigen::Index mass = Eigen::Index{10} * link;
+    run.notes.push_back(
+        fmt::format("the inertia of {} is not identified: it hangs on effects that are no causes "
+                    "(mass {:.3g} kg beside them, {:.3g} kg without)",
+                    robot.links[static_cast<std::size_t>(link)].name,
+                    run.consistent.model.Phi[mass], run.causes_alone->model.Phi[mass]));
+  }
+}
+
 void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
   const int base = robot.base_dof();
   for (int j = 0; j < robot.joint_count(); ++j) {
@@ -253,6 +268,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                    {},
                    {},
                    {},
+                   {},
                    std::move(test.recording),
                    {},
                    {},
@@ -270,6 +286,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   run.consistent =
       diagnosis::make_consistent(robot.robot, log.recording, reference, run.settings, run.loop);
   diagnosis::mark_faded(log.recording, run.settings, run.consistent, run.loop);
+  run.causes_alone =
+      diagnosis::beside_causes_alone(robot.robot, log.recording, reference, run.settings, run.loop);
   run.notes.insert(run.notes.end(), robot.warnings.begin(), robot.warnings.end());
   run.notes.insert(run.notes.end(), log.motion.notes.begin(), log.motion.notes.end());
   if (run.test.samples().empty()) {
@@ -312,6 +330,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   }
   note_rests(robot.robot, run);
   note_worse_joints(robot.robot, run);
+  note_unsettled_links(robot.robot, run);
   return run;
 }
 

@@ -1,10 +1,12 @@
 // The run behind `shapeid diagnose`: logs in, a richer model and what it is worth out.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "shapeid/app/inputs.hpp"
+#include "shapeid/diagnosis/causes_alone.hpp"
 #include "shapeid/diagnosis/consistent.hpp"
 #include "shapeid/diagnosis/curve_fit.hpp"
 #include "shapeid/diagnosis/unexplained.hpp"
@@ -45,6 +47,7 @@ struct DiagnosisRun {
   diagnosis::LoopSettings settings;
   diagnosis::LoopResult loop;
   diagnosis::Consistent consistent;
+  std::optional<diagnosis::Consistent> causes_alone;  ///< if there are effects that are no causes
   TestErrors errors;
   std::vector<diagnosis::Structure> structures;
   std::vector<diagnosis::Curve> curves;  ///< of structures that a model can predict with

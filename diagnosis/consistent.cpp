@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "shapeid/diagnosis/candidates.hpp"
+#include "shapeid/reference/identify.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 
 namespace shapeid::diagnosis {
@@ -29,6 +31,33 @@ class Sums {
     known_ = Eigen::VectorXd::Zero(target_ + 1);
     known_.head(tally_.inertial) = shapes.known;
     for (Block& block : tally_.blocks) reduce(block, since);
+  }
+
+  /// Rows of [Y_free, E, F] with each block's squares. `size`: of Y's and E's numbers. What is
+  /// smaller than the sums' own rounding counts as nothing.
+  [[nodiscard]] std::vector<reference::RowBlock> blocks(const Eigen::VectorXd& size) const {
+    Eigen::VectorXd scale(std::ssize(kept_));
+    scale << size, 1.0;
+    std::vector<reference::RowBlock> list;
+    for (const Block& block : tally_.blocks) {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * block.sums *
+                                                                 scale.asDiagonal());
+      const Eigen::VectorXd& squares = eigen.eigenvalues();
+      const double rounding = static_cast<double>(squares.size()) *
+                              std::numeric_limits<double>::epsilon() * squares.maxCoeff();
+      const Eigen::VectorXd length =
+          (squares.array() > rounding).select(squares, 0.0).cwiseSqrt();
+      list.push_back({length.asDiagonal() * eigen.eigenvectors().transpose() *
+                      scale.cwiseInverse().asDiagonal()});
+    }
+    return list;
+  }
+
+  /// Of each effect's column the number with which it alone would be as large as F.
+  [[nodiscard]] Eigen::VectorXd effect_sizes() const {
+    const Eigen::MatrixXd G = without(-1);
+    const double F = G(G.rows() - 1, G.cols() - 1);
+    return (F / G.diagonal().segment(masses(), effects_).array().max(1e-30 * F)).sqrt();
   }
 
   [[nodiscard]] Eigen::Index effects() const { return effects_; }
@@ -147,6 +176,17 @@ class Solver {
     return reference::divide_and_solve(shapes, problem, division);
   }
 
+  /// What the data say by themselves, without given inertias and bodies, effects fitted along.
+  [[nodiscard]] reference::Determination determination() const {
+    Eigen::VectorXd size(sums_.masses() + sums_.effects());
+    size << reference::natural_sizes(settings_.shapes, settings_.expected_mass),
+        sums_.effect_sizes();
+    reference::Determination all = reference::determine(sums_.blocks(size), size);
+    all.standard_error.conservativeResize(sums_.masses());
+    all.determined.resize(static_cast<std::size_t>(sums_.masses()));
+    return all;
+  }
+
  private:
   const Sums& sums_;
   const LoopSettings& settings_;
@@ -246,6 +286,7 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       continue;
     }
     result.model.Phi = all_parameters(shapes, Phi);
+    if (sums.masses() > 0) result.data = solver.determination();
     const Eigen::VectorXd errors = jackknife(solver, result.run, sums.effects());
     result.Phi_error = Eigen::VectorXd::Zero(result.model.Phi.size());
     for (std::size_t i = 0; i < shapes.free_links.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shapeid/diagnosis/loop.hpp"
+#include "shapeid/reference/determination.hpp"
 #include "shapeid/reference/division.hpp"
 
 namespace shapeid::diagnosis {
@@ -14,6 +15,9 @@ namespace shapeid::diagnosis {
 struct Consistent {
   RichModel model;
   Eigen::VectorXd Phi_error;                  ///< 10 links: standard errors, zero for known links
+  /// Of the free links' parameters, effects fitted along: what the data say without the given
+  /// inertias. Empty if no link is free.
+  reference::Determination data;
   std::vector<Eigen::VectorXd> effect_error;  ///< one vector an effect of the model
   reference::DivisionRun run;
   /// Effects whose sign became impossible when the masses had to be bodies, and which were left

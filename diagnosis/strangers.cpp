@@ -308,8 +308,8 @@ std::vector<AppliedEffect> carriers(const Robot& robot, const std::vector<Applie
                                    [&](const AppliedEffect& a) { return same_place(a, h); });
     if (!known) list.push_back(h);
   }
-  // What a leg's encoder is ahead by moves its foot, too, and contact forces with it: on a measured
-  // trot such laws took the place of rotors that are there.
+  // What a leg's encoder is ahead by moves its foot, too, and contact forces with it: there these
+  // laws are not the gear's.
   const int gears = robot.root == Root::fixed ? robot.joint_count() : 0;
   for (int joint = 0; joint < gears; ++joint) list.push_back(at_start(motor_ahead(), joint));
   return list;

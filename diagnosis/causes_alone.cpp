@@ -1,0 +1,31 @@
+#include "shapeid/diagnosis/causes_alone.hpp"
+
+#include <algorithm>
+
+namespace shapeid::diagnosis {
+
+std::optional<Consistent> beside_causes_alone(const Robot& robot, const Recording& log,
+                                              const Recording* reference,
+                                              const LoopSettings& settings,
+                                              const LoopResult& loop) {
+  const auto describes = [](const Found& f) { return !f.name_stands(); };
+  if (std::none_of(loop.found.begin(), loop.found.end(), describes)) return std::nullopt;
+  LoopResult causes = loop;
+  std::erase_if(causes.found, describes);
+  causes.model.effects.clear();
+  for (const Found& f : causes.found) causes.model.effects.push_back(f.effect);
+  return make_consistent(robot, log, reference, settings, causes);
+}
+
+bool hangs_on_descriptions(const Consistent& model, const Consistent& causes_alone, int link) {
+  constexpr double told_apart = 3.0;  // standard errors; ten numbers a link are looked at
+  const Eigen::Index at = Eigen::Index{10} * link;
+  const Eigen::ArrayXd moved =
+      (model.model.Phi.segment<10>(at) - causes_alone.model.Phi.segment<10>(at)).cwiseAbs();
+  const Eigen::ArrayXd error = (model.Phi_error.segment<10>(at).cwiseAbs2() +
+                                causes_alone.Phi_error.segment<10>(at).cwiseAbs2())
+                                   .cwiseSqrt();
+  return (moved > told_apart * error).any();
+}
+
+}  // namespace shapeid::diagnosis
