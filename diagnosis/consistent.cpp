@@ -45,8 +45,7 @@ class Sums {
       const Eigen::VectorXd& squares = eigen.eigenvalues();
       const double rounding = static_cast<double>(squares.size()) *
                               std::numeric_limits<double>::epsilon() * squares.maxCoeff();
-      const Eigen::VectorXd length =
-          (squares.array() > rounding).select(squares, 0.0).cwiseSqrt();
+      const Eigen::VectorXd length = (squares.array() > rounding).select(squares, 0.0).cwiseSqrt();
       list.push_back({length.asDiagonal() * eigen.eigenvectors().transpose() *
                       scale.cwiseInverse().asDiagonal()});
     }

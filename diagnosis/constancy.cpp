@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "shapeid/diagnosis/fits_around.hpp"
 #include "shapeid/diagnosis/selection.hpp"
 
 namespace shapeid::diagnosis {
@@ -103,25 +104,27 @@ std::vector<std::optional<Variation>> variations(const BlockFits& fits,
     tried += static_cast<double>(tally.hypotheses[m.hypothesis].value.size());
   }
   const double least = limit_for(least_z(false_alarms, tried), fits.held_blocks());
-  const Eigen::VectorXd before = fits.held_out(terms);
+  const FitsAround now(fits, terms);
   for (std::size_t k = 0; k < tally.modulations.size(); ++k) {
     const Modulation& m = tally.modulations[k];
     if (m.hypothesis >= effects) continue;
     const Eigen::Index n = tally.hypotheses[m.hypothesis].value.size();
-    std::vector<Term> richer = terms;
-    Term& term = richer.emplace_back();
+    Term term;
     for (Eigen::Index p = 0; p < n; ++p) term.columns.push_back(tally.first_modulated[k] + p);
     term.nonnegative.assign(term.columns.size(), false);
     for (const Term& own : terms) {
       const bool same = !own.columns.empty() && own.columns.front() == tally.first[m.hypothesis];
       if (same) term.from_block = own.from_block;
     }
-    const double gain = (before - fits.held_out(richer)).sum();
+    const double gain = (now.error() - now.with(term)).sum();
+    const double share = gain / own_gain[static_cast<Eigen::Index>(m.hypothesis)];
+    if (!(share > material_share)) continue;
+    std::vector<Term> richer = terms;
+    richer.push_back(term);
     const Fit fit = fits.fit(richer);
     const double z =
         (fit.value.tail(n).array() / fit.standard_error.tail(n).array()).abs().maxCoeff();
-    const double share = gain / own_gain[static_cast<Eigen::Index>(m.hypothesis)];
-    if (!(z > least && share > material_share)) continue;
+    if (!(z > least)) continue;
     std::optional<Variation>& best = result[m.hypothesis];
     if (!best || share > best->share) best = Variation{m.signal, m.joint, share, z};
   }

@@ -79,6 +79,7 @@ class BlockFits {
                                  const Term& outer) const;
 
  private:
+  friend class FitsAround;
   struct Columns {
     std::vector<Eigen::Index> index;
     std::vector<std::size_t> from;

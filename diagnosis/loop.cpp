@@ -32,6 +32,7 @@ class Loop {
     fit_masses();
     do {
       seek();
+      weigh_transformations();
       question_names(state_);
     } while (ban_mere_moments());
     return std::move(result_);
@@ -101,7 +102,8 @@ class Loop {
     // The derivative of a transformation needs a model that is not wrong by other things.
     rule.transformations = round_ > 0;
     rule.excluded = [this](const AppliedEffect& h) {
-      return state_.is_applied_transformation(h) || is_banned(h);
+      return state_.is_applied_transformation(h) || is_banned(h) ||
+             (moments_describe_ > 1 && begins(h));
     };
     rule.came_since = [this](const AppliedEffect& h) { return state_.came_since(h); };
     rule.choices = [this](const AppliedEffect& h) { return periods_told_apart(state_.log, h); };
@@ -179,15 +181,21 @@ class Loop {
     return terms;
   }
 
+  [[nodiscard]] static bool begins(const AppliedEffect& a) {
+    return a.effect->is_payload && a.shape.size() > 0;
+  }
+
   /// What began at a moment and is no load describes this log alone: on other motion nothing begins
-  /// then. Whether there was any; it is not looked for again.
+  /// then. Whether there was any; it is not looked for again. If others come in its place, none is:
+  /// each would cost a search of its own.
   [[nodiscard]] bool ban_mere_moments() {
     const std::size_t before = banned_.size();
     for (const Found& f : result_.found) {
-      const bool begins = f.effect.effect->is_payload && f.effect.shape.size() > 0;
-      if (begins && !f.name_stands()) banned_.push_back(f.effect);
+      if (begins(f.effect) && !f.name_stands()) banned_.push_back(f.effect);
     }
-    return banned_.size() > before;
+    if (banned_.size() == before) return false;
+    moments_describe_ += 1;
+    return true;
   }
 
   /// A refit that ends at the limit found no value that is believed.
@@ -200,9 +208,35 @@ class Loop {
     return false;
   }
 
-  /// An applied transformation that no longer lowers the held-out error, or of no credible size, is
-  /// taken back for good.
+  /// Applied transformations that no longer lower the held-out error, or are of no credible size,
+  /// are taken back for good, the least first. That is asked of derivatives: what gains little is
+  /// small, and sums of the log without each would be most of the time that many take.
   void prune_transformations() {
+    while (true) {
+      const std::vector<Gain> gains = state_.gains_by_derivative();
+      std::optional<std::size_t> worst;
+      for (std::size_t i = 0; i < gains.size(); ++i) {
+        const AppliedEffect& a = result_.found[i].effect;
+        if (!a.effect->transform.any() || (is_worth(gains[i]) && !at_limit(a))) continue;
+        if (!worst || gains[i].t < gains[*worst].t) worst = i;
+      }
+      if (!worst) return;
+      take_back(*worst);
+    }
+  }
+
+  [[nodiscard]] static bool is_worth(const Gain& gain) {
+    return gain.t > keep_t && gain.share > 0.0;
+  }
+
+  void take_back(std::size_t i) {
+    banned_.push_back(result_.found[i].effect);
+    result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
+    state_.collect_effects();
+  }
+
+  /// What is lost without each of the applied transformations, as it is and not by its derivative.
+  void weigh_transformations() {
     for (std::size_t i = 0; i < result_.found.size();) {
       if (!result_.found[i].effect.effect->transform.any()) {
         ++i;
@@ -213,14 +247,14 @@ class Loop {
       result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
       state_.collect_effects();
       const Gain gain = gain_of(state_.held_out_of_model(), with);
-      if (gain.t > keep_t && gain.share > 0.0 && !at_limit(all[i].effect)) {
-        result_.found = all;
-        result_.found[i].gain = gain.share;
-        result_.found[i].t = gain.t;
-        state_.collect_effects();
+      result_.found = all;
+      state_.collect_effects();
+      result_.found[i].gain = gain.share;
+      result_.found[i].t = gain.t;
+      if (is_worth(gain)) {
         ++i;
       } else {
-        banned_.push_back(all[i].effect);
+        take_back(i);
       }
     }
   }
@@ -367,6 +401,7 @@ class Loop {
   std::vector<AppliedEffect> banned_;
   std::optional<Candidate> large_;
   int round_ = 0;
+  int moments_describe_ = 0;  ///< searches in which moments came in that are no loads
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "shapeid/diagnosis/candidates.hpp"
+#include "shapeid/diagnosis/fits_around.hpp"
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::diagnosis {
@@ -127,6 +128,24 @@ std::vector<Term> LoopState::terms_of_model(const BlockFits& fits, std::size_t e
 Eigen::VectorXd LoopState::held_out_of_model() {
   const BlockFits fits = tallied(result.model.effects);
   return fits.held_out(terms_of_model(fits, fits.tally().hypotheses.size()));
+}
+
+std::vector<Gain> LoopState::gains_by_derivative() {
+  const BlockFits fits = tallied(result.model.effects);
+  std::vector<Term> terms = {masses};
+  for (std::size_t k = 0; k < result.model.effects.size(); ++k) {
+    const AppliedEffect& a = result.model.effects[k];
+    terms.push_back(term_of(robot, fits.tally(), k));
+    if (came_since(a) && !a.effect->transform.any()) terms.back().from_block = fits.first_block();
+  }
+  const FitsAround around(fits, std::move(terms));
+  std::vector<Gain> gains(result.model.effects.size());
+  for (std::size_t k = 0; k < gains.size(); ++k) {
+    const AppliedEffect& a = result.model.effects[k];
+    if (!a.effect->transform.any()) continue;
+    gains[k] = gain_of(around.fixed_at(1 + k, -a.value), around.error());
+  }
+  return gains;
 }
 
 }  // namespace shapeid::diagnosis

@@ -6,6 +6,7 @@
 
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/effects/parts.hpp"
+#include "shapeid/diagnosis/fits_around.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -102,12 +103,11 @@ double best_placebo(const BlockFits& fits, const std::vector<Term>& terms, std::
                     std::size_t last) {
   constexpr double more_than_chance = 2.0;  // standard errors, as for what is kept
   const Tally& tally = fits.tally();
-  const Eigen::VectorXd without = fits.held_out(terms);
+  const FitsAround now(fits, terms);
+  const Eigen::VectorXd& without = now.error();
   double best = 0.0;
   for (std::size_t k = first; k < last; ++k) {
-    std::vector<Term> with = terms;
-    with.push_back({"placebo", {tally.first[k]}, {false}, 0});
-    const Eigen::VectorXd error = fits.held_out(with);
+    const Eigen::VectorXd error = now.with({"placebo", {tally.first[k]}, {false}, 0});
     if (gain_of(without, error).t > more_than_chance) {
       best = std::max(best, (without - error).sum());
     }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "shapeid/diagnosis/fits_around.hpp"
+
 namespace shapeid::diagnosis {
 namespace {
 
@@ -157,12 +159,12 @@ class Search {
   }
 
   bool advance() {
-    const Eigen::VectorXd before = fits_.held_out(terms(accepted_));
+    const FitsAround now(fits_, terms(accepted_));
     std::vector<Scored> ranking;
     std::vector<Eigen::VectorXd> errors;
     for (const std::size_t k : shortlist(rule_.shortlist)) {
-      const Eigen::VectorXd after = fits_.held_out(with(k));
-      const Gain gain = gain_of(before, after);
+      const Eigen::VectorXd after = now.with(candidates_[k].term);
+      const Gain gain = gain_of(now.error(), after);
       Scored scored{k, gain.share, gain.t, {}, false};
       if (passes(scored)) {
         scored.fit = fit_of(k);
@@ -240,7 +242,7 @@ class Search {
   [[nodiscard]] std::vector<std::size_t> pruned(std::vector<std::size_t> chosen) const {
     while (!chosen.empty()) {
       const Fit all = fits_.fit(terms(chosen));
-      const Eigen::VectorXd with_all = fits_.held_out(terms(chosen));
+      const FitsAround now(fits_, terms(chosen));
       std::pair<bool, double> least = {true, keep_t};  // believed, and standard errors of gain
       std::size_t worst = chosen.size();
       Eigen::Index column = std::ssize(masses_.columns);
@@ -248,9 +250,7 @@ class Search {
         const Eigen::Index n = std::ssize(candidates_[chosen[i]].term.columns);
         const Fit own{all.value.segment(column, n), all.standard_error.segment(column, n)};
         column += n;
-        std::vector<std::size_t> without = chosen;
-        without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
-        const Gain gain = gain_of(fits_.held_out(terms(without)), with_all);
+        const Gain gain = gain_of(now.without(1 + i), now.error());
         const std::pair<bool, double> own_worth = {
             !wrong_sign(chosen[i], own, 0.0) && gain.share >= 0.0 &&
                 within_limits(chosen[i], own) &&
@@ -334,8 +334,9 @@ class Search {
     for (const std::size_t r : rivals) {
       if (taken(r) || !candidates_[r].members.empty()) continue;
       accepted_ = not_superfluous_beside(r, all);
-      const Eigen::VectorXd instead = fits_.held_out(with(r));
-      const Gain own = gain_of(fits_.held_out(terms(accepted_)), instead);
+      const FitsAround others(fits_, terms(accepted_));
+      const Eigen::VectorXd instead = others.with(candidates_[r].term);
+      const Gain own = gain_of(others.error(), instead);
       const bool takes_their_place =
           accepted_.size() + 1 < all.size() && own.t > rival_t && own.share > 0.0 &&
           !(gain_of(instead, result_.error_end).t > told_apart_t) &&
@@ -354,19 +355,14 @@ class Search {
   /// Those of `chosen` that gain something beside them all and r.
   [[nodiscard]] std::vector<std::size_t> not_superfluous_beside(
       std::size_t r, std::vector<std::size_t> chosen) const {
-    const auto error_of = [&](const std::vector<std::size_t>& some) {
-      std::vector<Term> list = terms(some);
-      list.push_back(candidates_[r].term);
-      return fits_.held_out(list);
-    };
     while (!chosen.empty()) {
-      const Eigen::VectorXd with_all = error_of(chosen);
+      std::vector<Term> list = terms(chosen);
+      list.push_back(candidates_[r].term);
+      const FitsAround now(fits_, std::move(list));
       double least = keep_t;
       std::size_t worst = chosen.size();
       for (std::size_t i = 0; i < chosen.size(); ++i) {
-        std::vector<std::size_t> without = chosen;
-        without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
-        const double t = gain_of(error_of(without), with_all).t;
+        const double t = gain_of(now.without(1 + i), now.error()).t;
         if (t < least) {
           least = t;
           worst = i;
@@ -380,13 +376,14 @@ class Search {
 
   /// Of candidate k, beside those that are accepted now.
   [[nodiscard]] Verdict verdict(std::size_t k) {
-    const Eigen::VectorXd without = fits_.held_out(terms(accepted_));
+    const FitsAround others(fits_, terms(accepted_));
+    const Eigen::VectorXd& without = others.error();
     const Gain gain = gain_of(without, result_.error_end);
     Verdict verdict{k, gain.share, gain.t, {}};
     const std::vector<std::size_t> hidden = result_.hidden;
     for (const std::size_t other : shortlist(rule_.rivals)) {
       if (other == k || same_place(k, other) || !candidates_[other].members.empty()) continue;
-      const Eigen::VectorXd instead = fits_.held_out(with(other));
+      const Eigen::VectorXd instead = others.with(candidates_[other].term);
       const Gain own = gain_of(without, instead);
       // Near the limit chance decides which of two passes: a rival need only gain something.
       if (!(own.t > rival_t && own.share > 0.0)) continue;

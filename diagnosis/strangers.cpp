@@ -7,6 +7,7 @@
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/constancy.hpp"
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/fits_around.hpp"
 #include "shapeid/diagnosis/gears.hpp"
 #include "shapeid/diagnosis/selection.hpp"
 
@@ -127,6 +128,15 @@ class Ring {
     return list;
   }
 
+  /// Of a name that is left, among the terms of present().
+  [[nodiscard]] std::size_t place_of(std::size_t effect) const {
+    std::size_t place = *own_term_[effect];
+    for (std::size_t k = 0; k < own_term_.size(); ++k) {
+      if (own_term_[k] && is_out_[k] && *own_term_[k] < *own_term_[effect]) --place;
+    }
+    return place;
+  }
+
   [[nodiscard]] int joint_of_law(std::size_t s) const {
     return fits_.tally().modulations[laws_[s]].joint;
   }
@@ -148,15 +158,14 @@ class Ring {
     return order;
   }
 
-  /// Its held-out error beside `beside`, which leaves `before`, if it is significant.
+  /// Its held-out error beside others, if it is significant.
   [[nodiscard]] std::optional<Eigen::VectorXd> significant(std::size_t s,
-                                                           const std::vector<Term>& beside,
-                                                           const Eigen::VectorXd& before) const {
-    std::vector<Term> with = beside;
-    with.push_back(law_terms_[s]);
-    Eigen::VectorXd error = fits_.held_out(with);
-    const Gain gain = gain_of(before, error);
+                                                           const FitsAround& beside) const {
+    Eigen::VectorXd error = beside.with(law_terms_[s]);
+    const Gain gain = gain_of(beside.error(), error);
     if (!(gain.t > least_t && gain.share > 0.0)) return std::nullopt;
+    std::vector<Term> with = beside.terms();
+    with.push_back(law_terms_[s]);
     const Fit fit = fits_.fit(with);
     const Eigen::Index n = std::ssize(law_terms_[s].columns);
     if (law_terms_[s].nonnegative[0] && fit.value.tail(n)[0] < 0.0) return std::nullopt;
@@ -171,10 +180,10 @@ class Ring {
   };
   /// The stranger that predicts best beside `beside`, if it is significant.
   [[nodiscard]] std::optional<Best> best(const std::vector<Term>& beside) const {
-    const Eigen::VectorXd before = fits_.held_out(beside);
+    const FitsAround around(fits_, beside);
     std::optional<Best> found;
     for (const std::size_t s : shortlist(beside)) {
-      const auto error = significant(s, beside, before);
+      const auto error = significant(s, around);
       if (error && !(found && found->error.sum() <= error->sum())) found = Best{s, *error};
     }
     return found;
@@ -193,8 +202,8 @@ class Ring {
       std::fill(is_out_.begin(), is_out_.end(), false);
       in_ = {first};
       judge_again();
-      const std::vector<Term> others = present(no_effect, first);
-      std::optional<Eigen::VectorXd> error = significant(first, others, fits_.held_out(others));
+      std::optional<Eigen::VectorXd> error =
+          significant(first, FitsAround(fits_, present(no_effect, first)));
       // One more as long as that makes fewer than there were.
       while (error && gain_of(*error, named).t > not_worse_t &&
              in_.size() + names_left() + 1 < names) {
@@ -254,12 +263,12 @@ class Ring {
   void judge_again() {
     if (in_.empty()) return;
     while (true) {
-      const Eigen::VectorXd with_all = fits_.held_out(present());
+      const FitsAround now(fits_, present());
       double least = keep_t;
       std::size_t worst = no_effect;
       for (std::size_t k = 0; k < own_term_.size(); ++k) {
         if (!own_term_[k] || is_out_[k]) continue;
-        const double t = gain_of(fits_.held_out(present(k)), with_all).t;
+        const double t = gain_of(now.without(place_of(k)), now.error()).t;
         if (t < least) {
           least = t;
           worst = k;
@@ -308,10 +317,9 @@ std::vector<AppliedEffect> carriers(const Robot& robot, const std::vector<Applie
                                    [&](const AppliedEffect& a) { return same_place(a, h); });
     if (!known) list.push_back(h);
   }
-  // What a leg's encoder is ahead by moves its foot, too, and contact forces with it: there these
-  // laws are not the gear's.
-  const int gears = robot.root == Root::fixed ? robot.joint_count() : 0;
-  for (int joint = 0; joint < gears; ++joint) list.push_back(at_start(motor_ahead(), joint));
+  for (int joint = 0; joint < robot.joint_count(); ++joint) {
+    list.push_back(at_start(motor_ahead(), joint));
+  }
   return list;
 }
 

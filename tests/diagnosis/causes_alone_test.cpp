@@ -83,7 +83,8 @@ TEST(CausesAlone, CausesStay) {
   EXPECT_LT(std::abs(alone->model.effects[0].value[0] - 0.35), 0.1);
 }
 
-/// The first link turns about a vertical axis: its mass is seen by no joint. The last one is lifted.
+/// The first link turns about a vertical axis: its mass is seen by no joint. The last one is
+/// lifted.
 TEST(Consistent, SaysWhatTheDataDetermine) {
   const Consistent result = Fitted(record({})).consistent();
   ASSERT_EQ(result.data.determined.size(), 30U);
