@@ -22,19 +22,22 @@ std::string short_number(double x) { return std::isfinite(x) ? fmt::format("{:.3
 
 Table errors_table(const DiagnosisRun& run, const Robot& robot) {
   const TestErrors& e = run.errors;
-  Table table = {{"row", "predicting zero", "given model", "found", "noise floor", "unfiltered"}};
+  Table table = {
+      {"row", "predicting zero", "given model", "usual fit", "found", "noise floor", "unfiltered"}};
   const auto names = row_names(robot);
   const int base = robot.base_dof();
   for (Eigen::Index row = 0; row < e.zero.size(); ++row) {
     const bool joint = row >= base;
     table.push_back({names[static_cast<std::size_t>(row)], short_number(e.zero[row]),
-                     short_number(e.given[row]), short_number(e.found[row]),
+                     short_number(e.given[row]), short_number(e.usual[row]),
+                     short_number(e.found[row]),
                      joint ? short_number(e.noise_floor[row - base]) : "",
                      joint ? short_number(e.unfiltered_found[row - base]) : ""});
   }
   table.push_back({"all joints", short_number(overall(e.zero, robot)),
-                   short_number(overall(e.given, robot)), short_number(overall(e.found, robot)),
-                   short_number(e.noise_floor.norm()), short_number(e.unfiltered_found.norm())});
+                   short_number(overall(e.given, robot)), short_number(overall(e.usual, robot)),
+                   short_number(overall(e.found, robot)), short_number(e.noise_floor.norm()),
+                   short_number(e.unfiltered_found.norm())});
   return table;
 }
 
@@ -154,7 +157,9 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
   page.heading("Error before and after");
   page.paragraph(
       "Predicted minus logged torque, root mean square, N m (base rows: N and N m). "
-      "Unfiltered: the found model against the torque as logged.");
+      "Usual fit: least squares of masses and, at every joint, viscous and Coulomb friction, an "
+      "offset and a rotor, nothing selected. Unfiltered: the found model against the torque as "
+      "logged.");
   page.table(errors_table(run, robot));
   page.picture(errors_picture(run, robot), "Joints: the same errors as in the table.");
   page.heading("What was found");

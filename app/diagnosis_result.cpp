@@ -154,22 +154,23 @@ std::string errors_text(const DiagnosisRun& run, const Robot& robot) {
   const TestErrors& e = run.errors;
   std::string text = fmt::format(
       "\nresidual on {} samples that were used for nothing else ({}), rms\n  {:<20}{:>10}{:>10}"
-      "{:>10}{:>14}{:>12}\n",
-      e.samples, e.where, "", "zero", "given", "found", "noise floor", "unfiltered");
+      "{:>10}{:>10}{:>14}{:>12}\n",
+      e.samples, e.where, "", "zero", "given", "usual", "found", "noise floor", "unfiltered");
   const auto names = row_names(robot);
   const int base = robot.base_dof();
   for (Eigen::Index row = 0; row < e.zero.size(); ++row) {
-    text += fmt::format("  {:<20}{:>10.4g}{:>10.4g}{:>10.4g}", names[static_cast<std::size_t>(row)],
-                        e.zero[row], e.given[row], e.found[row]);
+    text += fmt::format("  {:<20}{:>10.4g}{:>10.4g}{:>10.4g}{:>10.4g}",
+                        names[static_cast<std::size_t>(row)], e.zero[row], e.given[row],
+                        e.usual[row], e.found[row]);
     if (row >= base) {
       text += fmt::format("{:>14.3g}{:>12.4g}", e.noise_floor[row - base],
                           e.unfiltered_found[row - base]);
     }
     text += "\n";
   }
-  return text + fmt::format("  {:<20}{:>10.4g}{:>10.4g}{:>10.4g}{:>14.3g}{:>12.4g}  N m\n",
+  return text + fmt::format("  {:<20}{:>10.4g}{:>10.4g}{:>10.4g}{:>10.4g}{:>14.3g}{:>12.4g}  N m\n",
                             "all joints", overall(e.zero, robot), overall(e.given, robot),
-                            overall(e.found, robot), e.noise_floor.norm(),
+                            overall(e.usual, robot), overall(e.found, robot), e.noise_floor.norm(),
                             e.unfiltered_found.norm());
 }
 
@@ -313,6 +314,7 @@ json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseO
             {"at_rest", numbers(e.at_rest)},
             {"rms_zero", numbers(e.zero)},
             {"rms_before", numbers(e.given)},
+            {"rms_usual", numbers(e.usual)},
             {"rms_after", numbers(e.found)},
             {"rms_with_curves", numbers(e.with_curves)},
             {"noise_floor", numbers(e.noise_floor)},

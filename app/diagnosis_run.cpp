@@ -12,6 +12,7 @@
 #include "shapeid/diagnosis/checks.hpp"
 #include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/diagnosis/slowness.hpp"
+#include "shapeid/diagnosis/usual.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
 
@@ -299,6 +300,11 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   run.after = diagnosis::series(robot.robot, run.settings.contacts, run.consistent.model, run.test,
                                 run.settings.stride);
   run.errors = test_errors(robot, options, run, raw.recording);
+  run.errors.usual =
+      diagnosis::series(robot.robot, run.settings.contacts,
+                        diagnosis::usual_model(robot.robot, log.recording, run.settings, run.loop),
+                        run.test, run.settings.stride)
+          .rms();
   // On the log itself, which is longer and has no error of the filter in it; curves are judged on
   // blocks that they were not fitted to.
   const diagnosis::Series remaining = diagnosis::series(

@@ -33,7 +33,7 @@ struct DiagnoseOptions {
 struct TestErrors {
   std::string where;
   std::size_t samples = 0;
-  Eigen::VectorXd zero, given, found;
+  Eigen::VectorXd zero, given, usual, found;  ///< usual: diagnosis::usual_model()
   Eigen::VectorXd with_curves;  ///< found, and DiagnosisRun::curves; empty if there are none
   Eigen::VectorXd at_rest;      ///< share of the samples in which a row does not count
   /// The same against the torque as logged, without any filter, joints only.
