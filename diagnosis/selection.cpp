@@ -226,6 +226,12 @@ class Search {
     return sum;
   }
 
+  /// Findings, and numbers in them: what is smaller is simpler.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> extent(
+      const std::vector<std::size_t>& chosen) const {
+    return {chosen.size(), numbers(chosen)};
+  }
+
   void note_wrong_signs(const std::vector<Scored>& ranking) {
     result_.wrong_signs.clear();
     for (const Scored& s : ranking) {
@@ -281,9 +287,11 @@ class Search {
   /// that looked no better then, and the others its remainder (drag and lags of single drives, of
   /// one delay of all). What makes two or more of the accepted superfluous takes their place,
   /// unless the error grows by more than chance; with as many numbers as before it must not grow.
+  /// One with fewer numbers takes the place of one (an offset that of a spring, which came in with
+  /// those of other joints), as when it is chosen.
   void simplify() {
     bool simpler = true;
-    while (simpler && accepted_.size() > 1) {
+    while (simpler && !accepted_.empty()) {
       simpler = false;
       const std::vector<std::size_t> before = accepted_;
       const Eigen::VectorXd error = fits_.held_out(terms(before));
@@ -298,13 +306,16 @@ class Search {
         std::vector<std::size_t> with_rival = before;
         with_rival.push_back(r);
         with_rival = pruned(with_rival);
-        if (with_rival.size() >= best.size() || with_rival.back() != r) continue;
+        if (with_rival.empty() || with_rival.back() != r) continue;
+        if (extent(with_rival) >= extent(best)) continue;
         const bool fewer_numbers = numbers(with_rival) < numbers(before);
-        const double worse_t = gain_of(fits_.held_out(terms(with_rival)), error).t;
-        if (worse_t > (fewer_numbers ? separable : 0.0)) continue;
+        const double allowed = with_rival.size() == before.size() ? simpler_t
+                               : fewer_numbers                    ? separable
+                                                                  : 0.0;
+        if (gain_of(fits_.held_out(terms(with_rival)), error).t > allowed) continue;
         best = with_rival;
       }
-      simpler = best.size() < before.size();
+      simpler = best != before;
       accepted_ = best;
     }
   }
