@@ -51,8 +51,10 @@ struct Instant {
   /// Predicted joint torques of the rigid links, with contact forces from the base's balance
   /// (predicted_load()), n. Contains no measured torque on a floating base.
   const Eigen::VectorXd& load;
-  const Eigen::VectorXd& load_rate;  ///< its change a second, n (Effect::needs_load_rate)
-  double elapsed = 0.0;              ///< s since the log's first sample
+  /// The load's change a second, n (Effect::needs_load_rate). On a floating base that of the logged
+  /// torque: contact forces are not predicted well enough to be differentiated.
+  const Eigen::VectorXd& load_rate;
+  double elapsed = 0.0;  ///< s since the log's first sample
 };
 
 /// An instant with its neighbours: `at(dt)` is the sample dt seconds later, interpolated. dt stays
@@ -78,8 +80,9 @@ struct Rows {
 struct Transformation {
   void (*robot)(Robot&, int site, const Eigen::VectorXd& value) = nullptr;
   Sample (*sample)(const Moment&, int site, const Eigen::VectorXd& value) = nullptr;
-  void (*rows)(const Robot&, const Sample&, int site, const Eigen::VectorXd& value,
-               Rows&) = nullptr;
+  /// `down`: where gravity pulls, in base axes, of unit length (floating bases).
+  void (*rows)(const Robot&, const Sample&, const Eigen::Vector3d& down, int site,
+               const Eigen::VectorXd& value, Rows&) = nullptr;
 
   [[nodiscard]] bool any() const {
     return robot != nullptr || sample != nullptr || rows != nullptr;

@@ -78,8 +78,8 @@ Eigen::VectorXd HypothesisColumns::difference(const AppliedEffect& hypothesis, c
     // The contacts whose forces are held fixed, also where a delay looks across a touchdown.
     Sample moved = viewer.moved(recording, index);
     moved.in_contact = view.sample.in_contact;
-    const Prediction changed =
-        predict(viewer, viewer.view(std::move(moved), view.elapsed), model_, predicted.load);
+    const Prediction changed = predict(
+        viewer, viewer.view(std::move(moved), view.elapsed, view.down), model_, predicted.load);
     return changed.force - changed.J.transpose() * predicted.load.force;
   };
   return (force(d.plus) - force(d.minus)) / d.step;

@@ -1,5 +1,7 @@
 #include "shapeid/diagnosis/recording.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,6 +30,32 @@ Recording::Recording(std::vector<Sample> samples, double rate, std::vector<std::
   find_rests();
   find_turns();
   find_high_torques();
+  find_down();
+}
+
+void Recording::find_down() {
+  constexpr double seconds = 0.5;  // to either side
+  const auto half = static_cast<std::size_t>(std::lround(seconds * rate_));
+  down_.setZero(3, std::ssize(samples_));
+  std::vector<Eigen::Quaterniond> attitude(samples_.size(), Eigen::Quaterniond::Identity());
+  std::vector<Eigen::Vector3d> sum(samples_.size() + 1, Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (segment_begin_[i] != i) {
+      const Eigen::Vector3d turn =
+          0.5 / rate_ * (samples_[i - 1].base_angular_velocity + samples_[i].base_angular_velocity);
+      const double angle = turn.norm();
+      const Eigen::Vector3d axis =
+          angle > 0.0 ? Eigen::Vector3d(turn / angle) : Eigen::Vector3d(Eigen::Vector3d::UnitX());
+      attitude[i] = (attitude[i - 1] * Eigen::AngleAxisd(angle, axis)).normalized();
+    }
+    sum[i + 1] = sum[i] + attitude[i] * samples_[i].base_specific_force;
+  }
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const std::size_t begin = std::max(segment_begin_[i], i - std::min(i, half));
+    const std::size_t end = std::min(segment_end_[i], i + half + 1);
+    down_.col(static_cast<Eigen::Index>(i)) =
+        -(attitude[i].conjugate() * (sum[end] - sum[begin])).normalized();
+  }
 }
 
 void Recording::find_high_torques() {

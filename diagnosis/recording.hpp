@@ -67,6 +67,12 @@ class Recording {
     return high_torque_(static_cast<Eigen::Index>(level), joint);
   }
 
+  /// Where gravity pulls, in base axes, of unit length: the specific force's mean over a second,
+  /// turned along by the gyro, in which the steps of a gait cancel. Zero on a fixed base.
+  [[nodiscard]] Eigen::Vector3d down(std::size_t index) const {
+    return down_.col(static_cast<Eigen::Index>(index));
+  }
+
   /// The motion `dt` seconds after a usable sample, by the cubic through four neighbours. Contact
   /// flags, forces and extras are those of the nearest sample. |dt| <= largest_shift.
   [[nodiscard]] Sample shifted(std::size_t index, double dt) const;
@@ -76,6 +82,7 @@ class Recording {
   void find_rests();
   void find_turns();
   void find_high_torques();
+  void find_down();
 
   std::vector<Sample> samples_;
   double rate_;
@@ -85,6 +92,7 @@ class Recording {
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> at_rest_;  ///< joints x samples
   Eigen::ArrayXXd turned_;                                      ///< likewise
   Eigen::ArrayXXd high_torque_;                                 ///< levels x joints
+  Eigen::Matrix3Xd down_;                                       ///< one a sample
 };
 
 }  // namespace shapeid::diagnosis

@@ -44,21 +44,22 @@ Sample Viewer::moved(const Recording& recording, std::size_t index) const {
 }
 
 View Viewer::view(const Recording& recording, std::size_t index) const {
-  View result = view(moved(recording, index), recording.elapsed(index));
+  View result = view(moved(recording, index), recording.elapsed(index), recording.down(index));
   result.correction = recording.correction(index);
   if (!load_rate_) return result;
   const double step = neighbour_step(robot_);
   for (const double dt : {-step, step}) {
     Sample sample = moved(recording, index, dt, transforming_.size());
     sample.in_contact = result.sample.in_contact;
-    const View near = view(std::move(sample), result.elapsed + dt);
-    result.around.push_back({logged_force(*this, near), near.Y, near.J});
+    const View near = view(std::move(sample), result.elapsed + dt, result.down);
+    result.around.push_back({near.sample.tau, logged_force(*this, near), near.Y, near.J});
   }
   return result;
 }
 
-View Viewer::view(Sample moved, double elapsed) const {
+View Viewer::view(Sample moved, double elapsed, std::optional<Eigen::Vector3d> down) const {
   View view;
+  view.down = down.value_or(-moved.base_specific_force.normalized());
   view.sample = std::move(moved);
   view.elapsed = elapsed;
   view.motions = reference::link_motions(robot_, view.sample);
@@ -72,7 +73,7 @@ View Viewer::view(Sample moved, double elapsed) const {
 void Viewer::transform(const View& view, Rows& rows) const {
   for (const AppliedEffect& a : transforming_) {
     if (a.effect->transform.rows == nullptr) continue;
-    a.effect->transform.rows(robot_, view.sample, a.site, a.value, rows);
+    a.effect->transform.rows(robot_, view.sample, view.down, a.site, a.value, rows);
   }
 }
 
@@ -114,9 +115,12 @@ PredictedLoad load_of(const Viewer& viewer, const View& view, const Eigen::Vecto
   PredictedLoad now = load(logged_force(viewer, view), view.Y, view.J);
   if (view.around.size() == 2) {
     const Neighbour &before = view.around[0], &after = view.around[1];
-    now.rate = (load(after.applied, after.Y, after.J).joint -
-                load(before.applied, before.Y, before.J).joint) /
-               (2.0 * neighbour_step(viewer.robot()));
+    const auto change = [&]() -> Eigen::VectorXd {
+      if (viewer.robot().root == Root::floating) return after.tau - before.tau;
+      return load(after.applied, after.Y, after.J).joint -
+             load(before.applied, before.Y, before.J).joint;
+    };
+    now.rate = change() / (2.0 * neighbour_step(viewer.robot()));
   }
   return now;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "shapeid/diagnosis/curve.hpp"
@@ -24,6 +25,7 @@ struct RichModel {
 
 /// What the load is predicted from, a little earlier or later than a view.
 struct Neighbour {
+  Eigen::VectorXd tau;      ///< as logged, n
   Eigen::VectorXd applied;  ///< S^T tau and measured forces, dof
   Eigen::MatrixXd Y, J;     ///< as in View, with the contacts of the view
 };
@@ -32,18 +34,19 @@ struct Neighbour {
 struct View {
   Sample sample;
   std::vector<reference::LinkMotion> motions;
-  Eigen::MatrixXd Y;  ///< dof x 10 links, before Transformation::rows
-  Eigen::MatrixXd J;  ///< contact rows x dof, likewise
+  Eigen::MatrixXd Y;     ///< dof x 10 links, before Transformation::rows
+  Eigen::MatrixXd J;     ///< contact rows x dof, likewise
+  Eigen::Vector3d down;  ///< Recording::down()
   double elapsed = 0.0;
   Eigen::VectorXd correction;  ///< Recording::correction()
   /// neighbour_step() before and after, or empty if nothing needs the load's rate.
   std::vector<Neighbour> around;
 };
 
-/// s to either side over which the load's rate is a central difference. A predicted load has the
-/// position's second derivative in it, its rate the third, whose noise is largest just below the
-/// filter's cutoff: 20 ms take half of what is at 15 Hz, and 2 % of 3 Hz. Loads of legs change
-/// faster than that.
+/// s to either side over which the load's rate is a central difference. A predicted load (fixed
+/// base) has the position's second derivative in it, its rate the third, whose noise is largest
+/// just below the filter's cutoff: 20 ms take half of what is at 15 Hz, and 2 % of 3 Hz. A logged
+/// torque (floating base) needs no more than two readings.
 [[nodiscard]] inline double neighbour_step(const Robot& robot) {
   return robot.root == Root::fixed ? 0.02 : 0.002;
 }
@@ -59,8 +62,10 @@ class Viewer {
          const std::vector<AppliedEffect>& effects, bool load_rate = false);
 
   [[nodiscard]] View view(const Recording& recording, std::size_t index) const;
-  /// Of a sample whose own transformations are done already (moved()).
-  [[nodiscard]] View view(Sample moved, double elapsed) const;
+  /// Of a sample whose own transformations are done already (moved()). Without its neighbours the
+  /// accelerometer alone has to say where down is.
+  [[nodiscard]] View view(Sample moved, double elapsed,
+                          std::optional<Eigen::Vector3d> down = std::nullopt) const;
   /// Applies the row transformations, in order.
   void transform(const View& view, Rows& rows) const;
   [[nodiscard]] const Robot& robot() const { return robot_; }

@@ -6,8 +6,8 @@
 namespace shapeid::diagnosis {
 namespace {
 
-void move(const Robot& robot, const Sample& sample, int contact, const Eigen::VectorXd& value,
-          Rows& rows) {
+void move(const Robot& robot, const Sample& sample, const Eigen::Vector3d&, int contact,
+          const Eigen::VectorXd& value, Rows& rows) {
   const auto row = stance_row(robot, sample, contact);
   if (!row) return;
   const auto motions = reference::link_motions(robot, sample);

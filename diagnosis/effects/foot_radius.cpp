@@ -5,12 +5,11 @@
 namespace shapeid::diagnosis {
 namespace {
 
-// A ball touches below its centre, wherever the leg points: against the specific force.
-void lower(const Robot& robot, const Sample& sample, int contact, const Eigen::VectorXd& value,
-           Rows& rows) {
+// A ball touches below its centre, wherever the leg points, on level ground.
+void lower(const Robot& robot, const Sample& sample, const Eigen::Vector3d& down, int contact,
+           const Eigen::VectorXd& value, Rows& rows) {
   const auto row = stance_row(robot, sample, contact);
   if (!row) return;
-  const Eigen::Vector3d down = -sample.base_specific_force.normalized();
   move_point(robot, reference::link_motions(robot, sample), contact, value[0] * down, *row, rows);
 }
 

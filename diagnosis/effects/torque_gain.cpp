@@ -5,7 +5,8 @@ namespace {
 
 // Scales the prediction, contact forces included, never the logged torque: a column of measured
 // torque would shrink the yardstick itself.
-void scale(const Robot& robot, const Sample&, int joint, const Eigen::VectorXd& value, Rows& rows) {
+void scale(const Robot& robot, const Sample&, const Eigen::Vector3d&, int joint,
+           const Eigen::VectorXd& value, Rows& rows) {
   const Eigen::Index row = robot.base_dof() + joint;
   rows.E.row(row) *= 1.0 + value[0];
   rows.J.col(row) *= 1.0 + value[0];

@@ -149,14 +149,20 @@ void delay(Readings& readings, double seconds,
            const std::function<void(Sample&)>& zero) {
   const Readings before = readings;
   const double step = before[1].sample.time - before[0].sample.time;
+  constexpr int first = -2, last = 3;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const double place = std::max(0.0, static_cast<double>(i) - seconds / step);
-    const auto early = static_cast<std::size_t>(place);
-    const std::size_t late = std::min(early + 1, before.size() - 1);
-    const double share = place - static_cast<double>(early);
+    const double share = place - std::floor(place);
     zero(readings[i].sample);
-    add(readings[i].sample, before[early].sample, 1.0 - share);
-    add(readings[i].sample, before[late].sample, share);
+    for (int k = first; k <= last; ++k) {
+      double weight = 1.0;
+      for (int j = first; j <= last; ++j) {
+        if (j != k) weight *= (share - j) / (k - j);
+      }
+      const double reading = std::floor(place) + k;
+      const double within = std::clamp(reading, 0.0, static_cast<double>(before.size() - 1));
+      add(readings[i].sample, before[static_cast<std::size_t>(within)].sample, weight);
+    }
   }
 }
 

@@ -10,8 +10,9 @@ namespace shapeid::blind {
 
 [[nodiscard]] std::vector<Kind> foreign_kinds();
 
-/// Signals at t become those at t - seconds (>= 0), on a straight line between readings. `zero`
-/// clears them, `add` adds a share of another instant's.
+/// Signals at t become those at t - seconds (>= 0), by Lagrange's polynomial through six readings:
+/// a straight line between two would smooth a trot's torque, which then fits lags of all drives
+/// better than a delay. `zero` clears them, `add` adds a share of another instant's.
 void delay(Readings& readings, double seconds,
            const std::function<void(Sample&, const Sample&, double)>& add,
            const std::function<void(Sample&)>& zero);
