@@ -51,10 +51,8 @@ struct Instant {
   /// Predicted joint torques of the rigid links, with contact forces from the base's balance
   /// (predicted_load()), n. Contains no measured torque on a floating base.
   const Eigen::VectorXd& load;
-  /// The load's change a second, n (Effect::needs_load_rate). On a floating base that of the logged
-  /// torque: contact forces are not predicted well enough to be differentiated.
-  const Eigen::VectorXd& load_rate;
-  double elapsed = 0.0;  ///< s since the log's first sample
+  const Eigen::VectorXd& load_rate;  ///< its change a second, n (Effect::needs_load_rate)
+  double elapsed = 0.0;              ///< s since the log's first sample
 };
 
 /// An instant with its neighbours: `at(dt)` is the sample dt seconds later, interpolated. dt stays

@@ -52,7 +52,7 @@ View Viewer::view(const Recording& recording, std::size_t index) const {
     Sample sample = moved(recording, index, dt, transforming_.size());
     sample.in_contact = result.sample.in_contact;
     const View near = view(std::move(sample), result.elapsed + dt, result.down);
-    result.around.push_back({near.sample.tau, logged_force(*this, near), near.Y, near.J});
+    result.around.push_back({logged_force(*this, near), near.Y, near.J});
   }
   return result;
 }
@@ -115,12 +115,9 @@ PredictedLoad load_of(const Viewer& viewer, const View& view, const Eigen::Vecto
   PredictedLoad now = load(logged_force(viewer, view), view.Y, view.J);
   if (view.around.size() == 2) {
     const Neighbour &before = view.around[0], &after = view.around[1];
-    const auto change = [&]() -> Eigen::VectorXd {
-      if (viewer.robot().root == Root::floating) return after.tau - before.tau;
-      return load(after.applied, after.Y, after.J).joint -
-             load(before.applied, before.Y, before.J).joint;
-    };
-    now.rate = change() / (2.0 * neighbour_step(viewer.robot()));
+    now.rate = (load(after.applied, after.Y, after.J).joint -
+                load(before.applied, before.Y, before.J).joint) /
+               (2.0 * neighbour_step(viewer.robot()));
   }
   return now;
 }

@@ -25,7 +25,6 @@ struct RichModel {
 
 /// What the load is predicted from, a little earlier or later than a view.
 struct Neighbour {
-  Eigen::VectorXd tau;      ///< as logged, n
   Eigen::VectorXd applied;  ///< S^T tau and measured forces, dof
   Eigen::MatrixXd Y, J;     ///< as in View, with the contacts of the view
 };
@@ -43,10 +42,10 @@ struct View {
   std::vector<Neighbour> around;
 };
 
-/// s to either side over which the load's rate is a central difference. A predicted load (fixed
-/// base) has the position's second derivative in it, its rate the third, whose noise is largest
-/// just below the filter's cutoff: 20 ms take half of what is at 15 Hz, and 2 % of 3 Hz. A logged
-/// torque (floating base) needs no more than two readings.
+/// s to either side over which the load's rate is a central difference. A predicted load has the
+/// position's second derivative in it, its rate the third, whose noise is largest just below the
+/// filter's cutoff: 20 ms take half of what is at 15 Hz, and 2 % of 3 Hz. Loads of legs change
+/// faster than that.
 [[nodiscard]] inline double neighbour_step(const Robot& robot) {
   return robot.root == Root::fixed ? 0.02 : 0.002;
 }

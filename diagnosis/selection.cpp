@@ -285,8 +285,7 @@ class Search {
 
   /// One cause rather than several: what was accepted first may have been a part of a hypothesis
   /// that looked no better then, and the others its remainder (drag and lags of single drives, of
-  /// one delay of all). What makes two or more of the accepted superfluous, or all of one kind,
-  /// takes their place,
+  /// one delay of all). What makes two or more of the accepted superfluous takes their place,
   /// unless the error grows by more than chance; with as many numbers as before it must not grow.
   /// One with fewer numbers takes the place of one (an offset that of a spring, which came in with
   /// those of other joints), as when it is chosen.
@@ -302,29 +301,19 @@ class Search {
       result_.hidden = hidden;
       accepted_ = before;
       std::vector<std::size_t> best = before;
-      const auto consider = [&](const std::vector<std::size_t>& others) {
-        if (extent(others) >= extent(best)) return;
-        const bool fewer_numbers = numbers(others) < numbers(before);
-        const double allowed = others.size() == before.size() ? simpler_t
-                               : fewer_numbers                ? separable
-                                                              : 0.0;
-        if (!(gain_of(fits_.held_out(terms(others)), error).t > allowed)) best = others;
-      };
       for (const std::size_t r : rivals) {
         if (taken(r) || !candidates_[r].members.empty()) continue;
         std::vector<std::size_t> with_rival = before;
         with_rival.push_back(r);
         with_rival = pruned(with_rival);
-        if (!with_rival.empty() && with_rival.back() == r) consider(with_rival);
-      }
-      // With a delay and the lags of all drives, any one lag is superfluous and no two are.
-      for (const std::size_t k : before) {
-        const Effect* kind = candidates_[k].effect.effect;
-        std::vector<std::size_t> others = before;
-        if (std::erase_if(
-                others, [&](std::size_t i) { return candidates_[i].effect.effect == kind; }) > 1) {
-          consider(pruned(others));
-        }
+        if (with_rival.empty() || with_rival.back() != r) continue;
+        if (extent(with_rival) >= extent(best)) continue;
+        const bool fewer_numbers = numbers(with_rival) < numbers(before);
+        const double allowed = with_rival.size() == before.size() ? simpler_t
+                               : fewer_numbers                    ? separable
+                                                                  : 0.0;
+        if (gain_of(fits_.held_out(terms(with_rival)), error).t > allowed) continue;
+        best = with_rival;
       }
       simpler = best != before;
       accepted_ = best;

@@ -269,8 +269,7 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
   if (rate) {
     text +=
         "/// load_rate (N m/s): the change of rigid_load() a second; that of -J^T f "
-        "counts too\n/// where contact forces f are known. The change of the logged torque will "
-        "do as well.\n";
+        "counts too\n/// where contact forces f are known.\n";
   }
   text +=
       "inline void predict(const double* q_logged, const double* dq, const double* ddq,\n"

@@ -4,11 +4,7 @@
 namespace shapeid::diagnosis {
 namespace {
 
-// A drive that follows tau_j with dtau/dt = (tau_j - tau) / T gives tau = tau_j - T dtau/dt. On a
-// fixed base the rate is the predicted load's, right to first order in T: the logged torque is what
-// is to be predicted. On a floating base it is the logged torque's. That does not let torque
-// predict itself: whatever is in it, x dx/dt adds up to no more than half the difference of x^2 at
-// the ends.
+// To first order in T, and of the predicted load: the logged torque is what is to be predicted.
 Eigen::MatrixXd columns(const Instant& at, int joint, const Eigen::VectorXd&) {
   return joint_column(at, joint, -at.load_rate[joint]);
 }
@@ -24,7 +20,9 @@ Effect torque_lag() {
   e.parameters = {{"T", "s", true, 0.002, 0.05}};
   e.confused_with = {"viscous_friction (under gravity or with an inertia alone)", "torque_delay"};
   e.separate_by = "knock on the link: compare when this drive and its neighbours feel it";
-  e.under_contact = "seen in stance and swing: on a floating base the logged torque's own rate";
+  e.under_contact =
+      "seen in swing; the load in stance is predicted from the base's balance, which leaves the "
+      "forces between feet open";
   e.source = "docs/derivations/filtering.md";
   e.columns = columns;
   e.needs_load_rate = true;

@@ -213,7 +213,8 @@ RC_GTEST_PROP(Transformations, ZeroChangesNothing, ()) {
       const Sample sample =
           e.transform.sample != nullptr ? e.transform.sample(moment, site, zero) : scene.sample;
       Rows rows{reference::regressor(robot, sample), reference::contact_jacobian(robot, sample)};
-      if (e.transform.rows != nullptr) e.transform.rows(robot, sample, site, zero, rows);
+      const Eigen::Vector3d down = -sample.base_specific_force.normalized();
+      if (e.transform.rows != nullptr) e.transform.rows(robot, sample, down, site, zero, rows);
       RC_ASSERT(rows.E == scene.Y);
       RC_ASSERT((rows.J - scene.J).norm() <= 1e-14 * (1.0 + scene.J.norm()));
       RC_ASSERT(sample.tau == scene.sample.tau);
