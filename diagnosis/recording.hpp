@@ -68,7 +68,7 @@ class Recording {
   }
 
   /// Where gravity pulls, in base axes, of unit length: the specific force's mean over a second,
-  /// turned along by the gyro, in which the steps of a gait cancel. Zero on a fixed base.
+  /// turned along by the gyro, in which whole steps of a gait cancel. Zero on a fixed base.
   [[nodiscard]] Eigen::Vector3d down(std::size_t index) const {
     return down_.col(static_cast<Eigen::Index>(index));
   }
