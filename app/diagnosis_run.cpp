@@ -13,6 +13,7 @@
 #include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/diagnosis/slowness.hpp"
 #include "shapeid/diagnosis/usual.hpp"
+#include "shapeid/models/butterworth.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
 
@@ -142,8 +143,7 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
   errors.unfiltered_zero = rms_of(zero.residual.bottomRows(n) - rough, counted);
   errors.unfiltered_given = rms_of(run.before.residual.bottomRows(n) - rough, counted);
   errors.unfiltered_found = rms_of(run.after.residual.bottomRows(n) - rough, counted);
-  // Two passes of second order let through 0.87 of the cutoff's band.
-  const double band = 0.87 * options.inputs.cutoff / (0.5 * run.motion.rate);
+  const double band = band_of_two_passes * options.inputs.cutoff / (0.5 * run.motion.rate);
   errors.noise_floor =
       rms_of(rough, counted) * (band > 0.0 && band < 1.0 ? std::sqrt(band / (1.0 - band)) : 1.0);
   return errors;
@@ -309,7 +309,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   // blocks that they were not fitted to.
   const diagnosis::Series remaining = diagnosis::series(
       robot.robot, run.settings.contacts, run.consistent.model, log.recording, run.settings.stride);
-  run.structures = diagnosis::unexplained(robot.robot, log.recording, remaining);
+  run.structures =
+      diagnosis::unexplained(robot.robot, log.recording, remaining, run.settings.stride);
   diagnosis::RichModel richest = run.consistent.model;
   richest.curves = run.curves =
       diagnosis::curves_for(robot.robot, run.settings.contacts, run.consistent.model, run.loop,

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "shapeid/models/butterworth.hpp"
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::app {
@@ -13,6 +14,15 @@ namespace {
 
 // Half an hour at 500 Hz: about a gigabyte for a quadruped.
 constexpr std::size_t most_samples = 1000000;
+
+diagnosis::Recording recording_of(std::vector<Sample> samples, const MotionReport& motion,
+                                  const MotionInputs& inputs) {
+  diagnosis::Recording recording(std::move(samples), motion.rate, motion.extra);
+  if (!inputs.exact && inputs.cutoff > 0.0) {
+    recording.set_independent_rate(2.0 * band_of_two_passes * inputs.cutoff);
+  }
+  return recording;
+}
 
 }  // namespace
 
@@ -31,10 +41,7 @@ RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
     if (!wanted || part_of(sample->time - *start) == *wanted) samples.push_back(*sample);
   }
   const MotionReport& report = log.report();
-  return {diagnosis::Recording(std::move(samples), report.rate, report.extra),
-          report,
-          log.contacts(),
-          {0.0}};
+  return {recording_of(std::move(samples), report, inputs), report, log.contacts(), {0.0}};
 }
 
 RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotInputs& robot,
@@ -72,7 +79,7 @@ RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotIn
     all.motion.samples += more.motion.samples;
     all.motion.gaps += more.motion.gaps + 1;
   }
-  all.recording = diagnosis::Recording(std::move(samples), all.motion.rate, all.motion.extra);
+  all.recording = recording_of(std::move(samples), all.motion, inputs);
   return all;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "shapeid/diagnosis/candidates.hpp"
+#include "shapeid/diagnosis/chance.hpp"
 #include "shapeid/reference/identify.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 

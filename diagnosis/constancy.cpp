@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "shapeid/diagnosis/chance.hpp"
 #include "shapeid/diagnosis/fits_around.hpp"
-#include "shapeid/diagnosis/selection.hpp"
 
 namespace shapeid::diagnosis {
 namespace {

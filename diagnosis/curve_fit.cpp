@@ -85,7 +85,7 @@ class Fitter {
 
   [[nodiscard]] std::vector<Structure> structures() const {
     return unexplained(robot_, recording_,
-                       series(robot_, viewer_.contacts(), model_, recording_, stride_));
+                       series(robot_, viewer_.contacts(), model_, recording_, stride_), stride_);
   }
 
   /// Fits the numbers at its knots to the residual and adds it, unless there is one like it, or its

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace shapeid::diagnosis {
 namespace {
@@ -36,6 +37,11 @@ Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
   const Eigen::VectorXd relative = (sum > 0.0).select(difference.array() / sum, 0.0);
   return {difference.sum() / before.sum(),
           std::max(sum_with_error(difference).t(), sum_with_error(relative).t())};
+}
+
+double squares_sum(const Fit& before, const Fit& after) {
+  return after.left > 0.0 ? (before.left - after.left) / (after.left / after.freedom)
+                          : std::numeric_limits<double>::infinity();
 }
 
 BlockFits::BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::VectorXd& size,
@@ -174,10 +180,14 @@ Eigen::VectorXd BlockFits::gradient_on(const Columns& a, const Eigen::VectorXd& 
 }
 
 double BlockFits::error_on(const Columns& a, const Eigen::VectorXd& x, std::size_t block) const {
-  const Eigen::VectorXd g = gradient_on(a, x, block);
-  double error = -g[a.count()];
+  return error_of(a, x, block, gradient_on(a, x, block));
+}
+
+double BlockFits::error_of(const Columns& a, const Eigen::VectorXd& x, std::size_t block,
+                           const Eigen::VectorXd& gradient) {
+  double error = -gradient[a.count()];
   for (Eigen::Index i = 0; i < a.count(); ++i) {
-    if (block >= a.from[static_cast<std::size_t>(i)]) error += x[i] * g[i];
+    if (block >= a.from[static_cast<std::size_t>(i)]) error += x[i] * gradient[i];
   }
   return error;
 }
@@ -190,22 +200,40 @@ Fit BlockFits::fit(const std::vector<Term>& terms) const {
   const Eigen::VectorXd x = factor.solve(target(a, -1));
 
   const auto count = static_cast<Eigen::Index>(tally_.blocks.size());
+  double left = 0.0;
   Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(a.count(), count);
   for (Eigen::Index b = 0; b < count; ++b) {
     const auto block = static_cast<std::size_t>(b);
     const Eigen::VectorXd g = gradient_on(a, x, block);
+    left += error_of(a, x, block, g);
     for (Eigen::Index i = 0; i < a.count(); ++i) {
       if (block >= a.from[static_cast<std::size_t>(i)]) scores(i, b) = g[i];
     }
   }
   const Eigen::MatrixXd influence = factor.solve(scores);
-  Fit fit{x, Eigen::VectorXd(a.count())};
+  Fit fit{x,
+          {},
+          Eigen::VectorXd(a.count()),
+          left,
+          std::max(1.0, tally_.freedom - static_cast<double>(a.count()))};
+  fit.standard_error = errors_of_independent_noise(a, factor, left / fit.freedom);
   for (Eigen::Index i = 0; i < a.count(); ++i) {
     const double s = scale_[a.index[static_cast<std::size_t>(i)]];
-    fit.value[i] = x[i] / s;
-    fit.standard_error[i] = sum_with_error(influence.row(i).transpose()).error / s;
+    fit.value[i] /= s;
+    fit.between_blocks[i] = sum_with_error(influence.row(i).transpose()).error / s;
+    fit.standard_error[i] = std::max(fit.standard_error[i] / s, fit.between_blocks[i]);
   }
   return fit;
+}
+
+/// Of a fit to rows whose noise has one variance and is independent but for the filter.
+Eigen::VectorXd BlockFits::errors_of_independent_noise(const Columns& a,
+                                                       const Eigen::LDLT<Eigen::MatrixXd>& factor,
+                                                       double variance) const {
+  // The prior's part of N holds a number, and moves with no noise: N^-1 (N - R) N^-1.
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(a.count(), a.count()));
+  const Eigen::VectorXd data = inverse.diagonal() - inverse.cwiseAbs2().transpose() * ridge(a);
+  return (variance * data.array().max(0.0)).sqrt();
 }
 
 Eigen::VectorXd BlockFits::held_out(const std::vector<Term>& terms) const {

@@ -1,6 +1,7 @@
 // Linear fits and their held-out errors, from sums alone.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -23,9 +24,19 @@ struct Term {
 };
 
 struct Fit {
-  Eigen::VectorXd value;           ///< one a column of the terms, in their order
-  Eigen::VectorXd standard_error;  ///< cluster-robust, one cluster a block, neighbours correlated
+  Eigen::VectorXd value;  ///< one a column of the terms, in their order
+  /// By how it differs from block to block (cluster-robust, neighbours correlated); never less than
+  /// that of noise that is independent but for the filter: blocks are few, and of a number that few
+  /// of them determine they show too little scatter.
+  Eigen::VectorXd standard_error;
+  Eigen::VectorXd between_blocks;  ///< the former alone
+  double left = 0.0;               ///< squared error of all blocks
+  double freedom = 0.0;            ///< how many numbers the noise in that has
 };
+
+/// What a term took away of the squared error, `before` without and `after` with it, in squares of
+/// independent noise: of nothing the sum of the squares of its numbers, normal ones.
+[[nodiscard]] double squares_sum(const Fit& before, const Fit& after);
 
 /// Sum with an error that allows for correlation of neighbours.
 struct SumWithError {
@@ -94,8 +105,12 @@ class BlockFits {
   [[nodiscard]] Eigen::VectorXd target(const Columns& a, int left_out) const;
   [[nodiscard]] Eigen::VectorXd ridge(const Columns& a) const;
   [[nodiscard]] Eigen::VectorXd solve(const Columns& a, int left_out) const;
+  [[nodiscard]] Eigen::VectorXd errors_of_independent_noise(
+      const Columns& a, const Eigen::LDLT<Eigen::MatrixXd>& factor, double variance) const;
   [[nodiscard]] Eigen::VectorXd gradient_on(const Columns& a, const Eigen::VectorXd& x,
                                             std::size_t block) const;
+  [[nodiscard]] static double error_of(const Columns& a, const Eigen::VectorXd& x,
+                                       std::size_t block, const Eigen::VectorXd& gradient);
   [[nodiscard]] double error_on(const Columns& a, const Eigen::VectorXd& x,
                                 std::size_t block) const;
 

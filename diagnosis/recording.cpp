@@ -12,6 +12,7 @@ namespace shapeid::diagnosis {
 Recording::Recording(std::vector<Sample> samples, double rate, std::vector<std::string> extra)
     : samples_(std::move(samples)),
       rate_(rate),
+      independent_rate_(rate),
       extra_(std::move(extra)),
       segment_begin_(samples_.size()),
       segment_end_(samples_.size()) {

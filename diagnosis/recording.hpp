@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -26,6 +27,12 @@ class Recording {
   [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
   [[nodiscard]] const Sample& operator[](std::size_t index) const { return samples_[index]; }
   [[nodiscard]] double rate() const { return rate_; }
+  /// Samples a second whose noise is independent: behind a filter fewer than `rate`.
+  void set_independent_rate(double independent_rate) { independent_rate_ = independent_rate; }
+  /// Of every stride-th sample.
+  [[nodiscard]] double independent_share(std::size_t stride) const {
+    return std::min(1.0, independent_rate_ * static_cast<double>(stride) / rate_);
+  }
   [[nodiscard]] const std::vector<std::string>& extra() const { return extra_; }
   /// s since the first sample
   [[nodiscard]] double elapsed(std::size_t index) const;
@@ -85,7 +92,7 @@ class Recording {
   void find_down();
 
   std::vector<Sample> samples_;
-  double rate_;
+  double rate_, independent_rate_;
   std::vector<std::string> extra_;
   std::vector<Eigen::VectorXd> correction_;
   std::vector<std::size_t> segment_begin_, segment_end_;        ///< of each sample's segment

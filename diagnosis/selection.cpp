@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "shapeid/diagnosis/chance.hpp"
 #include "shapeid/diagnosis/fits_around.hpp"
 
 namespace shapeid::diagnosis {
@@ -121,22 +122,32 @@ class Search {
   }
 
   /// Some parameter differs from zero, and none leaves the range in which it is believed.
-  [[nodiscard]] bool credible(std::size_t k, const Fit& fit) const {
+  [[nodiscard]] bool credible(std::size_t k, const Fit& now, const Fit& fit) const {
+    if (!is_more_than_chance(k, now, fit)) return false;
     if (!candidates_[k].members.empty()) return true;  // judged one by one at the end
-    return significant(k, fit) && within_limits(k, fit);
+    const Fit own = last_of(k, fit);
+    return significant(k, own) && within_limits(k, own);
   }
 
-  [[nodiscard]] bool significant(std::size_t k, const Fit& fit) const {
+  /// What candidate k, in `with` and not in `without`, takes away of the error is more than as many
+  /// numbers of nothing would.
+  [[nodiscard]] bool is_more_than_chance(std::size_t k, const Fit& without, const Fit& with) const {
+    const double each = rule_.false_alarms / (parameters_ * candidates_[k].choices);
+    return squares_sum(without, with) >
+           least_squares_sum(each, std::ssize(candidates_[k].term.columns));
+  }
+
+  [[nodiscard]] bool significant(std::size_t k, const Fit& own) const {
     const double tried = parameters_ * candidates_[k].choices;
-    return differs(k, fit) > limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks());
+    return differs(k, own) > limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks());
   }
 
   /// Standard errors by which some parameter differs from zero. A load has mass. A sine and a
   /// cosine of a period that was sought have one error, which is known badly from so few blocks: of
   /// two estimates, among many periods, the smaller one would be small by chance.
   [[nodiscard]] double differs(std::size_t k, const Fit& fit) const {
-    if (candidates_[k].choices > 1.0) return fit.value.norm() / fit.standard_error.maxCoeff();
-    const Eigen::ArrayXd each = fit.value.array() / fit.standard_error.array();
+    if (candidates_[k].choices > 1.0) return fit.value.norm() / fit.between_blocks.maxCoeff();
+    const Eigen::ArrayXd each = fit.value.array() / fit.between_blocks.array();
     return candidates_[k].effect.effect->is_payload ? each[0] : each.abs().maxCoeff();
   }
 
@@ -152,14 +163,22 @@ class Search {
     return true;
   }
 
-  [[nodiscard]] Fit fit_of(std::size_t k) const {
-    const Fit all = fits_.fit(with(k));
+  /// Of all that was accepted and candidate k the part of k.
+  [[nodiscard]] Fit fit_of(std::size_t k) const { return last_of(k, fits_.fit(with(k))); }
+
+  [[nodiscard]] Fit last_of(std::size_t k, const Fit& fit) const {
     const Eigen::Index n = std::ssize(candidates_[k].term.columns);
-    return {all.value.tail(n), all.standard_error.tail(n)};
+    return part_of(fit, fit.value.size() - n, n);
+  }
+
+  [[nodiscard]] static Fit part_of(const Fit& fit, Eigen::Index from, Eigen::Index n) {
+    return {fit.value.segment(from, n), fit.standard_error.segment(from, n),
+            fit.between_blocks.segment(from, n), fit.left, fit.freedom};
   }
 
   bool advance() {
     const FitsAround now(fits_, terms(accepted_));
+    const Fit fit_now = fits_.fit(terms(accepted_));
     std::vector<Scored> ranking;
     std::vector<Eigen::VectorXd> errors;
     for (const std::size_t k : shortlist(rule_.shortlist)) {
@@ -167,8 +186,9 @@ class Search {
       const Gain gain = gain_of(now.error(), after);
       Scored scored{k, gain.share, gain.t, {}, false};
       if (passes(scored)) {
-        scored.fit = fit_of(k);
-        if (!credible(k, scored.fit)) scored.gain = scored.t = 0.0;
+        const Fit fit = fits_.fit(with(k));
+        scored.fit = last_of(k, fit);
+        if (!credible(k, fit_now, fit)) scored.gain = scored.t = 0.0;
         // Of a group the members with a wrong sign are dropped at the end.
         scored.wrong_sign = candidates_[k].members.empty() && wrong_sign(k, scored.fit, 0.0);
       }
@@ -254,13 +274,13 @@ class Search {
       Eigen::Index column = std::ssize(masses_.columns);
       for (std::size_t i = 0; i < chosen.size(); ++i) {
         const Eigen::Index n = std::ssize(candidates_[chosen[i]].term.columns);
-        const Fit own{all.value.segment(column, n), all.standard_error.segment(column, n)};
+        const Fit own = part_of(all, column, n);
         column += n;
         const Gain gain = gain_of(now.without(1 + i), now.error());
         const std::pair<bool, double> own_worth = {
             !wrong_sign(chosen[i], own, 0.0) && gain.share >= 0.0 &&
                 within_limits(chosen[i], own) &&
-                (!(candidates_[chosen[i]].choices > 1.0) || significant(chosen[i], own)),
+                (!(candidates_[chosen[i]].choices > 1.0) || ripples(chosen, i, all, own)),
             gain.t};
         if (own_worth < least) {
           least = own_worth;
@@ -271,6 +291,14 @@ class Search {
       chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(worst));
     }
     return chosen;
+  }
+
+  /// Whether a ripple is one by itself, of those in `chosen`.
+  [[nodiscard]] bool ripples(std::vector<std::size_t> chosen, std::size_t i, const Fit& all,
+                             const Fit& own) const {
+    const std::size_t k = chosen[i];
+    chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(i));
+    return significant(k, own) && is_more_than_chance(k, fits_.fit(terms(chosen)), all);
   }
 
   /// Drops what later terms made superfluous. It does not come back. True if anything was.
@@ -445,22 +473,6 @@ class Search {
 };
 
 }  // namespace
-
-double least_z(double probability, double parameters) {
-  const double each = probability / std::max(parameters, 1.0);
-  double lower = 0.0, upper = 20.0;
-  constexpr int halvings = 60;
-  for (int i = 0; i < halvings; ++i) {
-    const double z = 0.5 * (lower + upper);
-    (std::erfc(z / std::sqrt(2.0)) > each ? lower : upper) = z;
-  }
-  return upper;
-}
-
-double limit_for(double least_t, Eigen::Index blocks) {
-  const double z = least_t, freedom = static_cast<double>(std::max<Eigen::Index>(blocks - 1, 1));
-  return z + (z * z * z + z) / (4.0 * freedom);  // Cornish and Fisher, first order
-}
 
 Selection select(const BlockFits& fits, const Term& masses,
                  const std::vector<Candidate>& candidates, const SelectionRule& rule) {

@@ -31,8 +31,8 @@ struct Candidate {
 struct SelectionRule {
   double least_t = 2.5;
   /// Logs without any effect in which chance alone may make some parameter differ from zero by
-  /// `least_z()` standard errors.
-  double false_alarms = 0.01;
+  /// `least_z()` standard errors, or take away `least_squares_sum()`.
+  double false_alarms = 0.003;
   int most_terms = 60;
   int shortlist = 24;  ///< of the candidates, by promise, whose held-out error is computed
   int rivals = 24;     ///< likewise of those that might take an accepted one's place
@@ -75,12 +75,5 @@ struct Selection {
 /// `masses`: columns that are fitted always, the free links' above all.
 [[nodiscard]] Selection select(const BlockFits& fits, const Term& masses,
                                const std::vector<Candidate>& candidates, const SelectionRule& rule);
-
-/// Standard errors that none of `parameters` normal numbers of mean zero exceeds, in either
-/// direction, but with this probability.
-[[nodiscard]] double least_z(double probability, double parameters);
-
-/// `least_t` with many blocks, more with few: the quantile of Student's t of the same level.
-[[nodiscard]] double limit_for(double least_t, Eigen::Index blocks);
 
 }  // namespace shapeid::diagnosis

@@ -5,17 +5,17 @@
 #include <set>
 
 #include "shapeid/diagnosis/candidates.hpp"
+#include "shapeid/diagnosis/chance.hpp"
 #include "shapeid/diagnosis/constancy.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/fits_around.hpp"
 #include "shapeid/diagnosis/gears.hpp"
-#include "shapeid/diagnosis/selection.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
 
-constexpr double false_alarms =
-    0.01;  // logs without any in which chance makes one of all that are tried
+// Logs without any in which chance makes one of all that are tried.
+constexpr double false_alarms = 0.003;
 constexpr std::size_t shortlist_length = 12;
 // Standard errors of held-out gain: more than of a name, because more laws are tried, and products
 // of signals resemble the filter's errors. (In blind trials chance reached 2.8 on clean logs, what
@@ -58,6 +58,8 @@ class Ring {
       const double tried = parameters * asked.choices[tally.modulations[k].hypothesis];
       least_z_.push_back(
           limit_for(least_z(false_alarms, tried), fits_.held_blocks() / blocks_for_one));
+      least_squares_.push_back(least_squares_sum(
+          false_alarms / tried, std::ssize(law_terms_[least_squares_.size()].columns)));
     }
   }
 
@@ -170,8 +172,9 @@ class Ring {
     const Eigen::Index n = std::ssize(law_terms_[s].columns);
     if (law_terms_[s].nonnegative[0] && fit.value.tail(n)[0] < 0.0) return std::nullopt;
     const double z =
-        (fit.value.tail(n).array() / fit.standard_error.tail(n).array()).abs().maxCoeff();
-    return z > least_z_[s] ? std::optional(error) : std::nullopt;
+        (fit.value.tail(n).array() / fit.between_blocks.tail(n).array()).abs().maxCoeff();
+    const bool is_more = squares_sum(fits_.fit(beside.terms()), fit) > least_squares_[s];
+    return z > least_z_[s] && is_more ? std::optional(error) : std::nullopt;
   }
 
   struct Best {
@@ -287,6 +290,7 @@ class Ring {
   std::vector<std::size_t> laws_;  ///< modulations of the tally
   std::vector<Term> law_terms_;
   std::vector<double> least_z_;                  ///< one a law
+  std::vector<double> least_squares_;            ///< likewise: what it must take away
   std::vector<std::size_t> in_;                  ///< of laws_
   std::vector<bool> is_out_;                     ///< of the effects
   std::vector<std::optional<Stranger>> rivals_;  ///< likewise

@@ -164,6 +164,7 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
     block = {};
   };
 
+  const double independent = recording.independent_share(options.stride);
   int number = 0;
   std::size_t log = 0;
   Eigen::MatrixXd M(robot.dof(), width);
@@ -198,6 +199,8 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
     }
     const Eigen::MatrixXd Q2 = reference::contact_free_basis(rows.J, options.weight).Q2;
     sums.add(Q2.transpose() * (root.asDiagonal() * M));
+    tally.freedom +=
+        independent * static_cast<double>(std::min<Eigen::Index>(Q2.cols(), counted.count()));
     if (block.samples++ > 0) continue;
     block.from = elapsed;
     block.log = log;

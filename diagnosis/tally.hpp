@@ -52,6 +52,7 @@ struct Tally {
   std::vector<Modulation> modulations;
   std::vector<Eigen::Index> first_modulated;  ///< column of each modulation
   Eigen::Index width = 0;                     ///< of the sums: all columns, and F
+  double freedom = 0.0;  ///< how many numbers the noise of all rows has, behind its filter
   [[nodiscard]] Eigen::Index columns() const { return width - 1; }
 };
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <optional>
 
-#include "shapeid/diagnosis/selection.hpp"
+#include "shapeid/diagnosis/chance.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -18,6 +18,8 @@ constexpr std::size_t blocks = 30, folds = 6;
 // As for effects. By chance a curve loses on other blocks, so that 2.5 standard errors of gain are
 // rarer than their number says, and a few hundred curves may be tried.
 constexpr double least_gain_t = 2.5;
+// Logs without any structure in which chance makes one of all curves that are tried.
+constexpr double false_alarms = 0.003;
 
 /// Edges so that every bin holds as many samples.
 std::vector<double> quantiles(std::vector<double> x) {
@@ -81,13 +83,19 @@ Waves waves_at(double u) {
 
 /// The curve of y over x; empty if it does not hold on other blocks. It is judged as a smooth
 /// function of the rank of x with four numbers, because every number costs held-out error, and
-/// filtered samples are few independent ones; it is shown as means of ten bins.
+/// filtered samples are few independent ones; it is shown as means of ten bins. What it takes away
+/// must be more than chance would of as much noise: blocks are few, and at times agree by chance.
 ///
 /// Folds are whole stretches of time. A curve over time itself cannot be judged so: on a stretch at
 /// the end it would have to foretell. Its folds are every sixth block.
 enum class Folds { stretches, interleaved };
+struct CurveRule {
+  double least_t = 0.0;
+  double least_gain = 0.0;   ///< sum of squares, in those of independent noise
+  double independent = 1.0;  ///< share of the samples whose noise is
+};
 std::optional<Structure> curve(const std::vector<double>& x, const std::vector<double>& y,
-                               double least_t, Folds kind) {
+                               const CurveRule& rule, Folds kind) {
   const std::vector<double> edges = quantiles(x);
   if (!(edges.back() > edges.front())) return std::nullopt;  // a constant
   const std::vector<double> u = ranks(x);
@@ -120,7 +128,9 @@ std::optional<Structure> curve(const std::vector<double>& x, const std::vector<d
     after[b] += std::pow(y[i] - fitted[f].dot(waves_at(u[i])), 2);
   }
   const Gain gain = gain_of(before, after);
-  if (!(gain.t > least_t && gain.share > 0.0)) return std::nullopt;
+  const double noise = after.sum() / (rule.independent * static_cast<double>(x.size()));
+  const bool is_more = (before - after).sum() > rule.least_gain * noise;
+  if (!(gain.t > rule.least_t && gain.share > 0.0 && is_more)) return std::nullopt;
   Structure found;
   found.share = gain.share;
   found.t = gain.t;
@@ -156,9 +166,15 @@ double abscissa(Signal signal, int joint, const Recording& recording, std::size_
 }  // namespace
 
 std::vector<Structure> unexplained(const Robot& robot, const Recording& recording,
-                                   const Series& series) {
+                                   const Series& series, std::size_t stride) {
   std::vector<Structure> found;
-  const double least_t = limit_for(least_gain_t, blocks);
+  // What four numbers of nothing take away from their own blocks they cost on others: the sum of
+  // their squares is expected there to be theirs, less two a number.
+  const auto curves = static_cast<double>(robot.joint_count() * (2 * robot.joint_count() + 4) +
+                                          robot.joint_count() * std::ssize(recording.extra()));
+  const CurveRule rule{limit_for(least_gain_t, blocks),
+                       least_squares_sum(false_alarms / curves, waves - 1) - 2.0 * (waves - 1),
+                       recording.independent_share(stride)};
   for (int j = 0; j < robot.joint_count(); ++j) {
     const Eigen::Index row = robot.base_dof() + j;
     std::vector<std::size_t> places;  // in the series, of what counts
@@ -179,7 +195,7 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
       std::optional<Structure> best;
       for (const auto& [name, x] : candidates) {
         if (std::any_of(x.begin(), x.end(), [](double v) { return std::isnan(v); })) continue;
-        std::optional<Structure> c = curve(x, y, least_t, kind);
+        std::optional<Structure> c = curve(x, y, rule, kind);
         if (!c || (best && best->share >= c->share)) continue;
         best = c;
         best->joint = robot.joint(j).name;

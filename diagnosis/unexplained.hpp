@@ -30,9 +30,10 @@ struct Structure {
 /// Tests the residual of every joint against its own position, velocity, acceleration and torque,
 /// the other joints' positions and velocities, time, and every extra column: a smooth curve is
 /// fitted on some blocks of time and judged on the others. What passes is returned, the strongest
-/// first, at most one variable for each joint and kind of signal.
+/// first, at most one variable for each joint and kind of signal. The series is of every stride-th
+/// sample.
 [[nodiscard]] std::vector<Structure> unexplained(const Robot& robot, const Recording& recording,
-                                                 const Series& series);
+                                                 const Series& series, std::size_t stride);
 
 /// What followed a signal under the name of an effect: the curve of the residual without it over
 /// the signal that its number follows.
