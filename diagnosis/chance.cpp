@@ -37,4 +37,9 @@ double least_squares_sum(double probability, Eigen::Index numbers) {
   return upper;
 }
 
+double both(double blocks, double squares) {
+  constexpr double most = 1.5;
+  return std::sqrt(std::max(blocks, 0.0) * std::min(std::sqrt(std::max(squares, 0.0)), most));
+}
+
 }  // namespace shapeid::diagnosis

@@ -88,43 +88,75 @@ class Fitter {
                        series(robot_, viewer_.contacts(), model_, recording_, stride_), stride_);
   }
 
-  /// Fits the numbers at its knots to the residual and adds it, unless there is one like it, or its
-  /// signal does not move. A unit of the law shows as its part beyond contact forces.
+  /// Adds it with knots where its signal is, unless there is one like it, or its signal does not
+  /// move. Its numbers are those of the next fit().
   void add(Curve curve) {
     for (const Curve& c : curves()) {
       if (same_curve(c, curve)) return;
     }
-    std::vector<double> x, squares, products;
-    for (const std::size_t index : recording_.usable(stride_)) {
-      const View view = viewer_.view(recording_, index);
-      const Prediction predicted = predict(viewer_, view, model_);
-      const Instant instant = instant_of(viewer_, view, predicted.load);
-      const Eigen::VectorXd counted =
-          counted_rows(viewer_, recording_, index, view).cast<double>().matrix();
-      const Eigen::VectorXd seen = counted.cwiseProduct(
-          beyond_contacts(viewer_, predicted.J,
-                          curve.law.effect->columns(instant, curve.law.site, curve.law.shape)));
-      const double square = seen.squaredNorm();
-      if (!(square > 0.0)) continue;
-      x.push_back(value_of(curve.over, instant));
-      squares.push_back(square);
-      products.push_back(-seen.dot(residual(viewer_, view, model_)));
-    }
+    std::vector<double> x;
+    for_each_sample(model_, [&](const Seen& seen) {
+      if (seen.of(curve).squaredNorm() > 0.0) x.push_back(value_of(curve.over, seen.instant));
+    });
     curve.at = knots_over(x);
-    const Eigen::Index knots = curve.at.size();
-    if (knots < 2) return;
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(knots, knots);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(knots);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const Eigen::VectorXd shares = knot_shares(curve.at, x[i]);
-      normal += squares[i] * shares * shares.transpose();
-      right += products[i] * shares;
+    curve.number = Eigen::VectorXd::Zero(curve.at.size());
+    if (curve.at.size() > 1) model_.curves.push_back(std::move(curve));
+  }
+
+  /// The numbers of all curves at once: fitted one after the other, the first would keep what it
+  /// took of those that are like it.
+  void fit() {
+    std::vector<Eigen::Index> first;
+    Eigen::Index count = 0;
+    for (const Curve& c : curves()) {
+      first.push_back(count);
+      count += c.at.size();
     }
-    curve.number = normal.completeOrthogonalDecomposition().solve(right);
-    model_.curves.push_back(std::move(curve));
+    if (count == 0) return;
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
+    RichModel without = model_;
+    without.curves.clear();
+    for_each_sample(without, [&](const Seen& seen) {
+      Eigen::MatrixXd columns(seen.counted.size(), count);
+      for (std::size_t k = 0; k < curves().size(); ++k) {
+        const Curve& c = curves()[k];
+        columns.middleCols(first[k], c.at.size()) =
+            seen.of(c) * knot_shares(c.at, value_of(c.over, seen.instant)).transpose();
+      }
+      normal += columns.transpose() * columns;
+      right -= columns.transpose() * seen.residual;
+    });
+    const Eigen::VectorXd numbers = normal.completeOrthogonalDecomposition().solve(right);
+    for (std::size_t k = 0; k < curves().size(); ++k) {
+      model_.curves[k].number = numbers.segment(first[k], curves()[k].at.size());
+    }
   }
 
  private:
+  struct Seen {
+    const Viewer& viewer;
+    const Eigen::MatrixXd& J;
+    Instant instant;
+    Eigen::VectorXd residual, counted;
+    /// A unit of the law beyond contact forces, in the rows that count.
+    [[nodiscard]] Eigen::VectorXd of(const Curve& curve) const {
+      return counted.cwiseProduct(beyond_contacts(
+          viewer, J, curve.law.effect->columns(instant, curve.law.site, curve.law.shape)));
+    }
+  };
+
+  template <typename Visit>
+  void for_each_sample(const RichModel& model, Visit visit) const {
+    for (const std::size_t index : recording_.usable(stride_)) {
+      const View view = viewer_.view(recording_, index);
+      const Prediction predicted = predict(viewer_, view, model);
+      visit(Seen{viewer_, predicted.J, instant_of(viewer_, view, predicted.load),
+                 residual(viewer_, view, model),
+                 counted_rows(viewer_, recording_, index, view).template cast<double>().matrix()});
+    }
+  }
+
   const Robot& robot_;
   RichModel model_;
   Viewer viewer_;
@@ -147,6 +179,7 @@ std::vector<Curve> curves_for(const Robot& robot, reference::ContactTreatment co
   for (const Stranger& s : loop.strangers) {
     add(blank(s.carrier, variable_of_signal(s.law.signal, s.law.joint)));
   }
+  fitter.fit();
   // One a joint each time, because a curve over one signal explains part of what others follow; and
   // none twice, so that this comes to an end.
   for (std::size_t before = fitter.curves().size() + 1; before != fitter.curves().size();) {
@@ -158,6 +191,7 @@ std::vector<Curve> curves_for(const Robot& robot, reference::ContactTreatment co
       done.push_back(curve->law.site);
       fitter.add(*curve);
     }
+    fitter.fit();
   }
   return fitter.curves();
 }

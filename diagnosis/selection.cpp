@@ -25,6 +25,10 @@ constexpr double rival_sign_t = 2.0;
 constexpr double rival_t = 1.0;
 // Less than this share of a candidate's columns left free by the others: the data cannot see it.
 constexpr double hidden_share = 1e-4;
+// By how much both measures together must exceed what chance makes of nothing. (Of 131 clean logs
+// of blind trials none had more than 0.95; one of some 400, a length, 1.3. Of 136 single effects of
+// two and four times the detectable size two had less than 1.1.)
+constexpr double least_of_both = 1.1;
 // Onsets of one load that are looked at more closely.
 constexpr std::ptrdiff_t most_of_one_place = 2;
 // One hypothesis contains another if this share of its columns is in the other's span.
@@ -121,25 +125,26 @@ class Search {
     return false;
   }
 
-  /// Some parameter differs from zero, and none leaves the range in which it is believed.
-  [[nodiscard]] bool credible(std::size_t k, const Fit& now, const Fit& fit) const {
-    if (!is_more_than_chance(k, now, fit)) return false;
-    if (!candidates_[k].members.empty()) return true;  // judged one by one at the end
-    const Fit own = last_of(k, fit);
-    return significant(k, own) && within_limits(k, own);
+  /// Candidate k, in `with` and not in `without`, is more than chance makes of nothing, and leaves
+  /// the range in which it is believed with no number. Of a group that is asked of all its members'
+  /// numbers together; they are judged one by one at the end.
+  [[nodiscard]] bool credible(std::size_t k, const Fit& without, const Fit& with) const {
+    const double squares = squares_over_chance(k, without, with);
+    if (!candidates_[k].members.empty()) return std::sqrt(squares) > least_of_both;
+    const Fit own = last_of(k, with);
+    return both(blocks_over_chance(k, own), squares) > least_of_both && within_limits(k, own);
   }
 
-  /// What candidate k, in `with` and not in `without`, takes away of the error is more than as many
-  /// numbers of nothing would.
-  [[nodiscard]] bool is_more_than_chance(std::size_t k, const Fit& without, const Fit& with) const {
+  [[nodiscard]] double squares_over_chance(std::size_t k, const Fit& without,
+                                           const Fit& with) const {
     const double each = rule_.false_alarms / (parameters_ * candidates_[k].choices);
-    return squares_sum(without, with) >
+    return std::max(0.0, squares_sum(without, with)) /
            least_squares_sum(each, std::ssize(candidates_[k].term.columns));
   }
 
-  [[nodiscard]] bool significant(std::size_t k, const Fit& own) const {
+  [[nodiscard]] double blocks_over_chance(std::size_t k, const Fit& own) const {
     const double tried = parameters_ * candidates_[k].choices;
-    return differs(k, own) > limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks());
+    return differs(k, own) / limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks());
   }
 
   /// Standard errors by which some parameter differs from zero. A load has mass. A sine and a
@@ -298,7 +303,8 @@ class Search {
                              const Fit& own) const {
     const std::size_t k = chosen[i];
     chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(i));
-    return significant(k, own) && is_more_than_chance(k, fits_.fit(terms(chosen)), all);
+    const double squares = squares_over_chance(k, fits_.fit(terms(chosen)), all);
+    return both(blocks_over_chance(k, own), squares) > least_of_both;
   }
 
   /// Drops what later terms made superfluous. It does not come back. True if anything was.

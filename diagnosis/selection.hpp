@@ -30,8 +30,8 @@ struct Candidate {
 /// asked of the log (placebo.hpp).
 struct SelectionRule {
   double least_t = 2.5;
-  /// Logs without any effect in which chance alone may make some parameter differ from zero by
-  /// `least_z()` standard errors, or take away `least_squares_sum()`.
+  /// Logs without any effect in which chance alone may make some parameter as large as is asked,
+  /// between blocks and by squares of independent noise.
   double false_alarms = 0.003;
   int most_terms = 60;
   int shortlist = 24;  ///< of the candidates, by promise, whose held-out error is computed

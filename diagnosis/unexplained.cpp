@@ -15,9 +15,10 @@ namespace {
 
 constexpr std::size_t bins = 10;
 constexpr std::size_t blocks = 30, folds = 6;
-// As for effects. By chance a curve loses on other blocks, so that 2.5 standard errors of gain are
-// rarer than their number says, and a few hundred curves may be tried.
-constexpr double least_gain_t = 2.5;
+// By chance a curve loses on other blocks, so that 2.5 standard errors of gain are rarer than their
+// number says, and a few hundred curves may be tried. Fewer will do if the gain is large by the
+// squares of independent noise, but not fewer than two.
+constexpr double least_gain_t = 2.0, usual_gain_t = 2.5;
 // Logs without any structure in which chance makes one of all curves that are tried.
 constexpr double false_alarms = 0.003;
 
@@ -90,9 +91,9 @@ Waves waves_at(double u) {
 /// the end it would have to foretell. Its folds are every sixth block.
 enum class Folds { stretches, interleaved };
 struct CurveRule {
-  double least_t = 0.0;
-  double least_gain = 0.0;   ///< sum of squares, in those of independent noise
-  double independent = 1.0;  ///< share of the samples whose noise is
+  double usual_t = 0.0;
+  double least_squares = 0.0;  ///< of the gain, in those of independent noise
+  double independent = 1.0;    ///< share of the samples whose noise is
 };
 std::optional<Structure> curve(const std::vector<double>& x, const std::vector<double>& y,
                                const CurveRule& rule, Folds kind) {
@@ -129,8 +130,9 @@ std::optional<Structure> curve(const std::vector<double>& x, const std::vector<d
   }
   const Gain gain = gain_of(before, after);
   const double noise = after.sum() / (rule.independent * static_cast<double>(x.size()));
-  const bool is_more = (before - after).sum() > rule.least_gain * noise;
-  if (!(gain.t > rule.least_t && gain.share > 0.0 && is_more)) return std::nullopt;
+  const double sure =
+      both(gain.t / rule.usual_t, (before - after).sum() / noise / rule.least_squares);
+  if (!(gain.t > least_gain_t && sure > 1.0)) return std::nullopt;
   Structure found;
   found.share = gain.share;
   found.t = gain.t;
@@ -172,7 +174,7 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
   // their squares is expected there to be theirs, less two a number.
   const auto curves = static_cast<double>(robot.joint_count() * (2 * robot.joint_count() + 4) +
                                           robot.joint_count() * std::ssize(recording.extra()));
-  const CurveRule rule{limit_for(least_gain_t, blocks),
+  const CurveRule rule{limit_for(usual_gain_t, blocks),
                        least_squares_sum(false_alarms / curves, waves - 1) - 2.0 * (waves - 1),
                        recording.independent_share(stride)};
   for (int j = 0; j < robot.joint_count(); ++j) {

@@ -63,6 +63,17 @@ TEST(Chance, SamplesBehindAFilterAreFewerIndependentOnes) {
   EXPECT_EQ(log.independent_share(5), 1.0);
 }
 
+// A number twice its limit by blocks counts twice; squares count by their root.
+TEST(Chance, BothMeasuresWeighAlike) {
+  EXPECT_DOUBLE_EQ(both(1.0, 1.0), 1.0);
+  EXPECT_DOUBLE_EQ(both(1.44, 1.44), 1.2 * std::sqrt(1.2));
+  EXPECT_DOUBLE_EQ(both(2.0, 0.25), 1.0);
+  EXPECT_DOUBLE_EQ(both(1.0, 4.0), both(1.0, 400.0));
+  EXPECT_LT(both(1.0, 2.0), both(1.0, 2.25));
+  EXPECT_EQ(both(2.0, -1.0), 0.0);
+  EXPECT_EQ(both(-2.0, 1.0), 0.0);
+}
+
 constexpr Eigen::Index columns = 4;
 constexpr int blocks = 24, rows = 15;
 constexpr double noise = 0.3;
