@@ -121,6 +121,18 @@ TEST(Loop, WhatBeginsAndIsNoLoadIsNoPartOfTheModel) {
   for (const Found& f : test::loop_of(log).found) EXPECT_NE(f.id, "payload_from@link3");
 }
 
+/// Springs of two joints bring that of the third in with them, which holds its offset.
+TEST(Loop, OffsetTakesThePlaceOfASpringWithoutStiffness) {
+  const LoopResult result =
+      loop_of({{effect("joint_spring", 0, {1.0, 0.5}), effect("joint_spring", 2, {0.8, -0.4}),
+                effect("torque_offset", 1, {0.3})},
+               20.0,
+               0.02,
+               2});
+  EXPECT_EQ(found_ids(result),
+            (Ids{"joint_spring@joint1", "joint_spring@joint3", "torque_offset@joint2"}));
+}
+
 TEST(Loop, StaticLoadIsFoundAgainstAReferenceLogAndNotWithout) {
   const AppliedEffect load =
       effect("payload", 3, {0.8, 0.02, 0.0, 0.2, 0.06, 0.0, -0.004, 0.06, 0.0, 0.002});
