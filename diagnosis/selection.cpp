@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "shapeid/diagnosis/chance.hpp"
@@ -25,9 +26,9 @@ constexpr double rival_sign_t = 2.0;
 constexpr double rival_t = 1.0;
 // Less than this share of a candidate's columns left free by the others: the data cannot see it.
 constexpr double hidden_share = 1e-4;
-// By how much both measures together must exceed what chance makes of nothing. (Of 159 clean logs of
-// blind trials none had more than 0.95, a length and a lag that had been named in others 0.96 and
-// less. Of 162 single effects of two and four times the detectable size two had less than 1.1.)
+// By how much both measures together must exceed what chance makes of nothing. (Of 159 clean logs
+// of blind trials none had more than 0.95, a length and a lag that had been named in others 0.96
+// and less. Of 162 single effects of two and four times the detectable size two had less than 1.1.)
 constexpr double least_of_both = 1.1;
 // Onsets of one load that are looked at more closely.
 constexpr std::ptrdiff_t most_of_one_place = 2;
@@ -129,22 +130,25 @@ class Search {
   /// the range in which it is believed with no number. Of a group that is asked of all its members'
   /// numbers together; they are judged one by one at the end.
   [[nodiscard]] bool credible(std::size_t k, const Fit& without, const Fit& with) const {
-    const double squares = squares_over_chance(k, without, with);
-    if (!candidates_[k].members.empty()) return std::sqrt(squares) > least_of_both;
-    const Fit own = last_of(k, with);
-    return both(blocks_over_chance(k, own), squares) > least_of_both && within_limits(k, own);
-  }
-
-  [[nodiscard]] double squares_over_chance(std::size_t k, const Fit& without,
-                                           const Fit& with) const {
-    const double each = rule_.false_alarms / (parameters_ * candidates_[k].choices);
-    return std::max(0.0, squares_sum(without, with)) /
-           least_squares_sum(each, std::ssize(candidates_[k].term.columns));
-  }
-
-  [[nodiscard]] double blocks_over_chance(std::size_t k, const Fit& own) const {
     const double tried = parameters_ * candidates_[k].choices;
-    return differs(k, own) / limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks());
+    if (!candidates_[k].members.empty()) {
+      return std::sqrt(squares_over_chance(k, without, with, tried)) > least_of_both;
+    }
+    const Fit own = last_of(k, with);
+    return over_chance(k, without, with, own, tried) > least_of_both && within_limits(k, own);
+  }
+
+  /// Of so many numbers that are tried.
+  [[nodiscard]] double squares_over_chance(std::size_t k, const Fit& without, const Fit& with,
+                                           double tried) const {
+    return std::max(0.0, squares_sum(without, with)) /
+           least_squares_sum(rule_.false_alarms / tried, std::ssize(candidates_[k].term.columns));
+  }
+
+  [[nodiscard]] double over_chance(std::size_t k, const Fit& without, const Fit& with,
+                                   const Fit& own, double tried) const {
+    const double limit = limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks());
+    return both(differs(k, own) / limit, squares_over_chance(k, without, with, tried));
   }
 
   /// Standard errors by which some parameter differs from zero. A load has mass. A sine and a
@@ -234,6 +238,9 @@ class Search {
   void accept(std::size_t k) {
     const auto& members = candidates_[k].members;
     if (members.empty()) accepted_.push_back(k);
+    for (const std::size_t m : members) {
+      came_with_[m] = static_cast<double>(candidates_[k].term.columns.size());
+    }
     accepted_.insert(accepted_.end(), members.begin(), members.end());
   }
 
@@ -267,9 +274,8 @@ class Search {
   }
 
   /// Without what others in it make superfluous, or give an impossible sign or a size that is not
-  /// believed (a delay and the lags of all drives may cancel), and without ripples that came with
-  /// those of other joints and are nothing by themselves; these first, and of them the one that
-  /// gains least.
+  /// believed (a delay and the lags of all drives may cancel), and without what came with the same
+  /// at other joints and is nothing by itself; these first, and of them the one that gains least.
   [[nodiscard]] std::vector<std::size_t> pruned(std::vector<std::size_t> chosen) const {
     while (!chosen.empty()) {
       const Fit all = fits_.fit(terms(chosen));
@@ -284,8 +290,7 @@ class Search {
         const Gain gain = gain_of(now.without(1 + i), now.error());
         const std::pair<bool, double> own_worth = {
             !wrong_sign(chosen[i], own, 0.0) && gain.share >= 0.0 &&
-                within_limits(chosen[i], own) &&
-                (!(candidates_[chosen[i]].choices > 1.0) || ripples(chosen, i, all, own)),
+                within_limits(chosen[i], own) && is_something(chosen, i, all, own),
             gain.t};
         if (own_worth < least) {
           least = own_worth;
@@ -298,13 +303,17 @@ class Search {
     return chosen;
   }
 
-  /// Whether a ripple is one by itself, of those in `chosen`.
-  [[nodiscard]] bool ripples(std::vector<std::size_t> chosen, std::size_t i, const Fit& all,
-                             const Fit& own) const {
+  /// Whether what came with the same at other joints is something by itself, of those in `chosen`:
+  /// more than chance makes of one of so many joints. Of a ripple's many periods more is asked.
+  [[nodiscard]] bool is_something(std::vector<std::size_t> chosen, std::size_t i, const Fit& all,
+                                  const Fit& own) const {
     const std::size_t k = chosen[i];
+    const auto group = came_with_.find(k);
+    const double choices = candidates_[k].choices;
+    if (group == came_with_.end() && !(choices > 1.0)) return true;
     chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(i));
-    const double squares = squares_over_chance(k, fits_.fit(terms(chosen)), all);
-    return both(blocks_over_chance(k, own), squares) > least_of_both;
+    const double tried = choices > 1.0 ? parameters_ * choices : group->second;
+    return over_chance(k, fits_.fit(terms(chosen)), all, own, tried) > least_of_both;
   }
 
   /// Drops what later terms made superfluous. It does not come back. True if anything was.
@@ -350,7 +359,18 @@ class Search {
         best = with_rival;
       }
       simpler = best != before;
+      if (best.size() < before.size()) note_replaced(before, error, best);
       accepted_ = best;
+    }
+  }
+
+  /// What was left out for one cause is named with it, unless that predicts better.
+  void note_replaced(const std::vector<std::size_t>& before, const Eigen::VectorXd& error,
+                     const std::vector<std::size_t>& after) {
+    if (gain_of(error, fits_.held_out(terms(after))).t > told_apart_t) return;
+    std::vector<std::size_t>& replaced = instead_of_[after.back()];
+    for (const std::size_t k : before) {
+      if (std::count(after.begin(), after.end(), k) == 0) replaced.push_back(k);
     }
   }
 
@@ -443,6 +463,10 @@ class Search {
       if (!nested || does_without(k, other)) verdict.ambiguous.push_back(other);
     }
     result_.hidden = hidden;
+    for (const std::size_t other : instead_of_[k]) {
+      const auto& named = verdict.ambiguous;
+      if (std::count(named.begin(), named.end(), other) == 0) verdict.ambiguous.push_back(other);
+    }
     return verdict;
   }
 
@@ -475,6 +499,9 @@ class Search {
   double limit_ = 0.0;
   double parameters_ = 0.0;  ///< of all candidates
   std::vector<std::size_t> accepted_, dropped_;
+  std::map<std::size_t, double> came_with_;  ///< of members of a group: how many numbers it has
+  /// Of what took the place of several that did as well: these.
+  std::map<std::size_t, std::vector<std::size_t>> instead_of_;
   Selection result_;
 };
 
