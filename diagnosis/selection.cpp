@@ -359,18 +359,7 @@ class Search {
         best = with_rival;
       }
       simpler = best != before;
-      if (best.size() < before.size()) note_replaced(before, error, best);
       accepted_ = best;
-    }
-  }
-
-  /// What was left out for one cause is named with it, unless that predicts better.
-  void note_replaced(const std::vector<std::size_t>& before, const Eigen::VectorXd& error,
-                     const std::vector<std::size_t>& after) {
-    if (gain_of(error, fits_.held_out(terms(after))).t > told_apart_t) return;
-    std::vector<std::size_t>& replaced = instead_of_[after.back()];
-    for (const std::size_t k : before) {
-      if (std::count(after.begin(), after.end(), k) == 0) replaced.push_back(k);
     }
   }
 
@@ -463,10 +452,6 @@ class Search {
       if (!nested || does_without(k, other)) verdict.ambiguous.push_back(other);
     }
     result_.hidden = hidden;
-    for (const std::size_t other : instead_of_[k]) {
-      const auto& named = verdict.ambiguous;
-      if (std::count(named.begin(), named.end(), other) == 0) verdict.ambiguous.push_back(other);
-    }
     return verdict;
   }
 
@@ -500,8 +485,6 @@ class Search {
   double parameters_ = 0.0;  ///< of all candidates
   std::vector<std::size_t> accepted_, dropped_;
   std::map<std::size_t, double> came_with_;  ///< of members of a group: how many numbers it has
-  /// Of what took the place of several that did as well: these.
-  std::map<std::size_t, std::vector<std::size_t>> instead_of_;
   Selection result_;
 };
 
