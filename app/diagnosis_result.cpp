@@ -250,6 +250,9 @@ std::string doubt(const DiagnosisRun& run, const diagnosis::Found& f, const Robo
   }
   if (f.displaced) return "a law without a name explains it better: something else";
   if (f.faded) return "once the links are bodies it does not differ from zero by more than chance";
+  if (f.only_with_others) {
+    return "it came with the same at other joints, and by itself is no more than chance";
+  }
   if (f.beside_unknown) return "what has no name on the joints where it acts is worth more";
   if (f.any_period) return "a ripple over another joint's position, sought likewise, does as well";
   return fmt::format("a law that no robot has explains {:.1f} % here, this one less",

@@ -282,6 +282,7 @@ class Loop {
                   {},
                   {}};
       found.effect.value = selection.fit.value.segment(column, n);
+      found.only_with_others = !verdict.by_itself;
       column += n;
       auto& names = found.ambiguous_with;
       for (const std::size_t k : verdict.ambiguous) names.push_back(list[k].term.id);

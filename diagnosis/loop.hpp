@@ -56,9 +56,13 @@ struct Found {
   bool displaced = false;
   /// With masses that are bodies it does not differ from zero by what chance may make of none.
   bool faded = false;
+  /// It came with the same at other joints, and by itself is no more than chance makes of one of
+  /// these.
+  bool only_with_others = false;
   /// Else it only describes: it predicts, and says nothing about the cause.
   [[nodiscard]] bool name_stands() const {
-    return !varies && !drowned && !any_period && !beside_unknown && !displaced && !faded;
+    return !varies && !drowned && !any_period && !beside_unknown && !displaced && !faded &&
+           !only_with_others;
   }
 };
 

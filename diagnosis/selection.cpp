@@ -274,8 +274,9 @@ class Search {
   }
 
   /// Without what others in it make superfluous, or give an impossible sign or a size that is not
-  /// believed (a delay and the lags of all drives may cancel), and without what came with the same
-  /// at other joints and is nothing by itself; these first, and of them the one that gains least.
+  /// believed (a delay and the lags of all drives may cancel), and without ripples that came with
+  /// those of other joints and are nothing by themselves; these first, and of them the one that
+  /// gains least.
   [[nodiscard]] std::vector<std::size_t> pruned(std::vector<std::size_t> chosen) const {
     while (!chosen.empty()) {
       const Fit all = fits_.fit(terms(chosen));
@@ -290,7 +291,8 @@ class Search {
         const Gain gain = gain_of(now.without(1 + i), now.error());
         const std::pair<bool, double> own_worth = {
             !wrong_sign(chosen[i], own, 0.0) && gain.share >= 0.0 &&
-                within_limits(chosen[i], own) && is_something(chosen, i, all, own),
+                within_limits(chosen[i], own) &&
+                (!(candidates_[chosen[i]].choices > 1.0) || ripples(chosen, i, all, own)),
             gain.t};
         if (own_worth < least) {
           least = own_worth;
@@ -303,17 +305,23 @@ class Search {
     return chosen;
   }
 
-  /// Whether what came with the same at other joints is something by itself, of those in `chosen`:
-  /// more than chance makes of one of so many joints. Of a ripple's many periods more is asked.
-  [[nodiscard]] bool is_something(std::vector<std::size_t> chosen, std::size_t i, const Fit& all,
-                                  const Fit& own) const {
+  /// Whether a ripple is one by itself, of those in `chosen`.
+  [[nodiscard]] bool ripples(std::vector<std::size_t> chosen, std::size_t i, const Fit& all,
+                             const Fit& own) const {
     const std::size_t k = chosen[i];
-    const auto group = came_with_.find(k);
-    const double choices = candidates_[k].choices;
-    if (group == came_with_.end() && !(choices > 1.0)) return true;
     chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(i));
-    const double tried = choices > 1.0 ? parameters_ * choices : group->second;
+    const double tried = parameters_ * candidates_[k].choices;
     return over_chance(k, fits_.fit(terms(chosen)), all, own, tried) > least_of_both;
+  }
+
+  /// Whether candidate k, beside those that are accepted now, is something by itself if it came
+  /// with the same at other joints: more than chance makes of one of so many.
+  [[nodiscard]] bool is_by_itself(std::size_t k) const {
+    const auto group = came_with_.find(k);
+    if (group == came_with_.end()) return true;
+    const Fit all = fits_.fit(with(k));
+    return over_chance(k, fits_.fit(terms(accepted_)), all, last_of(k, all), group->second) >
+           least_of_both;
   }
 
   /// Drops what later terms made superfluous. It does not come back. True if anything was.
@@ -433,7 +441,7 @@ class Search {
     const FitsAround others(fits_, terms(accepted_));
     const Eigen::VectorXd& without = others.error();
     const Gain gain = gain_of(without, result_.error_end);
-    Verdict verdict{k, gain.share, gain.t, {}};
+    Verdict verdict{k, gain.share, gain.t, is_by_itself(k), {}};
     const std::vector<std::size_t> hidden = result_.hidden;
     for (const std::size_t other : shortlist(rule_.rivals)) {
       if (other == k || same_place(k, other) || !candidates_[other].members.empty()) continue;

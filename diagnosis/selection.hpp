@@ -58,6 +58,8 @@ struct SelectionStep {
 struct Verdict {
   std::size_t candidate = 0;
   double gain = 0.0, t = 0.0;  ///< of having it, all other accepted ones in
+  /// It did not come with the same at other joints, or is more than chance makes of one of these.
+  bool by_itself = true;
   /// Candidates that in its place do as well, as far as the data can tell.
   std::vector<std::size_t> ambiguous;
 };
