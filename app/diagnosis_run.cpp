@@ -10,6 +10,7 @@
 
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/diagnosis/checks.hpp"
+#include "shapeid/diagnosis/contact_flags.hpp"
 #include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/diagnosis/slowness.hpp"
 #include "shapeid/diagnosis/usual.hpp"
@@ -244,6 +245,16 @@ void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
   }
 }
 
+/// What was corrected in the logs belongs to the model that goes with them as they were.
+void add_flags(const std::vector<diagnosis::Found>& flags, DiagnosisRun& run) {
+  for (const diagnosis::Found& f : flags) {
+    run.loop.found.push_back(f);
+    run.consistent.model.effects.push_back(f.effect);
+    run.consistent.effect_error.push_back(f.standard_error);
+    run.notes.push_back(fmt::format("all else is said with {} corrected", f.id));
+  }
+}
+
 }  // namespace
 
 DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& options) {
@@ -276,12 +287,16 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                    log.motion,
                    robot.robot.notes};
   diagnosis::check_clocks(robot.robot, log.recording, run.settings);
-  const std::optional<RecordedLog> rough = less_smooth(robot, options, log, fitted_part);
+  std::optional<RecordedLog> rough = less_smooth(robot, options, log, fitted_part);
   if (rough) {
     run.settings.rough = &rough->recording;
     run.settings.cutoff = options.inputs.cutoff;
   }
   const Recording* reference = earlier ? &earlier->recording : nullptr;
+  const std::vector<diagnosis::Found> flags = diagnosis::correct_contact_flags(
+      robot.robot, log.recording, rough ? &rough->recording : nullptr, reference, run.settings);
+  diagnosis::correct_contact_flags(run.test, flags);
+  if (earlier) diagnosis::correct_contact_flags(earlier->recording, flags);
   run.loop = diagnosis::close_loop(robot.robot, log.recording, reference, run.settings);
   log.recording.set_correction(run.loop.correction);
   run.consistent =
@@ -335,6 +350,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                                    [&](const auto& s) { return s.joint == slow.joint; });
     if (!known) run.structures.push_back(slow);
   }
+  add_flags(flags, run);
   note_rests(robot.robot, run);
   note_worse_joints(robot.robot, run);
   note_unsettled_links(robot.robot, run);

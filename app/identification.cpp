@@ -86,8 +86,13 @@ class EffectsRun {
       const Eigen::Index at = Eigen::Index{10} * link;
       known.Phi.segment<10>(at) = model_.Phi.segment<10>(at);
     }
-    const double elapsed = moved.time - log_.recording[0].time;
-    return mass_rows(viewer_, viewer_.view(moved, elapsed), known, bodies.free_links);
+    const std::vector<Sample>& samples = log_.recording.samples();
+    const auto place =
+        std::lower_bound(samples.begin(), samples.end(), moved.time,
+                         [](const Sample& sample, double time) { return sample.time < time; });
+    const auto index = static_cast<std::size_t>(place - samples.begin());
+    return mass_rows(viewer_, viewer_.view(moved, log_.recording.surroundings(index)), known,
+                     bodies.free_links);
   }
 
   [[nodiscard]] Comparison compare(const RobotInputs& robot, const MotionInputs& inputs,

@@ -42,6 +42,15 @@ struct ShapeNumber {
   double nearby = 0.0;
 };
 
+/// What a sample's neighbours in the log tell of it.
+struct Surroundings {
+  double elapsed = 0.0;                            ///< s since the log's first sample
+  Eigen::Vector3d down = Eigen::Vector3d::Zero();  ///< Recording::down()
+  /// s since each contact was declared to touch for the last time, and until it will be: 0 while it
+  /// is, infinity if the segment does not say.
+  Eigen::VectorXd since_touch = {}, until_touch = {};
+};
+
 /// One instant as the present model sees it.
 struct Instant {
   const Robot& robot;
@@ -52,7 +61,7 @@ struct Instant {
   /// (predicted_load()), n. Contains no measured torque on a floating base.
   const Eigen::VectorXd& load;
   const Eigen::VectorXd& load_rate;  ///< its change a second, n (Effect::needs_load_rate)
-  double elapsed = 0.0;              ///< s since the log's first sample
+  const Surroundings& surroundings;
 };
 
 /// An instant with its neighbours: `at(dt)` is the sample dt seconds later, interpolated. dt stays
@@ -60,6 +69,7 @@ struct Instant {
 struct Moment {
   const Sample& now;
   std::function<Sample(double)> at;
+  Surroundings surroundings = {};
 };
 
 /// s: how far one effect may look to either side, and how far several together.
@@ -113,6 +123,8 @@ struct Effect {
   bool (*applies)(const Robot&, int site) = nullptr;
   /// What it adds per unit of each parameter: dof x parameters.
   Eigen::MatrixXd (*columns)(const Instant&, int site, const Eigen::VectorXd& shape) = nullptr;
+  /// It is sought before all others, and by itself (contact_flags.hpp).
+  bool sought_first = false;
   /// What the robot is built of: it is not among what may have come since a reference log.
   bool built_in = false;
   /// The columns use Instant::load_rate, which costs two more instants each.

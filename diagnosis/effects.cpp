@@ -17,7 +17,8 @@ const std::vector<Effect>& all_effects() {
       // at a link
       payload(), payload_from(), external_force(), drag(),
       // at a contact
-      contact_point(), foot_radius(), contact_undeclared(), contact_absent()};
+      contact_point(), foot_radius(), contact_late(), contact_short(), contact_undeclared(),
+      contact_absent()};
   return effects;
 }
 

@@ -129,8 +129,9 @@ std::vector<Eigen::VectorXd> filter_error(const Viewer& viewer, const RichModel&
       Sample filtered = views[i - begin].sample;
       set_channels(row->head(row->size() - slots.size() - dof), filtered);
       filtered.in_contact = smooth[at].in_contact;
-      const View view =
-          viewer.view(std::move(filtered), views[i - begin].elapsed, views[i - begin].down);
+      Surroundings surroundings = smooth.surroundings(at);
+      surroundings.elapsed = views[i - begin].surroundings.elapsed;
+      const View view = viewer.view(std::move(filtered), std::move(surroundings));
       const Prediction p = predict(viewer, view, model);
       const Eigen::VectorXd f = slots.gather(
           view.sample, row->segment(row->size() - slots.size() - dof, slots.size()), p.J.rows());

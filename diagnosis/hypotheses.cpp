@@ -35,7 +35,7 @@ std::string hypothesis_id(const Robot& robot, const AppliedEffect& effect) {
 std::vector<AppliedEffect> all_hypotheses(const Robot& robot) {
   std::vector<AppliedEffect> hypotheses;
   for (const Effect& effect : all_effects()) {
-    if (effect.is_payload) continue;
+    if (effect.is_payload || effect.sought_first) continue;
     for (int site = 0; site < site_count(robot, effect.site); ++site) {
       if (effect.applies != nullptr && !effect.applies(robot, site)) continue;
       hypotheses.push_back(at_start(effect, site));
@@ -78,8 +78,8 @@ Eigen::VectorXd HypothesisColumns::difference(const AppliedEffect& hypothesis, c
     // The contacts whose forces are held fixed, also where a delay looks across a touchdown.
     Sample moved = viewer.moved(recording, index);
     moved.in_contact = view.sample.in_contact;
-    const Prediction changed = predict(
-        viewer, viewer.view(std::move(moved), view.elapsed, view.down), model_, predicted.load);
+    const Prediction changed =
+        predict(viewer, viewer.view(std::move(moved), view.surroundings), model_, predicted.load);
     return changed.force - changed.J.transpose() * predicted.load.force;
   };
   return (force(d.plus) - force(d.minus)) / d.step;

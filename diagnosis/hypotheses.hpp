@@ -11,8 +11,8 @@ namespace shapeid::diagnosis {
 /// "viscous_friction@knee"
 [[nodiscard]] std::string hypothesis_id(const Robot& robot, const AppliedEffect& effect);
 
-/// All that the robot has sites for, each at its start. Payloads are left out: their columns are
-/// the links' own.
+/// All that the robot has sites for, each at its start. Payloads are left out (their columns are
+/// the links' own), and what is sought before all others.
 [[nodiscard]] std::vector<AppliedEffect> all_hypotheses(const Robot& robot);
 
 /// Columns of hypotheses under a model: what each parameter adds to Y Phi + E theta - J^T f per

@@ -6,7 +6,6 @@
 
 #include "shapeid/diagnosis/best_round.hpp"
 #include "shapeid/diagnosis/candidates.hpp"
-#include "shapeid/diagnosis/filter_error.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/prior.hpp"
@@ -29,7 +28,7 @@ class Loop {
       : state_(robot, log, reference, settings) {}
 
   LoopResult run() {
-    fit_masses();
+    state_.fit_masses();
     do {
       seek();
       weigh_transformations();
@@ -46,21 +45,14 @@ class Loop {
     return list;
   }
 
-  void fit_masses() {
-    BlockFits fits = state_.tallied({});
-    result_.prior = choose_prior(fits, {state_.masses});
-    state_.set_masses(fits.fit({state_.masses}));
-    state_.rigid = result_.model;
-  }
-
   /// Effects, until nothing changes. Weights follow from the effects and effects from the weights,
   /// which need not come to an end: then that of all rounds counts that predicts best.
   void seek() {
     std::vector<LoopResult> rounds;
     for (round_ = 0; round_ < state_.settings.rounds; ++round_) {
       const std::vector<std::string> before = ids();
-      correct();
-      reweigh();
+      state_.correct();
+      state_.reweigh();
       auto start = std::chrono::steady_clock::now();
       screen();
       result_.screening_seconds += seconds_since(start);
@@ -76,23 +68,6 @@ class Loop {
     }
     if (!rounds.empty()) take_best_of(rounds, state_);
     try_large_transformation();
-  }
-
-  /// What the filter makes of products, by the present model.
-  void correct() {
-    if (state_.settings.rough == nullptr) return;
-    const Viewer viewer(state_.robot, state_.settings.contacts, result_.model.effects);
-    state_.use_correction(filter_error(viewer, result_.model, state_.log, *state_.settings.rough,
-                                       state_.settings.cutoff));
-  }
-
-  /// W = 1 / variance of what the present model leaves, row by row.
-  void reweigh() {
-    const Eigen::VectorXd rms = state_.left_by(result_.model).rms();
-    // A row that fits far better than the others would otherwise be fitted to its last digit.
-    constexpr double least_share = 0.02;
-    const double floor = std::max(least_share * rms.mean(), 1e-12);
-    result_.weight = rms.cwiseMax(floor).cwiseAbs2().cwiseInverse();
   }
 
   [[nodiscard]] std::vector<Candidate> listed(const BlockFits& fits) const {

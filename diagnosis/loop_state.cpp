@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "shapeid/diagnosis/candidates.hpp"
+#include "shapeid/diagnosis/filter_error.hpp"
 #include "shapeid/diagnosis/fits_around.hpp"
+#include "shapeid/diagnosis/prior.hpp"
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::diagnosis {
@@ -67,6 +69,32 @@ BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
   return fits;
 }
 
+void LoopState::fit_masses() {
+  BlockFits fits = tallied({});
+  result.prior = choose_prior(fits, {masses});
+  set_masses(fits.fit({masses}));
+  rigid = result.model;
+}
+
+void LoopState::correct() {
+  if (settings.rough == nullptr) return;
+  const Viewer viewer(robot, settings.contacts, result.model.effects);
+  use_correction(filter_error(viewer, result.model, log, *settings.rough, settings.cutoff));
+}
+
+void LoopState::use_correction(const std::vector<Eigen::VectorXd>& correction) {
+  result.correction = correction;
+  log.set_correction(correction);
+}
+
+void LoopState::reweigh() {
+  const Eigen::VectorXd rms = left_by(result.model).rms();
+  // A row that fits far better than the others would otherwise be fitted to its last digit.
+  constexpr double least_share = 0.02;
+  const double floor = std::max(least_share * rms.mean(), 1e-12);
+  result.weight = rms.cwiseMax(floor).cwiseAbs2().cwiseInverse();
+}
+
 Series LoopState::left_by(const RichModel& model) const {
   return series(robot, settings.contacts, model, log, settings.stride);
 }
@@ -77,11 +105,6 @@ void LoopState::collect_effects() {
     if (f.effect.effect->transform.any()) keep_within_limits(f.effect);
     result.model.effects.push_back(f.effect);
   }
-}
-
-void LoopState::use_correction(const std::vector<Eigen::VectorXd>& correction) {
-  result.correction = correction;
-  log.set_correction(correction);
 }
 
 void LoopState::set_masses(const Fit& fit) {

@@ -28,12 +28,18 @@ struct LoopState {
   /// "too-short".
   [[nodiscard]] BlockFits tallied(const std::vector<AppliedEffect>& hypotheses,
                                   const std::vector<Modulation>& modulations = {});
+  /// The given prior's strength, and masses alone.
+  void fit_masses();
+  /// What the filter makes of products, by the present model: of the log from now on.
+  void correct();
+  /// W = 1 / variance of what the present model leaves, row by row.
+  void reweigh();
+  /// Of the log from now on, and noted in the result.
+  void use_correction(const std::vector<Eigen::VectorXd>& correction);
   /// What a model leaves of the log.
   [[nodiscard]] Series left_by(const RichModel& model) const;
   /// The model's effects from what was found; transformations are kept within their limits.
   void collect_effects();
-  /// Of the log from now on, and noted in the result.
-  void use_correction(const std::vector<Eigen::VectorXd>& correction);
   /// From a fit whose first term is the masses.
   void set_masses(const Fit& fit);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace shapeid::diagnosis {
@@ -32,6 +33,44 @@ Recording::Recording(std::vector<Sample> samples, double rate, std::vector<std::
   find_turns();
   find_high_torques();
   find_down();
+  find_touches();
+}
+
+void Recording::find_touches() {
+  const Eigen::Index contacts = samples_.empty() ? 0 : std::ssize(samples_.front().in_contact);
+  since_touch_.setConstant(contacts, std::ssize(samples_), std::numeric_limits<double>::infinity());
+  until_touch_ = since_touch_;
+  for (Eigen::Index c = 0; c < contacts; ++c) {
+    const auto touches = [&](std::size_t i) {
+      return samples_[i].in_contact[static_cast<std::size_t>(c)];
+    };
+    const auto along = [&](Eigen::MatrixXd& way, std::size_t i, std::size_t neighbour) {
+      const double step = std::abs(samples_[neighbour].time - samples_[i].time);
+      way(c, static_cast<Eigen::Index>(i)) =
+          touches(i) ? 0.0 : way(c, static_cast<Eigen::Index>(neighbour)) + step;
+    };
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      along(since_touch_, i, std::max(i, segment_begin_[i] + 1) - 1);
+    }
+    for (std::size_t i = samples_.size(); i-- > 0;) {
+      along(until_touch_, i, std::min(i + 1, segment_end_[i] - 1));
+    }
+  }
+}
+
+void Recording::lengthen_contact(int contact, double before, double after) {
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (until_touch_(contact, at) <= before || since_touch_(contact, at) <= after) {
+      samples_[i].in_contact[static_cast<std::size_t>(contact)] = true;
+    }
+  }
+  find_touches();
+}
+
+Surroundings Recording::surroundings(std::size_t index) const {
+  const auto at = static_cast<Eigen::Index>(index);
+  return {elapsed(index), down(index), since_touch_.col(at), until_touch_.col(at)};
 }
 
 void Recording::find_down() {

@@ -38,6 +38,9 @@ class Recording {
   [[nodiscard]] double elapsed(std::size_t index) const;
   [[nodiscard]] double duration() const;
 
+  /// The contact touches also for so long (s) before and after it is declared to.
+  void lengthen_contact(int contact, double before, double after);
+
   /// A force (dof) that counts as logged besides the torque, one a sample: what the filter took
   /// from it (filter_error()). Zero-length: none.
   void set_correction(std::vector<Eigen::VectorXd> correction) {
@@ -80,6 +83,8 @@ class Recording {
     return down_.col(static_cast<Eigen::Index>(index));
   }
 
+  [[nodiscard]] Surroundings surroundings(std::size_t index) const;
+
   /// The motion `dt` seconds after a usable sample, by the cubic through four neighbours. Contact
   /// flags, forces and extras are those of the nearest sample. |dt| <= largest_shift.
   [[nodiscard]] Sample shifted(std::size_t index, double dt) const;
@@ -90,6 +95,7 @@ class Recording {
   void find_turns();
   void find_high_torques();
   void find_down();
+  void find_touches();
 
   std::vector<Sample> samples_;
   double rate_, independent_rate_;
@@ -100,6 +106,7 @@ class Recording {
   Eigen::ArrayXXd turned_;                                      ///< likewise
   Eigen::ArrayXXd high_torque_;                                 ///< levels x joints
   Eigen::Matrix3Xd down_;                                       ///< one a sample
+  Eigen::MatrixXd since_touch_, until_touch_;                   ///< contacts x samples
 };
 
 }  // namespace shapeid::diagnosis

@@ -35,7 +35,8 @@ Sample Viewer::moved(const Recording& recording, std::size_t index, double dt,
   const AppliedEffect& last = transforming_[count - 1];
   const Sample now = moved(recording, index, dt, count - 1);
   const Moment moment{now,
-                      [&](double more) { return moved(recording, index, dt + more, count - 1); }};
+                      [&](double more) { return moved(recording, index, dt + more, count - 1); },
+                      recording.surroundings(index)};
   return last.effect->transform.sample(moment, last.site, last.value);
 }
 
@@ -44,24 +45,23 @@ Sample Viewer::moved(const Recording& recording, std::size_t index) const {
 }
 
 View Viewer::view(const Recording& recording, std::size_t index) const {
-  View result = view(moved(recording, index), recording.elapsed(index), recording.down(index));
+  View result = view(moved(recording, index), recording.surroundings(index));
   result.correction = recording.correction(index);
   if (!load_rate_) return result;
   const double step = neighbour_step(robot_);
   for (const double dt : {-step, step}) {
     Sample sample = moved(recording, index, dt, transforming_.size());
     sample.in_contact = result.sample.in_contact;
-    const View near = view(std::move(sample), result.elapsed + dt, result.down);
+    const View near = view(std::move(sample), result.surroundings);
     result.around.push_back({logged_force(*this, near), near.Y, near.J});
   }
   return result;
 }
 
-View Viewer::view(Sample moved, double elapsed, std::optional<Eigen::Vector3d> down) const {
+View Viewer::view(Sample moved, Surroundings surroundings) const {
   View view;
-  view.down = down.value_or(-moved.base_specific_force.normalized());
   view.sample = std::move(moved);
-  view.elapsed = elapsed;
+  view.surroundings = std::move(surroundings);
   view.motions = reference::link_motions(robot_, view.sample);
   view.Y = reference::regressor(robot_, view.sample);
   view.J = contacts_ == reference::ContactTreatment::project
@@ -73,7 +73,7 @@ View Viewer::view(Sample moved, double elapsed, std::optional<Eigen::Vector3d> d
 void Viewer::transform(const View& view, Rows& rows) const {
   for (const AppliedEffect& a : transforming_) {
     if (a.effect->transform.rows == nullptr) continue;
-    a.effect->transform.rows(robot_, view.sample, view.down, a.site, a.value, rows);
+    a.effect->transform.rows(robot_, view.sample, view.surroundings.down, a.site, a.value, rows);
   }
 }
 
@@ -102,7 +102,8 @@ bool needs_load_rate(const std::vector<AppliedEffect>& effects) {
 }
 
 Instant instant_of(const Viewer& viewer, const View& view, const PredictedLoad& load) {
-  return {viewer.robot(), view.sample, view.motions, view.Y, load.joint, load.rate, view.elapsed};
+  return {viewer.robot(), view.sample, view.motions,     view.Y,
+          load.joint,     load.rate,   view.surroundings};
 }
 
 namespace {

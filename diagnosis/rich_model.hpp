@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "shapeid/diagnosis/curve.hpp"
@@ -33,10 +32,9 @@ struct Neighbour {
 struct View {
   Sample sample;
   std::vector<reference::LinkMotion> motions;
-  Eigen::MatrixXd Y;     ///< dof x 10 links, before Transformation::rows
-  Eigen::MatrixXd J;     ///< contact rows x dof, likewise
-  Eigen::Vector3d down;  ///< Recording::down()
-  double elapsed = 0.0;
+  Eigen::MatrixXd Y;  ///< dof x 10 links, before Transformation::rows
+  Eigen::MatrixXd J;  ///< contact rows x dof, likewise
+  Surroundings surroundings;
   Eigen::VectorXd correction;  ///< Recording::correction()
   /// neighbour_step() before and after, or empty if nothing needs the load's rate.
   std::vector<Neighbour> around;
@@ -61,10 +59,8 @@ class Viewer {
          const std::vector<AppliedEffect>& effects, bool load_rate = false);
 
   [[nodiscard]] View view(const Recording& recording, std::size_t index) const;
-  /// Of a sample whose own transformations are done already (moved()). Without its neighbours the
-  /// accelerometer alone has to say where down is.
-  [[nodiscard]] View view(Sample moved, double elapsed,
-                          std::optional<Eigen::Vector3d> down = std::nullopt) const;
+  /// Of a sample whose own transformations are done already (moved()).
+  [[nodiscard]] View view(Sample moved, Surroundings surroundings) const;
   /// Applies the row transformations, in order.
   void transform(const View& view, Rows& rows) const;
   [[nodiscard]] const Robot& robot() const { return robot_; }

@@ -65,7 +65,7 @@ double value_of(const Modulation& modulation, const Recording& recording, std::s
       return size > high ? 1.0 - high / size : 0.0;
     }
     case Signal::time:
-      return view.elapsed;
+      return view.surroundings.elapsed;
     case Signal::row:
     case Signal::yield:
     case Signal::play:

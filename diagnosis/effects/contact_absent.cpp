@@ -17,8 +17,7 @@ Effect contact_absent() {
   e.equation =
       "tau -= J_contact^T (x, y, z) while declared on the ground: the force that is missing";
   e.site = SiteKind::contact;
-  e.parameters = {
-      {"x", "N", false, 5.0, 100.0}, {"y", "N", false, 5.0, 100.0}, {"z", "N", false, 5.0, 100.0}};
+  e.parameters = contact_force_parameters();
   e.confused_with = {"a slipping foot"};
   e.separate_by = "log foot switches; the feet's velocities tell, torques cannot";
   e.under_contact =

@@ -2,13 +2,31 @@
 #pragma once
 
 #include <cstddef>
-
 #include <optional>
+#include <vector>
 
 #include "shapeid/diagnosis/effect.hpp"
 #include "shapeid/reference/contact.hpp"
 
 namespace shapeid::diagnosis {
+
+/// A force at a contact, base axes.
+inline std::vector<Parameter> contact_force_parameters() {
+  return {
+      {"x", "N", false, 5.0, 100.0}, {"y", "N", false, 5.0, 100.0}, {"z", "N", false, 5.0, 100.0}};
+}
+
+/// By how much a flag is wrong.
+inline Parameter contact_time() { return {"T", "s", true, 0.02, 0.2}; }
+
+/// The sample with the contact touching if that is no more than T s away (`times`: of each
+/// contact).
+inline Sample with_contact(Sample sample, int contact, const Eigen::VectorXd& times, double T) {
+  if (contact < times.size() && times[contact] <= T) {
+    sample.in_contact[static_cast<std::size_t>(contact)] = true;
+  }
+  return sample;
+}
 
 /// -J_contact^T in samples whose flag is `declared`, zero in the others: dof x 3.
 inline Eigen::MatrixXd force_columns(const Instant& at, int contact, bool declared) {

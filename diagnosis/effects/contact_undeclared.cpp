@@ -16,9 +16,8 @@ Effect contact_undeclared() {
   e.title = "the foot carries force while it is declared in the air";
   e.equation = "tau -= J_contact^T (x, y, z) while declared in the air, mean force in base axes";
   e.site = SiteKind::contact;
-  e.parameters = {
-      {"x", "N", false, 5.0, 100.0}, {"y", "N", false, 5.0, 100.0}, {"z", "N", false, 5.0, 100.0}};
-  e.confused_with = {"external_force on the same leg"};
+  e.parameters = contact_force_parameters();
+  e.confused_with = {"external_force on the same leg", "contact_late", "contact_short"};
   e.separate_by = "lift the robot off the ground, or log foot switches";
   e.under_contact = "seen: nothing projects the force away";
   e.source = "virtual power, docs/derivations/regressor.md";

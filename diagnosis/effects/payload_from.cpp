@@ -5,7 +5,7 @@ namespace shapeid::diagnosis {
 namespace {
 
 Eigen::MatrixXd columns(const Instant& at, int link, const Eigen::VectorXd& shape) {
-  const double carried = at.elapsed >= shape[0] ? 1.0 : 0.0;
+  const double carried = at.surroundings.elapsed >= shape[0] ? 1.0 : 0.0;
   return carried * at.Y.middleCols<10>(Eigen::Index{10} * link);
 }
 

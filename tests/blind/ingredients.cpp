@@ -144,20 +144,41 @@ void foot_radius(Ingredients& in, const Machine&, const Amount& a) {
   in.ground.foot_radius.assign(in.robot.contacts.size(), 0.0);
   in.ground.foot_radius[static_cast<std::size_t>(a.site)] = a.size;
 }
-/// The flag of a foot follows its touch only so much later; size in s.
-template <bool touches>
-void late_flag(Ingredients& in, const Machine&, const Amount& a) {
-  in.signals.emplace_back([a](Readings& readings) {
-    const auto foot = static_cast<std::size_t>(a.site);
-    double changed = readings.front().sample.time - 2.0 * a.size;
-    bool before = readings.front().sample.in_contact[foot];
-    for (Reading& r : readings) {
-      const bool now = r.sample.in_contact[foot];
-      if (now != before && now == touches) changed = r.sample.time;
-      before = now;
-      if (now == touches && r.sample.time < changed + a.size) r.sample.in_contact[foot] = !touches;
+/// What each reading is told of a foot: whether it touches now, s since this began, s until it
+/// ends.
+void change_flags(Ingredients& in, int site,
+                  const std::function<bool(bool touches, double since, double until)>& told) {
+  in.signals.emplace_back([site, told](Readings& readings) {
+    const auto foot = static_cast<std::size_t>(site);
+    constexpr double long_ago = 1.0;  // at the ends of the log: longer than any step
+    for (std::size_t begin = 0, end = 0; begin < readings.size(); begin = end) {
+      const bool touches = readings[begin].sample.in_contact[foot];
+      while (end < readings.size() && readings[end].sample.in_contact[foot] == touches) ++end;
+      const double from = readings[begin].sample.time - (begin == 0 ? long_ago : 0.0);
+      const bool last = end == readings.size();
+      const double to = last ? readings.back().sample.time + long_ago : readings[end].sample.time;
+      for (std::size_t i = begin; i < end; ++i) {
+        const double t = readings[i].sample.time;
+        readings[i].sample.in_contact[foot] = told(touches, t - from, to - t);
+      }
     }
   });
+}
+
+/// The flag of a foot follows its touch only so much later; size in s.
+void contact_late(Ingredients& in, const Machine&, const Amount& a) {
+  change_flags(in, a.site,
+               [a](bool touches, double since, double) { return touches && since >= a.size; });
+}
+/// The flag is gone so much before the foot is.
+void contact_short(Ingredients& in, const Machine&, const Amount& a) {
+  change_flags(in, a.site,
+               [a](bool touches, double, double until) { return touches && until > a.size; });
+}
+/// The flag stays so much longer than the foot.
+void contact_absent(Ingredients& in, const Machine&, const Amount& a) {
+  change_flags(in, a.site,
+               [a](bool touches, double since, double) { return touches || since < a.size; });
 }
 
 void payload(Ingredients& in, const Machine&, const Amount& a) {
@@ -236,8 +257,9 @@ std::vector<Kind> list() {
       make("link_length", Place::joint, true, 0.01, link_length, one),
       make("contact_point", Place::contact, true, 0.01, contact_point, three),
       make("foot_radius", Place::contact, true, 0.01, foot_radius, one),
-      make("contact_undeclared", Place::contact, false, 0.02, late_flag<true>, nullptr),
-      make("contact_absent", Place::contact, false, 0.02, late_flag<false>, nullptr),
+      make("contact_late", Place::contact, false, 0.02, contact_late, nullptr),
+      make("contact_short", Place::contact, false, 0.02, contact_short, nullptr),
+      make("contact_absent", Place::contact, false, 0.02, contact_absent, nullptr),
       make("payload", Place::link, true, 0.5, payload, load_values),
       make("payload_from", Place::link, true, 0.5, payload_from, load_values, {load_moment}),
       make("external_force", Place::link, true, 8.0, external_force, three),

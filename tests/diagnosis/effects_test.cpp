@@ -25,9 +25,17 @@ struct Scene {
     Phi = stacked_parameters(robot);
     load = predicted_load(robot, reference::applied_force(robot, sample), Y * Phi, J).joint;
     load_rate = load.array().sin();  // any numbers
+    surroundings.elapsed = 2.0;
+    surroundings.down = -sample.base_specific_force.normalized();
+    // Contacts that do not touch have been, or will be, declared so near.
+    surroundings.since_touch.resize(std::ssize(sample.in_contact));
+    for (std::size_t c = 0; c < sample.in_contact.size(); ++c) {
+      surroundings.since_touch[static_cast<Eigen::Index>(c)] = sample.in_contact[c] ? 0.0 : 0.004;
+    }
+    surroundings.until_touch = 2.5 * surroundings.since_touch;
   }
   [[nodiscard]] Instant instant() const {
-    return {robot, sample, motions, Y, load, load_rate, 2.0};
+    return {robot, sample, motions, Y, load, load_rate, surroundings};
   }
   [[nodiscard]] Eigen::MatrixXd columns(const Effect& e, int site) const {
     Eigen::VectorXd shape(static_cast<Eigen::Index>(e.shape.size()));
@@ -42,6 +50,7 @@ struct Scene {
   std::vector<reference::LinkMotion> motions;
   Eigen::MatrixXd Y, J;
   Eigen::VectorXd Phi, load, load_rate;
+  Surroundings surroundings;
 };
 
 Scene any_scene(Root root) {

@@ -81,7 +81,7 @@ TEST_P(FilterError, IsTheResidualOfATrueModel) {
   for (int k = 0; k < 10 * static_cast<int>(rate); ++k) {
     Sample s = motion(k / rate);
     s.tau.setZero(3);
-    s.tau = predict(viewer, viewer.view(s, 0.0), truth).force;
+    s.tau = predict(viewer, viewer.view(s, {}), truth).force;
     exact.push_back(s);
   }
   Recording smooth(filtered(exact, cutoff), rate);

@@ -1,0 +1,142 @@
+#include "shapeid/diagnosis/contact_flags.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "shapeid/diagnosis/candidates.hpp"
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/effects/contact_parts.hpp"
+#include "shapeid/diagnosis/loop_state.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+/// For which times the force is looked for, s: from three readings of a fast log to a step.
+constexpr std::array times = {0.006, 0.009, 0.0135, 0.02, 0.03, 0.045, 0.07, 0.1};
+/// A contact's force begins and ends softly: a little is left before the straight line's end.
+constexpr double beyond_the_line = 1.2;
+
+/// The force grows from nothing, `T` s away from what is declared, in a straight line.
+Eigen::MatrixXd growing(const Instant& at, int contact, double away, double T) {
+  return std::max(0.0, 1.0 - away / T) * force_columns(at, contact, false);
+}
+Eigen::MatrixXd before(const Instant& at, int contact, const Eigen::VectorXd& shape) {
+  return growing(at, contact, at.surroundings.until_touch[contact], shape[0]);
+}
+Eigen::MatrixXd after(const Instant& at, int contact, const Eigen::VectorXd& shape) {
+  return growing(at, contact, at.surroundings.since_touch[contact], shape[0]);
+}
+
+/// An effect of the catalogue as the force that stands for it while it is sought.
+Effect as_force(const char* id,
+                Eigen::MatrixXd (*columns)(const Instant&, int, const Eigen::VectorXd&)) {
+  Effect force = *find_effect(id);
+  force.transform = {};
+  force.columns = columns;
+  force.parameters = contact_force_parameters();
+  force.shape = {{"T", "s", times.front(), times.back(), times.front()}};
+  return force;
+}
+
+class Search {
+ public:
+  Search(const Robot& robot, const Recording& log, const Recording* reference,
+         const LoopSettings& settings)
+      : state_(robot, log, reference, settings) {}
+
+  /// The strongest of them if it is accepted among the first, beside these.
+  [[nodiscard]] std::optional<Found> strongest() {
+    state_.fit_masses();
+    state_.correct();
+    state_.reweigh();
+    const BlockFits fits = state_.tallied(hypotheses());
+    CandidateRule rule;
+    rule.free_links = state_.settings.shapes.free_links;
+    rule.has_reference = false;  // flags are the sensor's: nothing that came since
+    rule.excluded = [](const AppliedEffect&) { return false; };
+    rule.came_since = rule.excluded;
+    rule.choices = [this](const AppliedEffect& h) { return periods_told_apart(state_.log, h); };
+    const std::vector<Candidate> list = candidates(state_.robot, fits, rule);
+    SelectionRule few = state_.settings.rule;
+    constexpr int first = 6;
+    few.most_terms = std::min(few.most_terms, first);
+    const Selection selection = select(fits, state_.masses, list, few);
+    std::optional<Found> found;
+    Eigen::Index column = std::ssize(state_.masses.columns);
+    for (const Verdict& v : selection.accepted) {
+      const Candidate& c = list[v.candidate];
+      const Eigen::VectorXd value = selection.fit.value.segment(column, std::ssize(c.term.columns));
+      column += value.size();
+      if (!is_flag(c.effect) || !pushes(value) || (found && found->gain >= v.gain)) continue;
+      const Effect* effect = find_effect(c.effect.effect->id);
+      const double T = beyond_the_line * c.effect.shape[0];
+      const double step = 0.5 * (times[1] / times[0] - 1.0) * T;
+      found = Found{{effect, c.effect.site, {}, Eigen::VectorXd::Constant(1, T)},
+                    c.term.id,
+                    Eigen::VectorXd::Constant(1, step),
+                    v.gain,
+                    v.t};
+    }
+    return found;
+  }
+
+ private:
+  [[nodiscard]] bool is_flag(const AppliedEffect& a) const {
+    return a.effect == &late_ || a.effect == &short_;
+  }
+
+  /// The ground cannot pull.
+  [[nodiscard]] bool pushes(const Eigen::VectorXd& force) const {
+    Eigen::Vector3d down = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < state_.log.samples().size(); ++i) down += state_.log.down(i);
+    return force.dot(down) < 0.0;
+  }
+
+  [[nodiscard]] std::vector<AppliedEffect> hypotheses() const {
+    std::vector<AppliedEffect> list = screened_hypotheses(
+        state_.robot, state_.result.model, state_.log, state_.left_by(state_.result.model));
+    for (int contact = 0; contact < site_count(state_.robot, SiteKind::contact); ++contact) {
+      for (const Effect* effect : {&late_, &short_}) {
+        for (const double T : times) {
+          list.push_back(at_start(*effect, contact));
+          list.back().shape[0] = T;
+        }
+      }
+    }
+    return list;
+  }
+
+  LoopState state_;
+  Effect late_ = as_force("contact_late", before), short_ = as_force("contact_short", after);
+};
+
+}  // namespace
+
+void correct_contact_flags(Recording& log, const std::vector<Found>& found) {
+  for (const Found& f : found) {
+    const double T = f.effect.value[0];
+    const bool late = f.effect.effect == find_effect("contact_late");
+    log.lengthen_contact(f.effect.site, late ? T : 0.0, late ? 0.0 : T);
+  }
+}
+
+std::vector<Found> correct_contact_flags(const Robot& robot, Recording& log, Recording* rough,
+                                         const Recording* reference, const LoopSettings& settings) {
+  std::vector<Found> all;
+  const bool has_flags = !log.samples().empty() && !log[0].in_contact.empty() &&
+                         settings.contacts == reference::ContactTreatment::project;
+  if (!has_flags) return all;
+  const auto most = 2 * robot.contacts.size();  // each begins and ends
+  while (all.size() < most) {
+    const std::optional<Found> found = Search(robot, log, reference, settings).strongest();
+    const auto known = [&](const Found& f) { return same_place(f.effect, found->effect); };
+    if (!found || std::any_of(all.begin(), all.end(), known)) break;
+    all.push_back(*found);
+    correct_contact_flags(log, {*found});
+    if (rough != nullptr) correct_contact_flags(*rough, {*found});
+  }
+  return all;
+}
+
+}  // namespace shapeid::diagnosis

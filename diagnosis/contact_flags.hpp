@@ -1,0 +1,23 @@
+// Contacts that begin before they are declared or last longer, sought before all else: an
+// undeclared contact's force is larger than what any joint's law explains, and its course is no
+// column's.
+#pragma once
+
+#include <vector>
+
+#include "shapeid/diagnosis/loop.hpp"
+
+namespace shapeid::diagnosis {
+
+/// contact_late and contact_short where they are among the strongest of all hypotheses beside
+/// masses, one after the other. What is found is corrected in `log` and `rough` (may be null), so
+/// that the contact's force is projected away there. `settings.rough` is `rough`. Throws as
+/// close_loop() does.
+[[nodiscard]] std::vector<Found> correct_contact_flags(const Robot& robot, Recording& log,
+                                                       Recording* rough, const Recording* reference,
+                                                       const LoopSettings& settings);
+
+/// The same correction of another log.
+void correct_contact_flags(Recording& log, const std::vector<Found>& found);
+
+}  // namespace shapeid::diagnosis
