@@ -248,6 +248,7 @@ std::string doubt(const DiagnosisRun& run, const diagnosis::Found& f, const Robo
         "is itself: something else",
         variable_of(*f.varies, robot), f.varies->z, 100.0 * f.varies->share);
   }
+  if (f.pulls) return "the ground would have to pull the foot";
   if (f.displaced) return "a law without a name explains it better: something else";
   if (f.faded) return "once the links are bodies it does not differ from zero by more than chance";
   if (f.only_with_others) {

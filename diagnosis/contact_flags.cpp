@@ -14,18 +14,26 @@ namespace {
 
 /// For which times the force is looked for, s: from three readings of a fast log to a step.
 constexpr std::array times = {0.006, 0.009, 0.0135, 0.02, 0.03, 0.045, 0.07, 0.1};
-/// A contact's force begins and ends softly: a little is left before the straight line's end.
-constexpr double beyond_the_line = 1.2;
+/// A contact's force begins and ends softly, and filters make it softer.
+constexpr double beyond = 1.2;
 
-/// The force grows from nothing, `T` s away from what is declared, in a straight line.
-Eigen::MatrixXd growing(const Instant& at, int contact, double away, double T) {
-  return std::max(0.0, 1.0 - away / T) * force_columns(at, contact, false);
+/// A force that is there for `T` s, and one that fades in a straight line over them.
+Eigen::MatrixXd within(const Instant& at, int contact, double away, double T) {
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(at.robot.dof(), 6);
+  if (!(away <= T)) return columns;
+  columns.leftCols<3>() = force_columns(at, contact, false);
+  columns.rightCols<3>() = (1.0 - away / T) * columns.leftCols<3>();
+  return columns;
 }
 Eigen::MatrixXd before(const Instant& at, int contact, const Eigen::VectorXd& shape) {
-  return growing(at, contact, at.surroundings.until_touch[contact], shape[0]);
+  return within(at, contact, at.surroundings.until_touch[contact], shape[0]);
 }
 Eigen::MatrixXd after(const Instant& at, int contact, const Eigen::VectorXd& shape) {
-  return growing(at, contact, at.surroundings.since_touch[contact], shape[0]);
+  return within(at, contact, at.surroundings.since_touch[contact], shape[0]);
+}
+/// Over the time that it is there.
+Eigen::Vector3d mean_force(const Eigen::VectorXd& value) {
+  return value.head<3>() + 0.5 * value.tail<3>();
 }
 
 /// An effect of the catalogue as the force that stands for it while it is sought.
@@ -35,6 +43,7 @@ Effect as_force(const char* id,
   force.transform = {};
   force.columns = columns;
   force.parameters = contact_force_parameters();
+  for (const Parameter& fading : contact_force_parameters()) force.parameters.push_back(fading);
   force.shape = {{"T", "s", times.front(), times.back(), times.front()}};
   return force;
 }
@@ -68,9 +77,11 @@ class Search {
       const Candidate& c = list[v.candidate];
       const Eigen::VectorXd value = selection.fit.value.segment(column, std::ssize(c.term.columns));
       column += value.size();
-      if (!is_flag(c.effect) || !pushes(value) || (found && found->gain >= v.gain)) continue;
+      if (!is_flag(c.effect) || !pushes(state_.log, mean_force(value)) ||
+          (found && found->gain >= v.gain))
+        continue;
       const Effect* effect = find_effect(c.effect.effect->id);
-      const double T = beyond_the_line * c.effect.shape[0];
+      const double T = beyond * c.effect.shape[0];
       const double step = 0.5 * (times[1] / times[0] - 1.0) * T;
       found = Found{{effect, c.effect.site, {}, Eigen::VectorXd::Constant(1, T)},
                     c.term.id,
@@ -84,13 +95,6 @@ class Search {
  private:
   [[nodiscard]] bool is_flag(const AppliedEffect& a) const {
     return a.effect == &late_ || a.effect == &short_;
-  }
-
-  /// The ground cannot pull.
-  [[nodiscard]] bool pushes(const Eigen::VectorXd& force) const {
-    Eigen::Vector3d down = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < state_.log.samples().size(); ++i) down += state_.log.down(i);
-    return force.dot(down) < 0.0;
   }
 
   [[nodiscard]] std::vector<AppliedEffect> hypotheses() const {
@@ -112,6 +116,12 @@ class Search {
 };
 
 }  // namespace
+
+bool pushes(const Recording& log, const Eigen::Vector3d& force) {
+  Eigen::Vector3d down = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < log.samples().size(); ++i) down += log.down(i);
+  return force.dot(down) < 0.0;
+}
 
 void correct_contact_flags(Recording& log, const std::vector<Found>& found) {
   for (const Found& f : found) {

@@ -17,6 +17,10 @@ namespace shapeid::diagnosis {
                                                        Recording* rough, const Recording* reference,
                                                        const LoopSettings& settings);
 
+/// Whether a force at a foot (base axes) is one that the ground can have: on the log's mean it does
+/// not pull.
+[[nodiscard]] bool pushes(const Recording& log, const Eigen::Vector3d& force);
+
 /// The same correction of another log.
 void correct_contact_flags(Recording& log, const std::vector<Found>& found);
 

@@ -59,10 +59,12 @@ struct Found {
   /// It came with the same at other joints, and by itself is no more than chance makes of one of
   /// these.
   bool only_with_others = false;
+  /// It is the force of a ground that would have to pull.
+  bool pulls = false;
   /// Else it only describes: it predicts, and says nothing about the cause.
   [[nodiscard]] bool name_stands() const {
     return !varies && !drowned && !any_period && !beside_unknown && !displaced && !faded &&
-           !only_with_others;
+           !only_with_others && !pulls;
   }
 };
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "shapeid/diagnosis/candidates.hpp"
+#include "shapeid/diagnosis/contact_flags.hpp"
 #include "shapeid/diagnosis/placebo.hpp"
 
 namespace shapeid::diagnosis {
@@ -41,6 +42,8 @@ class Names {
       found_[k].drowned = own < placebo;
       found_[k].any_period = is_any_ripple(asked, k, errors);
       found_[k].rival = against.rivals[k];
+      found_[k].pulls = found_[k].effect.effect->id == "contact_undeclared" &&
+                        !pushes(state_.log, found_[k].effect.value);
       if (!asked.own_term[k] && !found_[k].displaced) contest_transformation(k, errors, own);
     }
     mark_beside_unknown();

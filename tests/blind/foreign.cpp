@@ -105,6 +105,17 @@ void uneven_friction(Ingredients& in, const Machine&, const Amount& a) {
   });
 }
 
+/// A foot switch that hangs: every third step is not seen.
+void missed_steps(Ingredients& in, const Machine&, const Amount& a) {
+  int step = 0;
+  bool before = false;
+  change_flags(in, a.site, [=](bool touches, double, double) mutable {
+    if (touches && !before) ++step;
+    before = touches;
+    return touches && step % 3 != 0;
+  });
+}
+
 Kind make(const std::string& id, double nominal,
           void (*put)(Ingredients&, const Machine&, const Amount&),
           std::vector<std::string> described_by = {}) {
@@ -131,6 +142,8 @@ std::vector<Kind> foreign_kinds() {
       make("churning", 0.3, churning, {"viscous_friction"}),
       make("one_sided_gain", 0.1, one_sided_gain, {"torque_gain"}),
       make("soft_ground", 8.0, soft_ground),
+      make("missed_steps", 1.0, missed_steps,
+           {"contact_undeclared", "contact_late", "contact_short"}),
   };
   for (Kind& k : all) {
     k.largest = 12.0 * k.nominal;
@@ -140,8 +153,33 @@ std::vector<Kind> foreign_kinds() {
       k.arm = false;
       k.place = Place::whole;
     }
+    if (k.id == "missed_steps") {
+      k.flags = true;
+      k.arm = false;
+      k.place = Place::contact;
+    }
   }
   return all;
+}
+
+/// ends.
+void change_flags(Ingredients& in, int site,
+                  const std::function<bool(bool touches, double since, double until)>& told) {
+  in.signals.emplace_back([site, told](Readings& readings) {
+    const auto foot = static_cast<std::size_t>(site);
+    constexpr double long_ago = 1.0;  // at the ends of the log: longer than any step
+    for (std::size_t begin = 0, end = 0; begin < readings.size(); begin = end) {
+      const bool touches = readings[begin].sample.in_contact[foot];
+      while (end < readings.size() && readings[end].sample.in_contact[foot] == touches) ++end;
+      const double from = readings[begin].sample.time - (begin == 0 ? long_ago : 0.0);
+      const bool last = end == readings.size();
+      const double to = last ? readings.back().sample.time + long_ago : readings[end].sample.time;
+      for (std::size_t i = begin; i < end; ++i) {
+        const double t = readings[i].sample.time;
+        readings[i].sample.in_contact[foot] = told(touches, t - from, to - t);
+      }
+    }
+  });
 }
 
 void delay(Readings& readings, double seconds,

@@ -144,27 +144,6 @@ void foot_radius(Ingredients& in, const Machine&, const Amount& a) {
   in.ground.foot_radius.assign(in.robot.contacts.size(), 0.0);
   in.ground.foot_radius[static_cast<std::size_t>(a.site)] = a.size;
 }
-/// What each reading is told of a foot: whether it touches now, s since this began, s until it
-/// ends.
-void change_flags(Ingredients& in, int site,
-                  const std::function<bool(bool touches, double since, double until)>& told) {
-  in.signals.emplace_back([site, told](Readings& readings) {
-    const auto foot = static_cast<std::size_t>(site);
-    constexpr double long_ago = 1.0;  // at the ends of the log: longer than any step
-    for (std::size_t begin = 0, end = 0; begin < readings.size(); begin = end) {
-      const bool touches = readings[begin].sample.in_contact[foot];
-      while (end < readings.size() && readings[end].sample.in_contact[foot] == touches) ++end;
-      const double from = readings[begin].sample.time - (begin == 0 ? long_ago : 0.0);
-      const bool last = end == readings.size();
-      const double to = last ? readings.back().sample.time + long_ago : readings[end].sample.time;
-      for (std::size_t i = begin; i < end; ++i) {
-        const double t = readings[i].sample.time;
-        readings[i].sample.in_contact[foot] = told(touches, t - from, to - t);
-      }
-    }
-  });
-}
-
 /// The flag of a foot follows its touch only so much later; size in s.
 void contact_late(Ingredients& in, const Machine&, const Amount& a) {
   change_flags(in, a.site,
@@ -278,6 +257,7 @@ std::vector<Kind> list() {
     if (k.id == "imu_delay" || k.place == Place::accelerometer || k.place == Place::contact) {
       k.arm = false;
     }
+    k.flags = k.place == Place::contact && k.values == nullptr;
   }
   for (const Kind& k : foreign_kinds()) all.push_back(k);
   return all;

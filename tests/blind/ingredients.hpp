@@ -55,8 +55,10 @@ struct Kind {
   double nominal = 1.0;  ///< a size that is easy to see
   double largest = 1.0;  ///< beyond it no robot would be run, or the equation no longer holds
   void (*put)(Ingredients&, const Machine&, const Amount&) = nullptr;
-  /// Values of the catalogue's parameters for an amount. Null if foreign, or if no number says how
-  /// much there is of it: the trial then has the nominal size, and no model is told the truth.
+  /// It changes what is said of contacts: no number says how much that is, and no model is told the
+  /// truth.
+  bool flags = false;
+  /// Values of the catalogue's parameters for an amount. Null if foreign, or if it changes flags.
   std::vector<double> (*values)(const Machine&, const Amount&) = nullptr;
   std::vector<double> shape;
   /// Of a foreign effect: catalogue ids that describe a part of it rightly, on its site.

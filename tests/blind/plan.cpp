@@ -141,9 +141,11 @@ class Generator {
     Item item{k.id, {places[draw(random, places.size())], k.nominal, {0, 0, 0}}, ratio};
     for (double& d : item.amount.direction) d = random.normal();
     item.amount.direction.normalize();
-    // Nothing of soft ground reaches the equation of motion.
-    if (k.id == "soft_ground" || (!k.foreign && k.values == nullptr)) {
+    // Nothing of soft ground reaches the equation of motion; a flag is no number in it.
+    if (k.id == "soft_ground" || k.flags) {
       item.ratio = 0.0;
+      // Times from half to twice the usual one.
+      if (k.flags && !k.foreign) item.amount.size *= std::exp2(2.0 * random.uniform() - 1.0);
       return item;
     }
     item.amount.size = ratio * detectable(m, k, item, trial);

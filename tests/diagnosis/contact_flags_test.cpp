@@ -1,0 +1,175 @@
+// Flags of contacts that come late or go early: found, and corrected so that the force is projected
+// away.
+#include "shapeid/diagnosis/contact_flags.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/models/robot_yaml.hpp"
+#include "shapeid/models/simbody/random.hpp"
+#include "shapeid/models/simbody/simulation.hpp"
+#include "shapeid/models/urdf.hpp"
+#include "shapeid/tests/support/generators.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// At 100 Hz, with a sample missing where there is a bar: x touches.
+Recording flags(const std::string& pattern) {
+  std::vector<Sample> samples;
+  double time = 0.0;
+  for (const char c : pattern) {
+    if (c != '|') {
+      Sample s;
+      s.time = time;
+      s.in_contact = {true, c == 'x'};
+      samples.push_back(s);
+    }
+    time += 0.01;
+  }
+  return {std::move(samples), 100.0};
+}
+
+TEST(ContactTimes, AreThoseToTheNextSampleThatTouchesInTheSegment) {
+  const Recording log = flags("..x.x..|..x.");
+  const std::vector<double> since = {infinity, infinity, 0.0,      0.01, 0.0, 0.01,
+                                     0.02,     infinity, infinity, 0.0,  0.01};
+  const std::vector<double> until = {0.02,     0.01, 0.0,  0.01, 0.0,     infinity,
+                                     infinity, 0.02, 0.01, 0.0,  infinity};
+  ASSERT_EQ(log.samples().size(), since.size());
+  constexpr double rounding = 1e-12;  // s, of sums of a few steps
+  const auto same = [](double a, double b) { return a == b || std::abs(a - b) < rounding; };
+  for (std::size_t i = 0; i < since.size(); ++i) {
+    SCOPED_TRACE(i);
+    const Surroundings here = log.surroundings(i);
+    EXPECT_PRED2(same, here.since_touch[1], since[i]);
+    EXPECT_PRED2(same, here.until_touch[1], until[i]);
+    EXPECT_EQ(here.since_touch[0], 0.0);
+    EXPECT_EQ(here.until_touch[0], 0.0);
+  }
+}
+
+std::string pattern_of(const Recording& log) {
+  std::string pattern;
+  for (const Sample& s : log.samples()) pattern += s.in_contact[1] ? 'x' : '.';
+  return pattern;
+}
+
+TEST(ContactTimes, LengthenedContactsStayInTheirSegment) {
+  constexpr double little = 1e-6;  // s
+  Recording log = flags("...x....|....x..");
+  log.lengthen_contact(1, 0.02 + little, 0.01 + little);
+  EXPECT_EQ(pattern_of(log), ".xxxx.....xxxx.");
+  EXPECT_EQ(log.surroundings(0).until_touch[1], 0.01) << "times are of the new flags";
+}
+
+/// On the log as it was, the effect says what lengthening the log's contact says.
+RC_GTEST_PROP(ContactFlags, AreTheSameAsAnEffectAndCorrectedInTheLog, ()) {
+  const Robot robot = *test::robot({2, 5, Root::floating});
+  RC_PRE(!robot.contacts.empty());
+  Sample sample = *test::sample(robot);
+  sample.in_contact.assign(robot.contacts.size(), false);
+  const std::vector<int> touches =
+      *rc::gen::container<std::vector<int>>(40, rc::gen::weightedElement<int>({{4, 0}, {1, 1}}));
+  const auto contact = *rc::gen::inRange<std::size_t>(0, robot.contacts.size());
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    sample.time = 0.01 * static_cast<double>(i);
+    sample.in_contact[contact] = touches[i] == 1;
+    samples.push_back(sample);
+  }
+  const Recording log(std::move(samples), 100.0);
+  const bool late = *rc::gen::arbitrary<bool>();
+  AppliedEffect effect =
+      at_start(*find_effect(late ? "contact_late" : "contact_short"), static_cast<int>(contact));
+  effect.value[0] = 0.001 * *rc::gen::inRange(0, 80);
+  Recording lengthened = log;
+  correct_contact_flags(lengthened, {Found{effect, "", Eigen::VectorXd::Zero(1)}});
+  const Viewer viewer(robot, reference::ContactTreatment::project, {effect});
+  const Viewer plain(robot, reference::ContactTreatment::project, {});
+  for (std::size_t i = 0; i < log.samples().size(); ++i) {
+    const View as_effect = viewer.view(log, i), corrected = plain.view(lengthened, i);
+    RC_ASSERT(as_effect.sample.in_contact == corrected.sample.in_contact);
+    RC_ASSERT(as_effect.J == corrected.J);
+  }
+}
+
+/// A trot of Simbody's with noise of torque alone, and what its logs are searched with.
+struct Trot {
+  Trot() {
+    const std::string files = SHAPEID_SOURCE_DIR "/models/robots/quadruped.";
+    robot = read_urdf(files + "urdf").robot;
+    static_cast<void>(read_robot_yaml(files + "robot.yaml", robot));
+    SimulationOptions options;
+    options.duration = 6.0;
+    Random random(7);
+    simulate(robot, options, [&](const SimulatedSample& s) {
+      samples.push_back(s.sample);
+      constexpr double noise = 0.03;  // N m
+      for (double& tau : samples.back().tau) tau += noise * random.normal();
+    });
+    settings.size = Eigen::VectorXd::Ones(Eigen::Index{10} * robot.link_count());
+    settings.shapes.known = stacked_parameters(robot);
+    settings.stride = 4;
+  }
+
+  /// A foot's flag comes so much (s) after the touch, and goes so much before the foot does.
+  [[nodiscard]] Recording log(std::size_t foot, double late, double early) const {
+    std::vector<Sample> told = samples;
+    const Recording exact(samples, rate);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (!samples[i].in_contact[foot]) continue;
+      for (std::size_t k = 0; k < samples.size(); ++k) {
+        const double after = samples[i].time - samples[k].time;
+        if (samples[k].in_contact[foot] || after > late || after < -early) continue;
+        told[i].in_contact[foot] = false;
+      }
+    }
+    return {std::move(told), rate};
+  }
+
+  static constexpr double rate = 500.0;
+  Robot robot;
+  std::vector<Sample> samples;
+  LoopSettings settings;
+};
+
+void expect_found(const Trot& trot, Recording log, const std::string& id, double time) {
+  const std::vector<Found> found =
+      correct_contact_flags(trot.robot, log, nullptr, nullptr, trot.settings);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].id, id);
+  // Searched in steps of one and a half, and rounded up by a fifth.
+  EXPECT_GT(found[0].effect.value[0], time / 1.5);
+  EXPECT_LT(found[0].effect.value[0], time * 1.5 * 1.2 * 1.01);
+  EXPECT_GT(found[0].gain, 0.5) << "it is most of what the rigid robot leaves";
+}
+
+TEST(ContactFlags, AreFoundOnATrotWhereTheyAreWrong) {
+  const Trot trot;
+  Recording right = trot.log(2, 0.0, 0.0);
+  EXPECT_TRUE(correct_contact_flags(trot.robot, right, nullptr, nullptr, trot.settings).empty());
+  expect_found(trot, trot.log(2, 0.016, 0.0), "contact_late@RR_foot", 0.016);
+  expect_found(trot, trot.log(1, 0.0, 0.024), "contact_short@FL_foot", 0.024);
+}
+
+TEST(ContactFlags, TheGroundCannotPull) {
+  std::vector<Sample> samples(3);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].time = 0.01 * static_cast<double>(i);
+    samples[i].base_specific_force = Eigen::Vector3d(2.0, 0.0, 9.0);  // a base on a slope
+  }
+  const Recording log(std::move(samples), 100.0);
+  EXPECT_TRUE(pushes(log, {1.0, 5.0, 0.0}));
+  EXPECT_FALSE(pushes(log, {-5.0, 0.0, 1.0}));
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
