@@ -103,14 +103,15 @@ Outcome judge_known(const Machine& m, const Trial& trial, const std::vector<Said
 }
 
 /// Distance of inertias from the true ones: mass, first moments and tensors, each relative to the
-/// link's mass and a decimetre.
-double distance(const Machine& m, const json& links, const std::string& which) {
+/// link's mass and a decimetre; of all numbers, or of those that the diagnosis calls determined.
+double distance(const Machine& m, const json& links, const std::string& which, bool all) {
   constexpr double length = 0.1;
   double sum = 0.0;
   for (const json& entry : links) {
     const int link = *m.robot.find_link(entry.at("name"));
     const Vector10 truth = m.robot.links[static_cast<std::size_t>(link)].inertia.values;
     for (std::size_t p = 0; p < 10; ++p) {
+      if (!all && !entry.at("determined").at(p).get<bool>()) continue;
       const double unit = p == 0 ? 1.0 : p < 4 ? length : length * length;
       const double error =
           entry.at(which).at(p).get<double>() - truth[static_cast<Eigen::Index>(p)];
@@ -181,13 +182,15 @@ std::string table(const std::vector<Scored>& all, const std::string& first, cons
 
 std::string numbers(const std::vector<Scored>& all) {
   std::vector<double> ratio;
-  int closer = 0, compared = 0;
+  int closer = 0, compared = 0, determined_closer = 0, determined = 0;
   for (const Scored& s : all) {
-    if (s.judgement.error_ratio > 0.0) ratio.push_back(s.judgement.error_ratio);
-    if (s.judgement.mass_before > 0.0 && !is_foreign(s.trial)) {
-      ++compared;
-      if (s.judgement.mass_after < s.judgement.mass_before) ++closer;
-    }
+    const Judgement& j = s.judgement;
+    if (j.error_ratio > 0.0) ratio.push_back(j.error_ratio);
+    if (is_foreign(s.trial)) continue;
+    if (j.given.all > 0.0) ++compared;
+    if (j.found.all < j.given.all) ++closer;
+    if (j.given.determined > 0.0) ++determined;
+    if (j.found.determined < j.given.determined) ++determined_closer;
   }
   std::sort(ratio.begin(), ratio.end());
   const auto within = static_cast<int>(
@@ -197,6 +200,8 @@ std::string numbers(const std::vector<Scored>& all) {
                 static_cast<int>(ratio.size()), "all");
   text +=
       share("inertial parameters closer to the truth after than before", closer, compared, "all");
+  text +=
+      share("of these what the diagnosis calls determined", determined_closer, determined, "all");
   if (!ratio.empty()) {
     text += fmt::format(
         "\nHeld-out error over that of the model told the truth: median {:.3f}, "
@@ -252,8 +257,9 @@ Judgement judge(const Trial& trial, const json& result) {
   if (trial.items.empty() && said.empty()) {
     j.outcome = structure ? Outcome::unexplained : Outcome::right;
   }
-  j.mass_before = distance(m, result.at("links"), "given");
-  j.mass_after = distance(m, result.at("links"), "parameters");
+  const json& links = result.at("links");
+  j.given = {distance(m, links, "given", true), distance(m, links, "given", false)};
+  j.found = {distance(m, links, "parameters", true), distance(m, links, "parameters", false)};
   return j;
 }
 

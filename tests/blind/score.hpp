@@ -32,8 +32,12 @@ struct Judgement {
   std::string said;          ///< the findings' names
   std::size_t set_size = 0;  ///< of the largest set of inseparable names
   double error_ratio = 0.0;  ///< held-out error over that of the model told the truth; 0: not known
-  double mass_before = 0.0;  ///< distance of the given inertias from the true ones
-  double mass_after = 0.0;   ///< of the identified ones
+  /// Distance from the true inertias, of all numbers and of those that the diagnosis calls
+  /// determined.
+  struct Distance {
+    double all = 0.0, determined = 0.0;
+  };
+  Distance given, found;
 };
 
 /// `result` is the document of `shapeid diagnose --json`; null if it refused the log.

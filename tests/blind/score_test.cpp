@@ -117,11 +117,20 @@ TEST(Score, InertiasAreComparedWithTheTruth) {
   const Vector10 truth = m.robot.links[2].inertia.values;
   const auto numbers = [](const Vector10& v) { return std::vector<double>(v.begin(), v.end()); };
   json said = answer({});
-  said["links"].push_back(
-      {{"name", "upper"}, {"given", numbers(1.5 * truth)}, {"parameters", numbers(1.1 * truth)}});
+  std::vector<bool> only_mass(10, false);
+  only_mass[0] = true;
+  Vector10 given = 1.5 * truth;
+  given[0] = 1.2 * truth[0];
+  said["links"].push_back({{"name", "upper"},
+                           {"given", numbers(given)},
+                           {"parameters", numbers(1.1 * truth)},
+                           {"determined", only_mass}});
   const Judgement j = judge(trial({}), said);
-  EXPECT_GT(j.mass_before, 4.0 * j.mass_after);
-  EXPECT_GT(j.mass_after, 0.0);
+  EXPECT_GT(j.given.all, 4.0 * j.found.all * (0.2 / 0.5));
+  EXPECT_GT(j.found.all, j.found.determined);
+  // Of the mass alone, relative to itself.
+  EXPECT_NEAR(j.given.determined, 0.2, 1e-12);
+  EXPECT_NEAR(j.found.determined, 0.1, 1e-12);
 }
 
 /// Against the closed form at its well known values (Wilson 1927; Agresti and Coull 1998).
