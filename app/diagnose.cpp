@@ -81,6 +81,7 @@ void add_diagnose(CLI::App& app) {
   verb->add_option("--also", d.also, "further logs of this robot, fitted together with the first");
   verb->add_option("--test", d.test,
                    "logs for the final comparison (default: every fifth two seconds of the log)");
+  add_hold_out_option(*verb, d.inputs);
   verb->add_option("--reference", d.reference,
                    "earlier log of the same robot: what has come since is then a finding");
   auto* shapes = verb->add_option("--shapes", d.shapes,

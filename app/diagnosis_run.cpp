@@ -126,7 +126,7 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
   const diagnosis::Series zero =
       diagnosis::series(r, settings.contacts, nothing, run.test, settings.stride);
   TestErrors errors;
-  errors.where = options.test.empty() ? "every fifth two seconds of the log"
+  errors.where = options.test.empty() ? held_out_words(options.inputs)
                                       : fmt::format("{}", fmt::join(options.test, ", "));
   errors.samples = run.after.index.size();
   errors.at_rest = 1.0 - zero.counted.cast<double>().rowwise().mean();

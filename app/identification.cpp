@@ -23,19 +23,21 @@ namespace {
 /// Samples of one part of the log (or all of it, when another log is for testing).
 class PartOfLog {
  public:
-  PartOfLog(LogSamples& log, std::optional<Part> wanted) : log_(&log), wanted_(wanted) {}
+  PartOfLog(LogSamples& log, const MotionInputs& inputs, std::optional<Part> wanted)
+      : log_(&log), held_out_stretch_(inputs.held_out_stretch), wanted_(wanted) {}
 
   std::optional<Sample> next() {
     while (std::optional<Sample> sample = log_->next()) {
       if (!started_) start_ = sample->time;
       started_ = true;
-      if (!wanted_ || part_of(sample->time - start_) == *wanted_) return sample;
+      if (!wanted_ || part_of(sample->time - start_, held_out_stretch_) == *wanted_) return sample;
     }
     return std::nullopt;
   }
 
  private:
   LogSamples* log_;
+  int held_out_stretch_;
   std::optional<Part> wanted_;
   bool started_ = false;
   double start_ = 0.0;
@@ -45,14 +47,14 @@ Comparison compare(const RobotInputs& robot, const MotionInputs& inputs, const R
                    const Eigen::VectorXd& found) {
   const bool same_log = options.test_log.empty();
   LogSamples log(same_log ? inputs.log : options.test_log, robot, inputs);
-  PartOfLog samples(log, same_log ? std::optional(Part::held_out) : std::nullopt);
+  PartOfLog samples(log, inputs, same_log ? std::optional(Part::held_out) : std::nullopt);
   const Eigen::VectorXd given = stacked_parameters(robot.robot);
   reference::ResidualTable table(robot.robot, log.contacts(),
                                  {Eigen::VectorXd::Zero(given.size()), given, found});
   while (const std::optional<Sample> sample = samples.next()) table.add(*sample);
   const Eigen::MatrixXd rms = table.rms();
   return {table.samples(), rms.col(0), rms.col(1), rms.col(2),
-          same_log ? "every fifth two seconds of the log" : options.test_log};
+          same_log ? held_out_words(inputs) : options.test_log};
 }
 
 diagnosis::RichModel known_model(const Robot& robot, const std::string& effects_file) {
@@ -106,7 +108,7 @@ class EffectsRun {
     };
     return {test.recording.usable(1).size(), rms({Eigen::VectorXd::Zero(found.size()), {}}),
             rms({model_.Phi, {}}), rms({found, model_.effects, model_.curves}),
-            same_log ? "every fifth two seconds of the log" : options.test_log};
+            same_log ? held_out_words(inputs) : options.test_log};
   }
 
  private:
@@ -139,7 +141,8 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   std::optional<EffectsRun> effects;
   if (!options.effects.empty()) effects.emplace(robot, inputs, options);
   LogSamples log(inputs.log, robot, inputs);
-  PartOfLog samples(log, options.test_log.empty() ? std::optional(Part::fitted) : std::nullopt);
+  PartOfLog samples(log, inputs,
+                    options.test_log.empty() ? std::optional(Part::fitted) : std::nullopt);
   reference::IdentifySettings settings = settings_for(log, robot, inputs, options.settings);
   if (effects) {
     settings.rows = [&](const Sample& moved) { return effects->rows(moved, model); };

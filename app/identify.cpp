@@ -80,6 +80,7 @@ void add_identify(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("identify", "masses, parameters and a URDF from a log");
   options->inputs.add_to(*verb);
   add_solver_options(*verb, options->run);
+  add_hold_out_option(*verb, options->inputs);
   options->sought.add_to(*verb);
   verb->add_option("--effects", options->run.effects,
                    "effects.yaml of diagnose: friction and the like, taken as known");

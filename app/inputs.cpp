@@ -194,18 +194,31 @@ std::optional<Sample> LogSamples::next() {
   return sample;
 }
 
-Part part_of(double time_since_start) {
+Part part_of(double time_since_start, int held_out_stretch) {
   constexpr double stretch = 2.0;  // s: several strides
   // s: the response of the default filter (20 Hz) has fallen below a thousandth well before.
   constexpr double margin = 0.1;
-  constexpr int stretches = 5;
-  const double place = std::fmod(time_since_start, stretches * stretch);
-  const double held_out_from = (stretches - 1) * stretch;
-  if (place >= held_out_from + margin && place < stretches * stretch - margin) {
-    return Part::held_out;
-  }
-  if (place >= margin && place < held_out_from - margin) return Part::fitted;
+  constexpr double period = stretches * stretch;
+  const double held_out_from = (held_out_stretch - 1) * stretch;
+  const double place = std::fmod(time_since_start - held_out_from + period, period);
+  if (place >= margin && place < stretch - margin) return Part::held_out;
+  if (place >= stretch + margin && place < period - margin) return Part::fitted;
   return Part::neither;
+}
+
+std::string held_out_words(const MotionInputs& inputs) {
+  return inputs.held_out_stretch == stretches
+             ? "every fifth two seconds of the log"
+             : fmt::format("two seconds of every ten of the log, from {} s on",
+                           2 * (inputs.held_out_stretch - 1));
+}
+
+void add_hold_out_option(CLI::App& verb, MotionInputs& inputs) {
+  verb.add_option("--hold-out", inputs.held_out_stretch,
+                  "which of every five stretches of two seconds to test on, if no --test is given")
+      ->check(CLI::Range(1, stretches))
+      ->capture_default_str()
+      ->excludes(verb.get_option("--test"));
 }
 
 }  // namespace shapeid::app

@@ -15,14 +15,18 @@
 
 namespace shapeid::app {
 
+/// Of so many stretches of a log one is held out.
+constexpr int stretches = 5;
+
 /// Options that name the robot, the log and how to read them.
 struct MotionInputs {
   std::string robot, robot_yaml, log, mapping;
   double cutoff = 20.0, row_cutoff = 0.0, rate = 0.0, contact_threshold = 0.15;
   std::string contacts = "auto";
   bool exact = false, accept_impossible = false;
-  bool causal = false;  ///< smooth as a robot would, forward in time only
-  bool quiet = false;   ///< no progress on a terminal: several logs are read at once
+  int held_out_stretch = stretches;  ///< which one of them
+  bool causal = false;               ///< smooth as a robot would, forward in time only
+  bool quiet = false;                ///< no progress on a terminal: several logs are read at once
 
   void add_to(CLI::App& verb);
   /// All but the log and how it is smoothed.
@@ -77,9 +81,17 @@ class LogSamples {
   std::size_t count_ = 0;
 };
 
-/// Every fifth stretch of two seconds is held out; samples close to its ends are used for neither
-/// side, because the smoothing filter reaches across.
+/// Of every five stretches of two seconds one is held out, the last unless another one is chosen;
+/// samples close to its ends are used for neither side, because the smoothing filter reaches
+/// across.
 enum class Part { fitted, held_out, neither };
-[[nodiscard]] Part part_of(double time_since_start);
+/// `held_out_stretch`: 1 to `stretches`.
+[[nodiscard]] Part part_of(double time_since_start, int held_out_stretch);
+
+/// What is held out, for people to read.
+[[nodiscard]] std::string held_out_words(const MotionInputs& inputs);
+
+/// Adds --hold-out to a verb that has --test.
+void add_hold_out_option(CLI::App& verb, MotionInputs& inputs);
 
 }  // namespace shapeid::app

@@ -70,6 +70,7 @@ void add_load(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("load", "an unknown load on a link: its mass and its place");
   options->inputs.add_to(*verb);
   add_solver_options(*verb, options->run);
+  add_hold_out_option(*verb, options->inputs);
   verb->add_option("--area", options->area,
                    "LINK x0 x1 y0 y1 z0 z1: where the load may be, m, in the link's frame")
       ->required()

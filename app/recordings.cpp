@@ -38,7 +38,8 @@ RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
                        fmt::format("more than {} samples, all of which are held", most_samples),
                        "half an hour says no less: give a shorter stretch");
     }
-    if (!wanted || part_of(sample->time - *start) == *wanted) samples.push_back(*sample);
+    if (!wanted || part_of(sample->time - *start, inputs.held_out_stretch) == *wanted)
+      samples.push_back(*sample);
   }
   const MotionReport& report = log.report();
   return {recording_of(std::move(samples), report, inputs), report, log.contacts(), {0.0}};

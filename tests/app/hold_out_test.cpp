@@ -1,0 +1,83 @@
+// What is held out is used for nothing else: torque that is spoilt there changes no mass.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "shapeid/models/log.hpp"
+#include "shapeid/models/log_writer.hpp"
+#include "shapeid/tests/app/command.hpp"
+
+namespace shapeid::test {
+namespace {
+
+const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
+const std::string files =
+    fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
+
+constexpr double spoilt_by = 50.0;  // N m
+
+/// The log with more torque of a knee from one time to another.
+void spoil(const std::string& log_name, const std::string& to, double from, double until) {
+  LogReader log(scratch() + "/" + log_name);
+  LogWriter out(scratch() + "/" + to, log.columns());
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(log.columns().begin(), log.columns().end(), name) -
+                                    log.columns().begin());
+  };
+  const std::size_t time = column("time"), tau = column("tau.FR_knee");
+  ASSERT_LT(std::max(time, tau), log.columns().size());
+  while (std::optional<LogRow> row = log.next()) {
+    if (row->values[time] >= from && row->values[time] < until) row->values[tau] += spoilt_by;
+    out.write(row->values);
+  }
+  out.close();
+}
+
+nlohmann::json identified(const std::string& arguments) {
+  // Torque as logged: a filter would carry it out of the stretch.
+  const CommandRun run = shapeid(
+      fmt::format("identify {} --shapes box.yaml --exact --cutoff 0 --divisions 3 --json {}", files,
+                  arguments));
+  EXPECT_EQ(run.status, 0) << run.err;
+  return run.status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
+}
+
+TEST(HoldOut, IsUsedForNothingElse) {
+  ASSERT_EQ(shapeid("simulate --exact --seconds 10 --rate 100 --out clean.csv").status, 0);
+  scratch_file("box.yaml", "base: [{kind: cuboid, size: [0.5, 0.25, 0.15]}]\n");
+  for (int stretch = 1; stretch <= 5; ++stretch) {
+    constexpr double length = 2.0, margin = 0.09;
+    spoil("clean.csv", "spoilt.csv", length * (stretch - 1) - margin, length * stretch + margin);
+    const std::string chosen = fmt::format("--hold-out {}", stretch);
+    const auto clean = identified("--log clean.csv " + chosen);
+    const auto spoilt = identified("--log spoilt.csv " + chosen);
+    EXPECT_EQ(clean["links"], spoilt["links"]) << stretch;
+    const auto wrong = identified(fmt::format("--log spoilt.csv --hold-out {}", stretch % 5 + 1));
+    EXPECT_NE(clean["links"], wrong["links"]) << stretch;
+    double largest = 0.0;
+    for (const auto& rms : spoilt["heldout"]["rms_after"])
+      largest = std::max(largest, rms.get<double>());
+    EXPECT_GT(largest, 0.5 * spoilt_by) << "the test stretch is what was spoilt";
+    if (stretch < 5) continue;
+    EXPECT_EQ(clean["links"], identified("--log clean.csv")["links"])
+        << "the last, if none is said";
+  }
+}
+
+TEST(HoldOut, RefusesWhatIsNoStretch) {
+  for (const char* wrong : {"--hold-out 0", "--hold-out 6", "--hold-out 1.5", "--hold-out two",
+                            "--hold-out 2 --test other.csv"}) {
+    for (const char* verb : {"identify", "diagnose"}) {
+      const CommandRun run = shapeid(fmt::format("{} {} --log clean.csv {}", verb, files, wrong));
+      EXPECT_EQ(run.status, 2) << verb << " " << wrong;
+      EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+      EXPECT_NE(run.err.find("hold-out"), std::string::npos) << run.err;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace shapeid::test
