@@ -76,19 +76,25 @@ Table parameters_table(const DiagnosisRun& run, const Robot& robot, std::size_t 
       "Ixy (kg m^2)", "Ixz (kg m^2)", "Iyy (kg m^2)", "Iyz (kg m^2)", "Izz (kg m^2)"};
   constexpr double of_95_percent = 1.96;
   const int link = run.settings.shapes.free_links[sought];
-  Table table = {{"parameter", "given", "found", "95 % interval", "determined by"}};
+  Table table = {{"parameter", "given", "found", "95 % interval", "with what was not noticed",
+                  "determined by"}};
   if (run.causes_alone) table[0].push_back("beside causes alone");
   const Link& given = robot.links[static_cast<std::size_t>(link)];
   for (Eigen::Index p = 0; p < 10; ++p) {
     const Eigen::Index at = Eigen::Index{10} * link + p;
     const double value = run.consistent.model.Phi[at];
-    const double half = of_95_percent * run.consistent.Phi_error[at];
-    table.push_back({names[static_cast<std::size_t>(p)], short_number(given.inertia.values[p]),
-                     short_number(value),
-                     fmt::format("{:.3g} to {:.3g}", value - half, value + half),
-                     run.consistent.data.determined[10 * sought + static_cast<std::size_t>(p)]
-                         ? "data"
-                         : "given inertia and bodies"});
+    const auto interval = [&](double error) {
+      const double half = of_95_percent * error;
+      return fmt::format("{:.3g} to {:.3g}", value - half, value + half);
+    };
+    const std::string& effect = run.unnoticed.effect[static_cast<std::size_t>(at)];
+    table.push_back(
+        {names[static_cast<std::size_t>(p)], short_number(given.inertia.values[p]),
+         short_number(value), interval(run.consistent.Phi_error[at]),
+         effect.empty() ? "the same" : interval(run.unnoticed.error[at]) + " (" + effect + ")",
+         run.consistent.data.determined[10 * sought + static_cast<std::size_t>(p)]
+             ? "data"
+             : "given inertia and bodies"});
     if (run.causes_alone) {
       table.back().push_back(short_number(run.causes_alone->model.Phi[at]));
     }
@@ -185,6 +191,10 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
       autocorrelation_picture(run, robot),
       "Over the lag in s, before (orange) and after (blue); the band is that of white noise");
   page.heading("Inertial parameters");
+  page.paragraph(
+      "The 95 % interval takes for granted that nothing acts but what was found. With what was not "
+      "noticed: if the effect that is named acts, as large as this log allows without its being "
+      "found.");
   if (run.causes_alone) {
     page.paragraph(
         "Beside causes alone: fitted again without the effects whose name does not stand. What "

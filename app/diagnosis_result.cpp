@@ -92,6 +92,9 @@ json links_json(const DiagnosisRun& run, const Robot& robot) {
                   {"parameters", numbers(run.consistent.model.Phi.segment<10>(at))},
                   {"given", numbers(given.inertia.values)},
                   {"standard_error", numbers(run.consistent.Phi_error.segment<10>(at))},
+                  {"error_if_unnoticed", numbers(run.unnoticed.error.segment<10>(at))},
+                  {"unnoticed", std::vector<std::string>(run.unnoticed.effect.begin() + at,
+                                                         run.unnoticed.effect.begin() + at + 10)},
                   {"data_standard_error", numbers(data.standard_error.segment<10>(own))},
                   {"determined", std::vector<bool>(data.determined.begin() + own,
                                                    data.determined.begin() + own + 10)}};

@@ -281,6 +281,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                    {},
                    {},
                    {},
+                   {},
                    std::move(test.recording),
                    {},
                    {},
@@ -302,6 +303,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   run.consistent =
       diagnosis::make_consistent(robot.robot, log.recording, reference, run.settings, run.loop);
   diagnosis::mark_faded(log.recording, run.settings, run.consistent, run.loop);
+  run.unnoticed = diagnosis::unnoticed(robot.robot, log.recording, reference, run.settings,
+                                       run.loop, run.consistent);
   run.causes_alone =
       diagnosis::beside_causes_alone(robot.robot, log.recording, reference, run.settings, run.loop);
   run.notes.insert(run.notes.end(), robot.warnings.begin(), robot.warnings.end());

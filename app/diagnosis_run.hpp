@@ -10,6 +10,7 @@
 #include "shapeid/diagnosis/consistent.hpp"
 #include "shapeid/diagnosis/curve_fit.hpp"
 #include "shapeid/diagnosis/unexplained.hpp"
+#include "shapeid/diagnosis/unnoticed.hpp"
 
 namespace shapeid::app {
 
@@ -47,6 +48,7 @@ struct DiagnosisRun {
   diagnosis::LoopSettings settings;
   diagnosis::LoopResult loop;
   diagnosis::Consistent consistent;
+  diagnosis::Unnoticed unnoticed;
   std::optional<diagnosis::Consistent> causes_alone;  ///< if there are effects that are no causes
   TestErrors errors;
   std::vector<diagnosis::Structure> structures;

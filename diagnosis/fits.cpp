@@ -285,6 +285,22 @@ std::vector<BlockFits::Promise> BlockFits::promises(const std::vector<Term>& ter
   return promises;
 }
 
+std::vector<Eigen::MatrixXd> BlockFits::moves(const std::vector<Term>& terms,
+                                              const std::vector<Term>& candidates) const {
+  const Columns a = listed(terms);
+  Eigen::MatrixXd N = normal(a, a, -1);
+  N.diagonal() += ridge(a);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(N);
+  const Eigen::VectorXd unit = scale_(a.index).cwiseInverse();
+  std::vector<Eigen::MatrixXd> moves;
+  for (const Term& candidate : candidates) {
+    const Columns c = listed({candidate});
+    moves.push_back(unit.asDiagonal() * factor.solve(normal(a, c, -1)) *
+                    scale_(c.index).asDiagonal());
+  }
+  return moves;
+}
+
 double BlockFits::contained(const std::vector<Term>& terms, const Term& inner,
                             const Term& outer) const {
   std::vector<Term> all = terms;

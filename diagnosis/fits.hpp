@@ -82,9 +82,15 @@ class BlockFits {
   /// what share of the term's columns the others leave free: 0 for one that they already contain.
   struct Promise {
     double gain = 0.0, free_share = 0.0;
+    /// The data cannot tell it from the others.
+    [[nodiscard]] bool hidden() const { return free_share < 1e-4; }
   };
   [[nodiscard]] std::vector<Promise> promises(const std::vector<Term>& terms,
                                               const std::vector<Term>& candidates) const;
+  /// By how much the fitted numbers of the terms fall when one of a candidate's rises by one of its
+  /// unit: for each candidate terms' columns x its own.
+  [[nodiscard]] std::vector<Eigen::MatrixXd> moves(const std::vector<Term>& terms,
+                                                   const std::vector<Term>& candidates) const;
   /// Share of the columns of `inner` that lies in the span of `terms` and `outer`: 1 if nested.
   [[nodiscard]] double contained(const std::vector<Term>& terms, const Term& inner,
                                  const Term& outer) const;

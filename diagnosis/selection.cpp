@@ -24,8 +24,6 @@ constexpr double simpler_t = 1.0;
 constexpr double rival_sign_t = 2.0;
 // Standard errors by which a rival must gain to be named in an accepted one's place.
 constexpr double rival_t = 1.0;
-// Less than this share of a candidate's columns left free by the others: the data cannot see it.
-constexpr double hidden_share = 1e-4;
 // By how much both measures together must exceed what chance makes of nothing. (Of 159 clean logs
 // of blind trials none had more than 0.95, a length and a lag that had been named in others 0.96
 // and less. Of 162 single effects of two and four times the detectable size two had less than 1.1.)
@@ -107,7 +105,7 @@ class Search {
       // A load's moments must not crowd out what is something else.
       const auto listed = std::count_if(
           list.begin(), list.end(), [&](std::size_t other) { return same_place(open[i], other); });
-      if (promises[i].free_share < hidden_share) {
+      if (promises[i].hidden()) {
         result_.hidden.push_back(open[i]);
       } else if (std::ssize(list) < length && listed < most_of_one_place) {
         list.push_back(open[i]);

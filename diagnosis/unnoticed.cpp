@@ -1,0 +1,72 @@
+#include "shapeid/diagnosis/unnoticed.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapeid/diagnosis/candidates.hpp"
+#include "shapeid/diagnosis/loop_state.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+bool is_in(const std::vector<AppliedEffect>& effects, const AppliedEffect& a) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](const AppliedEffect& b) { return same_place(a, b); });
+}
+
+/// E[theta^2] of each number of a hypothesis, by a fit whose last numbers these are.
+Eigen::VectorXd mean_squares(const AppliedEffect& hypothesis, const Fit& fit, bool hidden) {
+  Eigen::VectorXd squares(hypothesis.value.size());
+  for (Eigen::Index p = 0; p < squares.size(); ++p) {
+    const Parameter& parameter = hypothesis.effect->parameters[static_cast<std::size_t>(p)];
+    const Eigen::Index at = fit.value.size() - squares.size() + p;
+    const double theta = parameter.nonnegative ? std::max(fit.value[at], 0.0) : fit.value[at];
+    squares[p] = hidden ? std::pow(parameter.size, 2)
+                        : std::pow(theta, 2) + std::pow(fit.standard_error[at], 2);
+  }
+  return squares;
+}
+
+}  // namespace
+
+Unnoticed unnoticed(const Robot& robot, const Recording& log, const Recording* reference,
+                    const LoopSettings& settings, const LoopResult& loop,
+                    const Consistent& consistent) {
+  LoopState state(robot, log, reference, settings);
+  state.result = loop;
+  state.result.model = consistent.model;
+  Unnoticed result{consistent.Phi_error,
+                   std::vector<std::string>(static_cast<std::size_t>(consistent.Phi_error.size()))};
+  if (state.masses.columns.empty()) return result;
+  std::vector<AppliedEffect> hypotheses = consistent.model.effects;
+  const std::size_t present = hypotheses.size();
+  for (const AppliedEffect& a : all_hypotheses(robot)) {
+    if (!is_in(consistent.model.effects, a)) hypotheses.push_back(a);
+  }
+  const BlockFits fits = state.tallied(hypotheses);
+  std::vector<Term> terms = state.terms_of_model(fits, present);
+  std::vector<Term> others;
+  for (std::size_t k = present; k < hypotheses.size(); ++k) {
+    others.push_back(term_of(robot, fits.tally(), k));
+  }
+  const std::vector<BlockFits::Promise> promises = fits.promises(terms, others);
+  const std::vector<Eigen::MatrixXd> moves = fits.moves(terms, others);
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(std::ssize(state.masses.columns));
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    terms.push_back(others[k]);
+    const Eigen::VectorXd squares =
+        mean_squares(hypotheses[present + k], fits.fit(terms), promises[k].hidden());
+    terms.pop_back();
+    const Eigen::VectorXd added = moves[k].topRows(most.size()).cwiseAbs2() * squares;
+    for (Eigen::Index i = 0; i < most.size(); ++i) {
+      if (!(added[i] > most[i])) continue;
+      most[i] = added[i];
+      const Eigen::Index number = state.masses.columns[static_cast<std::size_t>(i)];
+      result.error[number] = std::hypot(consistent.Phi_error[number], std::sqrt(added[i]));
+      result.effect[static_cast<std::size_t>(number)] = others[k].id;
+    }
+  }
+  return result;
+}
+
+}  // namespace shapeid::diagnosis

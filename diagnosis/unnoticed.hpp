@@ -1,0 +1,28 @@
+// What an inertia would owe to an effect that is there and was too small to be found.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shapeid/diagnosis/consistent.hpp"
+
+namespace shapeid::diagnosis {
+
+struct Unnoticed {
+  /// 10 links: root of the mean square error that a number has if the effect that moves it most is
+  /// there, as large as the data allow; never below its standard error. Zero for known links.
+  Eigen::VectorXd error;
+  std::vector<std::string> effect;  ///< 10 links: that effect; empty where none moves the number
+};
+
+/// A standard error takes for granted that nothing acts but what was found. A rotor's inertia that
+/// is not found leaves no residual: the link's own inertia has taken it. So each hypothesis of the
+/// catalogue that is not in the model is fitted along, alone. Of its number theta, estimated with
+/// an error s, E[theta^2] = theta^2 + s^2, and an inertia that moves by b per unit of theta was
+/// wrong by b theta. What cannot be told from inertias at all may have its usual size.
+/// `settings` and `loop` are those of the model; `log` carries the loop's correction.
+[[nodiscard]] Unnoticed unnoticed(const Robot& robot, const Recording& log,
+                                  const Recording* reference, const LoopSettings& settings,
+                                  const LoopResult& loop, const Consistent& consistent);
+
+}  // namespace shapeid::diagnosis
