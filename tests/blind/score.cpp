@@ -121,6 +121,23 @@ double distance(const Machine& m, const json& links, const std::string& which, b
   return std::sqrt(sum);
 }
 
+/// The largest error of a number that is called determined, in units of the error that `which`
+/// says.
+double most_errors(const Machine& m, const json& links, const std::string& which) {
+  double most = 0.0;
+  for (const json& entry : links) {
+    const int link = *m.robot.find_link(entry.at("name"));
+    const Vector10 truth = m.robot.links[static_cast<std::size_t>(link)].inertia.values;
+    for (std::size_t p = 0; p < 10; ++p) {
+      if (!entry.at("determined").at(p).get<bool>()) continue;
+      const double error =
+          entry.at("parameters").at(p).get<double>() - truth[static_cast<Eigen::Index>(p)];
+      most = std::max(most, std::abs(error) / entry.at(which).at(p).get<double>());
+    }
+  }
+  return most;
+}
+
 struct Count {
   int of[outcomes] = {};
   int all = 0;
@@ -182,14 +199,19 @@ std::string table(const std::vector<Scored>& all, const std::string& first, cons
 
 std::string numbers(const std::vector<Scored>& all) {
   std::vector<double> ratio;
-  int closer = 0, compared = 0, determined_closer = 0, determined = 0;
+  int closer = 0, compared = 0, determined_closer = 0, determined = 0, within_errors = 0,
+      within_unnoticed = 0;
+  constexpr double errors = 3.0;  // of some ten numbers each should be within them
   for (const Scored& s : all) {
     const Judgement& j = s.judgement;
     if (j.error_ratio > 0.0) ratio.push_back(j.error_ratio);
     if (is_foreign(s.trial)) continue;
     if (j.given.all > 0.0) ++compared;
     if (j.found.all < j.given.all) ++closer;
-    if (j.given.determined > 0.0) ++determined;
+    if (!(j.given.determined > 0.0)) continue;
+    ++determined;
+    if (j.standard_errors <= errors) ++within_errors;
+    if (j.errors_if_unnoticed <= errors) ++within_unnoticed;
     if (j.found.determined < j.given.determined) ++determined_closer;
   }
   std::sort(ratio.begin(), ratio.end());
@@ -202,6 +224,10 @@ std::string numbers(const std::vector<Scored>& all) {
       share("inertial parameters closer to the truth after than before", closer, compared, "all");
   text +=
       share("of these what the diagnosis calls determined", determined_closer, determined, "all");
+  text += share("every number called determined within three standard errors of the truth",
+                within_errors, determined, "");
+  text += share("the same with errors that allow for an effect that was not noticed",
+                within_unnoticed, determined, "");
   if (!ratio.empty()) {
     text += fmt::format(
         "\nHeld-out error over that of the model told the truth: median {:.3f}, "
@@ -260,6 +286,8 @@ Judgement judge(const Trial& trial, const json& result) {
   const json& links = result.at("links");
   j.given = {distance(m, links, "given", true), distance(m, links, "given", false)};
   j.found = {distance(m, links, "parameters", true), distance(m, links, "parameters", false)};
+  j.standard_errors = most_errors(m, links, "standard_error");
+  j.errors_if_unnoticed = most_errors(m, links, "error_if_unnoticed");
   return j;
 }
 

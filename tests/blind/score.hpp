@@ -38,6 +38,9 @@ struct Judgement {
     double all = 0.0, determined = 0.0;
   };
   Distance given, found;
+  /// How far the number that is furthest from the truth is, of those called determined: in its
+  /// standard errors, and in the errors that allow for an effect that was not noticed.
+  double standard_errors = 0.0, errors_if_unnoticed = 0.0;
 };
 
 /// `result` is the document of `shapeid diagnose --json`; null if it refused the log.

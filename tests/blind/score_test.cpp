@@ -124,6 +124,8 @@ TEST(Score, InertiasAreComparedWithTheTruth) {
   said["links"].push_back({{"name", "upper"},
                            {"given", numbers(given)},
                            {"parameters", numbers(1.1 * truth)},
+                           {"standard_error", numbers(0.04 * truth)},
+                           {"error_if_unnoticed", numbers(0.05 * truth)},
                            {"determined", only_mass}});
   const Judgement j = judge(trial({}), said);
   EXPECT_GT(j.given.all, 4.0 * j.found.all * (0.2 / 0.5));
@@ -131,6 +133,8 @@ TEST(Score, InertiasAreComparedWithTheTruth) {
   // Of the mass alone, relative to itself.
   EXPECT_NEAR(j.given.determined, 0.2, 1e-12);
   EXPECT_NEAR(j.found.determined, 0.1, 1e-12);
+  EXPECT_NEAR(j.standard_errors, 2.5, 1e-12);
+  EXPECT_NEAR(j.errors_if_unnoticed, 2.0, 1e-12);
 }
 
 /// Against the closed form at its well known values (Wilson 1927; Agresti and Coull 1998).

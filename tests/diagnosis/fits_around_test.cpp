@@ -126,5 +126,27 @@ TEST_F(Around, OneTermFixed) {
   }
 }
 
+/// What the fit of a log from which the columns were taken loses.
+TEST_F(Around, NumbersMoveAsAnotherRises) {
+  const std::vector<Term> terms = {masses(), hypotheses_[1]};
+  const Eigen::VectorXd before = fits_.fit(terms).value;
+  const std::vector<Eigen::MatrixXd> moves = fits_.moves(terms, hypotheses_);
+  const Tally whole = sums();
+  ASSERT_EQ(moves.size(), hypotheses_.size());
+  for (std::size_t k = 2; k < hypotheses_.size(); ++k) {
+    if (hypotheses_[k].from_block > 0) continue;  // is taken from a part of the log alone
+    for (Eigen::Index p = 0; p < moves[k].cols(); ++p) {
+      constexpr double value = 0.7;
+      const Eigen::Index column = hypotheses_[k].columns[static_cast<std::size_t>(p)];
+      const Eigen::VectorXd after = fits(less(whole, column, value)).fit(terms).value;
+      const Eigen::VectorXd wanted = before - value * moves[k].col(p);
+      // Both shifted so that the scale is that of the largest number.
+      const Eigen::VectorXd large =
+          Eigen::VectorXd::Constant(wanted.size(), wanted.cwiseAbs().maxCoeff());
+      EXPECT_LT(scaled(after - wanted + large, large), threshold) << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace shapeid::diagnosis

@@ -73,9 +73,11 @@ void score(const std::vector<std::string>& folders) {
       fmt::print(stderr, "{}: {}\n", trial.filename().string(), s.trial.error);
       continue;
     }
-    lines += fmt::format("| {} | {} | {} | {}{} | {:.3f} |\n", s.trial.machine, items_text(s.trial),
+    const double ratio = s.judgement.error_ratio;
+    lines += fmt::format("| {} | {} | {} | {}{} | {} |\n", s.trial.machine, items_text(s.trial),
                          s.judgement.said, name_of(s.judgement.outcome),
-                         s.judgement.beside ? " beside" : "", s.judgement.error_ratio);
+                         s.judgement.beside ? " beside" : "",
+                         ratio > 0.0 ? fmt::format("{:.3f}", ratio) : "-");
     all.push_back(s);
   }
   fmt::print(

@@ -1,0 +1,112 @@
+// Errors that do not take for granted that nothing acts but what was found.
+#include "shapeid/diagnosis/unnoticed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/regions.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::arm;
+using test::arm_settings;
+using test::effect;
+using test::record;
+
+/// One link sought; what was found, if anything, is given.
+struct Fitted {
+  LoopSettings settings = arm_settings();
+  LoopResult loop;
+  Consistent model;
+  Unnoticed unnoticed;
+
+  Fitted(const Recording& log, int link, const std::vector<AppliedEffect>& found = {}) {
+    settings.shapes = generous_regions(arm(), {link});
+    settings.expected_mass = 2.0;
+    loop.weight = Eigen::VectorXd::Ones(3);
+    loop.prior = 1e-6;
+    loop.model = {stacked_parameters(arm()), found};
+    for (const AppliedEffect& a : found) {
+      loop.found.push_back({a, "found", Eigen::VectorXd::Zero(a.value.size())});
+    }
+    model = make_consistent(arm(), log, nullptr, settings, loop);
+    unnoticed = diagnosis::unnoticed(arm(), log, nullptr, settings, loop, model);
+  }
+
+  [[nodiscard]] double wrong(Eigen::Index number) const {
+    return std::abs(model.model.Phi[number] - stacked_parameters(arm())[number]);
+  }
+  [[nodiscard]] const std::string& effect_at(Eigen::Index number) const {
+    return unnoticed.effect[static_cast<std::size_t>(number)];
+  }
+};
+
+constexpr Eigen::Index Iyy = 7, Izz = 9;
+
+/// Joint 1 stands upright: of its link nothing but Izz is seen, and in nothing but the rotor's
+/// column. The data say nothing of what is the rotor's: it may have its usual size.
+TEST(Unnoticed, WhatCannotBeToldAtAllMayHaveItsUsualSize) {
+  const Fitted fitted(record({}), 1);
+  EXPECT_EQ(fitted.effect_at(10 + Izz), "rotor_inertia@joint1");
+  const double usual = find_effect("rotor_inertia")->parameters[0].size;
+  const double expected = std::hypot(fitted.model.Phi_error[10 + Izz], usual);
+  EXPECT_NEAR(fitted.unnoticed.error[10 + Izz] / expected, 1.0, 1e-6);  // the fits' regularity
+}
+
+/// A rotor becomes inertia of the link, with a standard error that says nothing of it.
+TEST(Unnoticed, CoversARotorThatTheLinkHasTaken) {
+  const Fitted fitted(record({{effect("rotor_inertia", 0, {0.005})}}), 1);
+  constexpr double errors = 3.0;
+  EXPECT_GT(fitted.wrong(10 + Izz), errors * fitted.model.Phi_error[10 + Izz]);
+  EXPECT_LT(fitted.wrong(10 + Izz), fitted.unnoticed.error[10 + Izz]);
+}
+
+TEST(Unnoticed, WhatWasFoundIsNotUnnoticed) {
+  const std::vector<AppliedEffect> truth = {effect("rotor_inertia", 2, {0.003})};
+  const Recording log = record({truth, 20.0, 0.2});
+  const Fitted untold(log, 3), told(log, 3, truth);
+  EXPECT_EQ(untold.effect_at(30 + Iyy), "rotor_inertia@joint3");
+  EXPECT_NE(told.effect_at(30 + Iyy), "rotor_inertia@joint3");
+  EXPECT_GT(told.model.Phi_error[30 + Iyy], 1.2 * untold.model.Phi_error[30 + Iyy])
+      << "what the rotor makes uncertain is in the standard error then";
+  // Told and untold, what the link has taken is its move per unit times the rotor's inertia.
+  const double rotor = told.model.model.effects[0].value[0], s = told.model.effect_error[0][0];
+  const double moved = untold.model.model.Phi[30 + Iyy] - told.model.model.Phi[30 + Iyy];
+  const double added = std::abs(moved / rotor) * std::hypot(rotor, s);
+  const double said = std::sqrt(std::pow(untold.unnoticed.error[30 + Iyy], 2) -
+                                std::pow(untold.model.Phi_error[30 + Iyy], 2));
+  EXPECT_GT(said / added, 0.6) << "one error is by leaving out tenths, the other by blocks";
+  EXPECT_LT(said / added, 1.6);
+}
+
+TEST(Unnoticed, NeverIsTheErrorSmallerThanTheStandardError) {
+  const Fitted fitted(record({{effect("viscous_friction", 1, {0.3})}}), 2);
+  for (Eigen::Index p = 0; p < 40; ++p) {
+    EXPECT_GE(fitted.unnoticed.error[p], fitted.model.Phi_error[p]) << p;
+    const bool sought = p >= 20 && p < 30;
+    EXPECT_EQ(fitted.unnoticed.error[p] > 0.0, sought) << p;
+    EXPECT_TRUE(sought || fitted.effect_at(p).empty()) << p;
+  }
+}
+
+/// More data leave less room: four times the time, half the error, of what is seen at all. (Five
+/// logs: the ratio is one between two numbers of some twenty degrees of freedom each.)
+TEST(Unnoticed, ShrinksWithTheLength) {
+  const Eigen::Index number = 30 + Iyy;
+  double squares[2] = {0.0, 0.0};
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    squares[0] += std::pow(Fitted(record({{}, 20.0, 0.2, seed}), 3).unnoticed.error[number], 2);
+    squares[1] += std::pow(Fitted(record({{}, 80.0, 0.2, seed}), 3).unnoticed.error[number], 2);
+  }
+  const double ratio = std::sqrt(squares[0] / squares[1]);
+  EXPECT_GT(ratio, 1.4);
+  EXPECT_LT(ratio, 2.9);
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
