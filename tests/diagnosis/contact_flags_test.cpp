@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/names.hpp"
 #include "shapeid/models/robot_yaml.hpp"
 #include "shapeid/models/simbody/random.hpp"
 #include "shapeid/models/simbody/simulation.hpp"
 #include "shapeid/models/urdf.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
 #include "shapeid/tests/support/generators.hpp"
 
 namespace shapeid::diagnosis {
@@ -169,6 +171,25 @@ TEST(ContactFlags, TheGroundCannotPull) {
   const Recording log(std::move(samples), 100.0);
   EXPECT_TRUE(pushes(log, {1.0, 5.0, 0.0}));
   EXPECT_FALSE(pushes(log, {-5.0, 0.0, 1.0}));
+}
+
+TEST(ContactFlags, AContactThatWouldPullHasNoName) {
+  const Trot trot;
+  LoopState state(trot.robot, trot.log(2, 0.0, 0.0), nullptr, trot.settings);
+  state.fit_masses();
+  const auto claim = [&](const std::string& id, int site, double up) {
+    const AppliedEffect a = test::effect(id, site, {1.0, 0.5, up});
+    state.result.found.push_back({a, id, Eigen::VectorXd::Ones(3)});
+    state.result.model.effects.push_back(a);
+  };
+  claim("contact_undeclared", 2, -12.0);
+  claim("contact_undeclared", 1, 12.0);
+  claim("external_force", trot.robot.contacts[0].link, -12.0);  // of no ground: it may pull
+  question_names(state);
+  EXPECT_TRUE(state.result.found[0].pulls);
+  EXPECT_FALSE(state.result.found[0].name_stands());
+  EXPECT_FALSE(state.result.found[1].pulls);
+  EXPECT_FALSE(state.result.found[2].pulls);
 }
 
 }  // namespace
