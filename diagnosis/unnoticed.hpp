@@ -1,4 +1,4 @@
-// What an inertia would owe to an effect that is there and was too small to be found.
+// Claim C19. What an inertia would owe to an effect that is there and was too small to be found.
 #pragma once
 
 #include <string>
