@@ -101,6 +101,15 @@ void add_diagnose(CLI::App& app) {
                    "standard errors by which an effect must lower the held-out error")
       ->check(above_zero())
       ->capture_default_str();
+  verb->add_option_function<std::string>(
+          "--path",
+          [options](const std::string& name) {
+            options->diagnose.path =
+                name == "fast" ? diagnosis::Path::fast : diagnosis::Path::reference;
+          },
+          "who computes rows and masses")
+      ->check(CLI::IsMember({"reference", "fast"}))
+      ->default_str("reference");
   verb->add_flag(
       "--curves", d.curves,
       "write effects.yaml and predict_torque.hpp with curves for what stays unexplained");

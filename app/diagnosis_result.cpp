@@ -299,6 +299,7 @@ json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseO
           {"test", e.where},
           {"reference", options.reference},
           {"cutoff", options.inputs.cutoff},
+          {"path", options.path == diagnosis::Path::fast ? "fast" : "reference"},
           {"samples", run.loop.samples},
           {"blocks", run.loop.blocks},
           {"hypotheses", run.loop.hypotheses},

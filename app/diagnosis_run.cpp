@@ -55,7 +55,7 @@ diagnosis::LoopSettings settings_for(const RobotInputs& inputs, const DiagnoseOp
                                      const RecordedLog& log) {
   const Robot& robot = inputs.robot;
   diagnosis::LoopSettings settings;
-  settings.contacts = log.contacts;
+  settings.rows = {log.contacts, options.path};
   settings.shapes = body_model(options, robot);
   settings.expected_mass = expected_mass(options, robot, settings.shapes);
   settings.weight = weight(inputs);
@@ -124,7 +124,7 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
   const Eigen::Index n = r.joint_count();
   diagnosis::RichModel nothing{Eigen::VectorXd::Zero(Eigen::Index{10} * r.link_count()), {}};
   const diagnosis::Series zero =
-      diagnosis::series(r, settings.contacts, nothing, run.test, settings.stride);
+      diagnosis::series(r, settings.rows, nothing, run.test, settings.stride);
   TestErrors errors;
   errors.where = options.test.empty() ? held_out_words(options.inputs)
                                       : fmt::format("{}", fmt::join(options.test, ", "));
@@ -198,8 +198,7 @@ std::vector<diagnosis::Structure> unnamed(const Robot& robot, const Recording& l
     });
     if (removed == 0) continue;
     list.push_back(diagnosis::unnamed(
-        robot, log,
-        diagnosis::series(robot, run.settings.contacts, model, log, run.settings.stride),
+        robot, log, diagnosis::series(robot, run.settings.rows, model, log, run.settings.stride),
         *f.varies));
     list.back().under_name = f.id;
   }
@@ -314,33 +313,33 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   }
   const diagnosis::RichModel given{stacked_parameters(robot.robot), {}};
   run.before =
-      diagnosis::series(robot.robot, run.settings.contacts, given, run.test, run.settings.stride);
-  run.after = diagnosis::series(robot.robot, run.settings.contacts, run.consistent.model, run.test,
+      diagnosis::series(robot.robot, run.settings.rows, given, run.test, run.settings.stride);
+  run.after = diagnosis::series(robot.robot, run.settings.rows, run.consistent.model, run.test,
                                 run.settings.stride);
   run.errors = test_errors(robot, options, run, raw.recording);
   run.errors.usual =
-      diagnosis::series(robot.robot, run.settings.contacts,
+      diagnosis::series(robot.robot, run.settings.rows,
                         diagnosis::usual_model(robot.robot, log.recording, run.settings, run.loop),
                         run.test, run.settings.stride)
           .rms();
   // On the log itself, which is longer and has no error of the filter in it; curves are judged on
   // blocks that they were not fitted to.
   const diagnosis::Series remaining = diagnosis::series(
-      robot.robot, run.settings.contacts, run.consistent.model, log.recording, run.settings.stride);
+      robot.robot, run.settings.rows, run.consistent.model, log.recording, run.settings.stride);
   run.structures =
       diagnosis::unexplained(robot.robot, log.recording, remaining, run.settings.stride);
   diagnosis::RichModel richest = run.consistent.model;
   richest.curves = run.curves =
-      diagnosis::curves_for(robot.robot, run.settings.contacts, run.consistent.model, run.loop,
+      diagnosis::curves_for(robot.robot, run.settings.rows, run.consistent.model, run.loop,
                             log.recording, run.settings.stride);
   if (!run.curves.empty()) {
-    run.errors.with_curves = diagnosis::series(robot.robot, run.settings.contacts, richest,
-                                               run.test, run.settings.stride)
-                                 .rms();
+    run.errors.with_curves =
+        diagnosis::series(robot.robot, run.settings.rows, richest, run.test, run.settings.stride)
+            .rms();
   }
   const auto unnamed_effects = unnamed(robot.robot, log.recording, run);
   for (const diagnosis::Stranger& s : run.loop.strangers) {
-    run.structures.push_back(diagnosis::lawless(robot.robot, run.settings.contacts,
+    run.structures.push_back(diagnosis::lawless(robot.robot, run.settings.rows,
                                                 run.consistent.model, log.recording,
                                                 run.settings.stride, s));
   }

@@ -28,6 +28,7 @@ struct DiagnoseOptions {
   /// Write the richer model with curves for what it leaves unexplained.
   bool curves = false;
   diagnosis::SelectionRule rule;
+  diagnosis::Path path = diagnosis::Path::reference;
 };
 
 /// Residuals on motion that was used for nothing else, per generalised row, rms.

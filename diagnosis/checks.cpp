@@ -122,7 +122,7 @@ void check_clocks(const Robot& robot, const Recording& recording, const LoopSett
   constexpr double blocks = 40.0;
   options.block_seconds = recording.duration() / blocks;
   const RichModel given{stacked_parameters(robot), {}};
-  add_to_tally(tally, robot, settings.contacts, given, recording, options, false);
+  add_to_tally(tally, robot, settings.rows, given, recording, options, false);
   const Eigen::Index column = tally.inertial;
   const std::size_t half = tally.blocks.size() / 2;
   if (half < 4) return;

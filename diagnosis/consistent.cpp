@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/chance.hpp"
+#include "shapeid/diagnosis/shape_masses.hpp"
 #include "shapeid/reference/identify.hpp"
-#include "shapeid/reference/mass_solver.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -153,19 +155,21 @@ class Solver {
     return eliminate(sums_.without(tenth), sums_.masses(), sums_.effects());
   }
 
-  void set_rows(const Eliminated& eliminated, MassProblem& problem) const {
+  /// Y and F of the mass problem, W of ones.
+  [[nodiscard]] MassProblem problem_of(const Eliminated& eliminated) const {
     const Eigen::Index n = sums_.masses();
+    MassProblem problem;
     problem.Y.resize(eliminated.rows.rows() + n, n);
     problem.Y << eliminated.rows.leftCols(n), Eigen::MatrixXd(prior_.asDiagonal());
     problem.F.resize(problem.Y.rows());
     problem.F << eliminated.rows.rightCols<1>(), prior_.cwiseProduct(given_);
     problem.W = Eigen::VectorXd::Ones(problem.Y.rows());
+    return problem;
   }
 
-  [[nodiscard]] reference::DivisionRun divide(const Eliminated& eliminated) const {
+  [[nodiscard]] std::unique_ptr<ShapeMasses> divide(const Eliminated& eliminated) const {
     const BodyModel& shapes = settings_.shapes;
-    MassProblem problem;
-    set_rows(eliminated, problem);
+    MassProblem problem = problem_of(eliminated);
     problem.U = shape_columns(shapes);
     problem.V = shape_volumes(shapes);
     problem.lambda = default_lambda(problem, settings_.expected_mass);
@@ -173,7 +177,7 @@ class Solver {
     DivisionOptions division;
     division.most_divisions = settings_.divisions;
     division.expected_mass = settings_.expected_mass;
-    return reference::divide_and_solve(shapes, problem, division);
+    return std::make_unique<ShapeMasses>(shapes, std::move(problem), division, settings_.rows.path);
   }
 
   /// What the data say by themselves, without given inertias and bodies, effects fitted along.
@@ -216,18 +220,17 @@ std::size_t impossible(const std::vector<AppliedEffect>& effects) {
   return effects.size();
 }
 
-/// Delete-a-tenth jackknife of Phi_free and theta.
-Eigen::VectorXd jackknife(const Solver& solver, const reference::DivisionRun& run,
-                          Eigen::Index effects) {
+/// Delete-a-tenth jackknife of Phi_free and theta. `masses`: none if no link is free.
+Eigen::VectorXd jackknife(const Solver& solver, const ShapeMasses* masses, Eigen::Index effects) {
   constexpr int tenths = 10;
-  Eigen::MatrixXd answers(run.solution.Phi.size() + effects, tenths);
-  MassProblem problem = run.problem;
+  Eigen::MatrixXd answers((masses != nullptr ? masses->Phi().size() : 0) + effects, tenths);
   for (int tenth = 0; tenth < tenths; ++tenth) {
     const Eliminated eliminated = solver.rows(tenth);
-    solver.set_rows(eliminated, problem);
-    const Eigen::VectorXd Phi = run.solution.Phi.size() > 0
-                                    ? reference::solve_masses(problem, run.solution.m).Phi
-                                    : run.solution.Phi;
+    Eigen::VectorXd Phi;
+    if (masses != nullptr) {
+      const MassProblem problem = solver.problem_of(eliminated);
+      Phi = masses->Phi_of(problem.Y, problem.F);
+    }
     answers.col(tenth) << Phi, effects_of(eliminated, Phi);
   }
   const Eigen::VectorXd mean = answers.rowwise().mean();
@@ -268,15 +271,16 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
           earlier.effects.erase(earlier.effects.begin() + static_cast<std::ptrdiff_t>(k));
         }
       }
-      add_to_tally(tally, robot, settings.contacts, earlier, *reference, options, true);
+      add_to_tally(tally, robot, settings.rows, earlier, *reference, options, true);
     }
-    add_to_tally(tally, robot, settings.contacts, result.model, log, options, false);
+    add_to_tally(tally, robot, settings.rows, result.model, log, options, false);
     const Sums sums(shapes, std::move(tally), since);
     const Solver solver(robot, sums, settings, loop);
     const Eliminated eliminated = solver.rows(-1);
     // With every link trusted there is no mass to solve for.
-    if (sums.masses() > 0) result.run = solver.divide(eliminated);
-    const Eigen::VectorXd& Phi = result.run.solution.Phi;
+    std::unique_ptr<ShapeMasses> masses;
+    if (sums.masses() > 0) masses = solver.divide(eliminated);
+    const Eigen::VectorXd Phi = masses ? masses->Phi() : Eigen::VectorXd();
     put_back(effects_of(eliminated, Phi), linear, effects);
     if (const std::size_t bad = impossible(effects); bad < effects.size()) {
       const auto at = static_cast<std::ptrdiff_t>(bad);
@@ -287,7 +291,7 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     }
     result.model.Phi = all_parameters(shapes, Phi);
     if (sums.masses() > 0) result.data = solver.determination();
-    const Eigen::VectorXd errors = jackknife(solver, result.run, sums.effects());
+    const Eigen::VectorXd errors = jackknife(solver, masses.get(), sums.effects());
     result.Phi_error = Eigen::VectorXd::Zero(result.model.Phi.size());
     for (std::size_t i = 0; i < shapes.free_links.size(); ++i) {
       result.Phi_error.segment<10>(Eigen::Index{10} * shapes.free_links[i]) =

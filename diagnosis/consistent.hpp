@@ -8,7 +8,6 @@
 
 #include "shapeid/diagnosis/loop.hpp"
 #include "shapeid/reference/determination.hpp"
-#include "shapeid/reference/division.hpp"
 
 namespace shapeid::diagnosis {
 
@@ -19,7 +18,6 @@ struct Consistent {
   /// inertias. Empty if no link is free.
   reference::Determination data;
   std::vector<Eigen::VectorXd> effect_error;  ///< one vector an effect of the model
-  reference::DivisionRun run;
   /// Effects whose sign became impossible when the masses had to be bodies, and which were left
   /// out.
   std::vector<AppliedEffect> dropped;
@@ -32,7 +30,7 @@ void mark_faded(const Recording& log, const LoopSettings& settings, const Consis
                 LoopResult& loop);
 
 /// The effects' linear numbers are eliminated exactly (they are free columns), the masses of the
-/// settings' shapes solved and divided by the reference path, and the effects put back. Given
+/// settings' shapes solved and divided by the settings' path, and the effects put back. Given
 /// inertias pull as strongly as screening found useful. Errors by leaving out tenths of the log
 /// (jackknife).
 [[nodiscard]] Consistent make_consistent(const Robot& robot, const Recording& log,

@@ -135,7 +135,7 @@ std::vector<Found> correct_contact_flags(const Robot& robot, Recording& log, Rec
                                          const Recording* reference, const LoopSettings& settings) {
   std::vector<Found> all;
   const bool has_flags = !log.samples().empty() && !log[0].in_contact.empty() &&
-                         settings.contacts == reference::ContactTreatment::project;
+                         settings.rows.contacts == ContactTreatment::project;
   if (!has_flags) return all;
   const auto most = 2 * robot.contacts.size();  // each begins and ends
   while (all.size() < most) {

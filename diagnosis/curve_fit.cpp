@@ -73,11 +73,11 @@ Eigen::VectorXd knots_over(std::vector<double> x) {
 /// A model that lacks curves, and the log that they are fitted to.
 class Fitter {
  public:
-  Fitter(const Robot& robot, reference::ContactTreatment contacts, RichModel model,
-         const Recording& recording, std::size_t stride)
+  Fitter(const Robot& robot, RowSource source, RichModel model, const Recording& recording,
+         std::size_t stride)
       : robot_(robot),
         model_(std::move(model)),
-        viewer_(robot, contacts, model_.effects),
+        viewer_(robot, source, model_.effects),
         recording_(recording),
         stride_(stride) {}
 
@@ -85,7 +85,7 @@ class Fitter {
 
   [[nodiscard]] std::vector<Structure> structures() const {
     return unexplained(robot_, recording_,
-                       series(robot_, viewer_.contacts(), model_, recording_, stride_), stride_);
+                       series(robot_, viewer_.source(), model_, recording_, stride_), stride_);
   }
 
   /// Adds it with knots where its signal is, unless there is one like it, or its signal does not
@@ -166,10 +166,10 @@ class Fitter {
 
 }  // namespace
 
-std::vector<Curve> curves_for(const Robot& robot, reference::ContactTreatment contacts,
-                              RichModel model, const LoopResult& loop, const Recording& recording,
+std::vector<Curve> curves_for(const Robot& robot, RowSource source, RichModel model,
+                              const LoopResult& loop, const Recording& recording,
                               std::size_t stride) {
-  Fitter fitter(robot, contacts, std::move(model), recording, stride);
+  Fitter fitter(robot, source, std::move(model), recording, stride);
   const auto add = [&](const std::optional<Curve>& curve) {
     if (curve) fitter.add(*curve);
   };

@@ -14,8 +14,7 @@ namespace shapeid::diagnosis {
 /// is no more, torque over each signal of a joint that the residual follows on blocks that were
 /// left out (unexplained()). Not over time, other columns of the log, or the way since a joint
 /// turned round: a model cannot predict with these. `model` has no curves yet.
-[[nodiscard]] std::vector<Curve> curves_for(const Robot& robot,
-                                            reference::ContactTreatment contacts, RichModel model,
+[[nodiscard]] std::vector<Curve> curves_for(const Robot& robot, RowSource source, RichModel model,
                                             const LoopResult& loop, const Recording& recording,
                                             std::size_t stride);
 

@@ -44,12 +44,11 @@ std::vector<AppliedEffect> all_hypotheses(const Robot& robot) {
   return hypotheses;
 }
 
-HypothesisColumns::HypothesisColumns(const Robot& robot, reference::ContactTreatment contacts,
-                                     const RichModel& model,
+HypothesisColumns::HypothesisColumns(const Robot& robot, RowSource source, const RichModel& model,
                                      const std::vector<AppliedEffect>& hypotheses)
     : model_(model),
       hypotheses_(hypotheses),
-      viewer_(robot, contacts, model.effects, needs_load_rate(hypotheses)) {
+      viewer_(robot, source, model.effects, needs_load_rate(hypotheses)) {
   for (const AppliedEffect& h : hypotheses_) {
     first_.push_back(count_);
     count_ += h.value.size();
@@ -57,8 +56,8 @@ HypothesisColumns::HypothesisColumns(const Robot& robot, reference::ContactTreat
     if (!h.effect->transform.any()) continue;
     for (Eigen::Index p = 0; p < h.value.size(); ++p) {
       const double h_step = part_of_size * h.effect->parameters[static_cast<std::size_t>(p)].size;
-      differences.push_back({Viewer(robot, contacts, stepped(model.effects, h, p, h_step)),
-                             Viewer(robot, contacts, stepped(model.effects, h, p, -h_step)),
+      differences.push_back({Viewer(robot, source, stepped(model.effects, h, p, h_step)),
+                             Viewer(robot, source, stepped(model.effects, h, p, -h_step)),
                              2.0 * h_step});
     }
   }

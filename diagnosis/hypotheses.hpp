@@ -21,8 +21,8 @@ namespace shapeid::diagnosis {
 class HypothesisColumns {
  public:
   /// `robot` must outlive this.
-  HypothesisColumns(const Robot& robot, reference::ContactTreatment contacts,
-                    const RichModel& model, const std::vector<AppliedEffect>& hypotheses);
+  HypothesisColumns(const Robot& robot, RowSource source, const RichModel& model,
+                    const std::vector<AppliedEffect>& hypotheses);
 
   [[nodiscard]] const Viewer& viewer() const { return viewer_; }
   /// Columns of one hypothesis after another: parameters of each.

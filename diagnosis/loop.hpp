@@ -14,7 +14,7 @@
 namespace shapeid::diagnosis {
 
 struct LoopSettings {
-  reference::ContactTreatment contacts = reference::ContactTreatment::project;
+  RowSource rows = reference::ContactTreatment::project;
   BodyModel shapes;            ///< of the free links; where their mass may be
   double expected_mass = 0.0;  ///< M0 > 0, kg, of all free links
   int divisions = 100;         ///< most divisions of the shapes

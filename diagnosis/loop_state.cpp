@@ -54,9 +54,9 @@ BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
     std::erase_if(earlier.effects, [&](const AppliedEffect& a) { return came_since(a); });
     TallyOptions options = tally_options;
     options.log_starts.clear();
-    add_to_tally(tally, robot, settings.contacts, earlier, *reference, options, true);
+    add_to_tally(tally, robot, settings.rows, earlier, *reference, options, true);
   }
-  add_to_tally(tally, robot, settings.contacts, result.model, log, tally_options, false);
+  add_to_tally(tally, robot, settings.rows, result.model, log, tally_options, false);
   constexpr std::size_t fewest_blocks = 8;
   if (tally.blocks.size() < fewest_blocks) {
     throw Refusal("too-short",
@@ -78,7 +78,7 @@ void LoopState::fit_masses() {
 
 void LoopState::correct() {
   if (settings.rough == nullptr) return;
-  const Viewer viewer(robot, settings.contacts, result.model.effects);
+  const Viewer viewer(robot, settings.rows, result.model.effects);
   use_correction(filter_error(viewer, result.model, log, *settings.rough, settings.cutoff));
 }
 
@@ -96,7 +96,7 @@ void LoopState::reweigh() {
 }
 
 Series LoopState::left_by(const RichModel& model) const {
-  return series(robot, settings.contacts, model, log, settings.stride);
+  return series(robot, settings.rows, model, log, settings.stride);
 }
 
 void LoopState::collect_effects() {

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "shapeid/reference/contact.hpp"
-#include "shapeid/reference/projection.hpp"
 #include "shapeid/reference/regressor.hpp"
 
 namespace shapeid::diagnosis {
@@ -18,14 +17,15 @@ AppliedEffect at_start(const Effect& effect, int site) {
   return applied;
 }
 
-Viewer::Viewer(const Robot& robot, reference::ContactTreatment contacts,
-               const std::vector<AppliedEffect>& effects, bool load_rate)
-    : robot_(robot), contacts_(contacts), load_rate_(load_rate || needs_load_rate(effects)) {
+Viewer::Viewer(const Robot& robot, RowSource source, const std::vector<AppliedEffect>& effects,
+               bool load_rate)
+    : robot_(robot), source_(source), load_rate_(load_rate || needs_load_rate(effects)) {
   for (const AppliedEffect& a : effects) {
     if (!a.effect->transform.any()) continue;
     transforming_.push_back(a);
     if (a.effect->transform.robot != nullptr) a.effect->transform.robot(robot_, a.site, a.value);
   }
+  rows_.emplace(robot_, source_.path);
 }
 
 Sample Viewer::moved(const Recording& recording, std::size_t index, double dt,
@@ -63,9 +63,9 @@ View Viewer::view(Sample moved, Surroundings surroundings) const {
   view.sample = std::move(moved);
   view.surroundings = std::move(surroundings);
   view.motions = reference::link_motions(robot_, view.sample);
-  view.Y = reference::regressor(robot_, view.sample);
-  view.J = contacts_ == reference::ContactTreatment::project
-               ? reference::contact_jacobian(robot_, view.sample)
+  view.Y = rows_->regressor(robot_, view.sample);
+  view.J = source_.contacts == ContactTreatment::project
+               ? rows_->contact_jacobian(robot_, view.sample)
                : Eigen::MatrixXd(0, robot_.dof());
   return view;
 }
@@ -89,7 +89,7 @@ Eigen::Array<bool, Eigen::Dynamic, 1> counted_rows(const Viewer& viewer, const R
 
 Eigen::VectorXd logged_force(const Viewer& viewer, const View& view) {
   Eigen::VectorXd force = reference::applied_force(viewer.robot(), view.sample);
-  if (viewer.contacts() == reference::ContactTreatment::measured) {
+  if (viewer.source().contacts == ContactTreatment::measured) {
     force += reference::measured_contact_force(viewer.robot(), view.sample);
   }
   if (view.correction.size() > 0) force += view.correction;
@@ -169,9 +169,9 @@ reference::SampleRows mass_rows(const Viewer& viewer, const View& view, const Ri
 
 Eigen::MatrixXd beyond_contacts(const Viewer& viewer, const Eigen::MatrixXd& J,
                                 const Eigen::MatrixXd& force) {
-  const Eigen::MatrixXd Q2 =
-      reference::contact_free_basis(J, Eigen::VectorXd::Ones(viewer.robot().dof())).Q2;
-  return Q2 * (Q2.transpose() * force);
+  ContactFree contact_free(viewer.robot(), Eigen::VectorXd::Ones(viewer.robot().dof()),
+                           viewer.source().path);
+  return contact_free.beyond(J, force);
 }
 
 Eigen::VectorXd residual(const Viewer& viewer, const View& view, const RichModel& model) {

@@ -9,6 +9,7 @@
 #include "shapeid/diagnosis/curve.hpp"
 #include "shapeid/diagnosis/effect.hpp"
 #include "shapeid/diagnosis/recording.hpp"
+#include "shapeid/diagnosis/rigid_rows.hpp"
 #include "shapeid/reference/sample_rows.hpp"
 
 namespace shapeid::diagnosis {
@@ -52,11 +53,12 @@ struct View {
 [[nodiscard]] bool needs_load_rate(const std::vector<AppliedEffect>& effects);
 
 /// Prepares views of a robot with the transformations among some effects, with neighbours if one of
-/// them needs these or `load_rate` asks for them. The robot must outlive this.
+/// them needs these or `load_rate` asks for them. The robot must outlive this. Not for several
+/// threads at once.
 class Viewer {
  public:
-  Viewer(const Robot& robot, reference::ContactTreatment contacts,
-         const std::vector<AppliedEffect>& effects, bool load_rate = false);
+  Viewer(const Robot& robot, RowSource source, const std::vector<AppliedEffect>& effects,
+         bool load_rate = false);
 
   [[nodiscard]] View view(const Recording& recording, std::size_t index) const;
   /// Of a sample whose own transformations are done already (moved()).
@@ -64,7 +66,7 @@ class Viewer {
   /// Applies the row transformations, in order.
   void transform(const View& view, Rows& rows) const;
   [[nodiscard]] const Robot& robot() const { return robot_; }
-  [[nodiscard]] reference::ContactTreatment contacts() const { return contacts_; }
+  [[nodiscard]] const RowSource& source() const { return source_; }
   /// The sample after all sample transformations.
   [[nodiscard]] Sample moved(const Recording& recording, std::size_t index) const;
 
@@ -74,7 +76,8 @@ class Viewer {
                              std::size_t count) const;
 
   Robot robot_;
-  reference::ContactTreatment contacts_;
+  RowSource source_;
+  mutable std::optional<RigidRows> rows_;  ///< of robot_, once it is transformed
   std::vector<AppliedEffect> transforming_;
   bool load_rate_;
 };

@@ -12,9 +12,9 @@ Eigen::VectorXd Series::rms() const {
   return ((residual.array().square() * weight).rowwise().sum() / count).sqrt();
 }
 
-Series series(const Robot& robot, reference::ContactTreatment contacts, const RichModel& model,
+Series series(const Robot& robot, RowSource source, const RichModel& model,
               const Recording& recording, std::size_t stride) {
-  const Viewer viewer(robot, contacts, model.effects);
+  const Viewer viewer(robot, source, model.effects);
   Series result;
   result.index = recording.usable(stride);
   result.residual.resize(robot.dof(), std::ssize(result.index));

@@ -20,8 +20,8 @@ struct Series {
   [[nodiscard]] Eigen::VectorXd rms() const;
 };
 
-[[nodiscard]] Series series(const Robot& robot, reference::ContactTreatment contacts,
-                            const RichModel& model, const Recording& recording, std::size_t stride);
+[[nodiscard]] Series series(const Robot& robot, RowSource source, const RichModel& model,
+                            const Recording& recording, std::size_t stride);
 
 /// What a ripple's size is in proportion to: nothing, or the predicted force of its joint.
 enum class RippleOf { torque, load };

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shapeid/reference/projection.hpp"
-
 namespace shapeid::diagnosis {
 namespace {
 
@@ -147,13 +145,12 @@ Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypothes
   return tally;
 }
 
-void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment contacts,
-                  const RichModel& model, const Recording& recording, const TallyOptions& options,
-                  bool reference) {
-  const HypothesisColumns hypotheses(robot, contacts, model, tally.hypotheses);
+void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const RichModel& model,
+                  const Recording& recording, const TallyOptions& options, bool reference) {
+  const HypothesisColumns hypotheses(robot, source, model, tally.hypotheses);
   const Viewer& viewer = hypotheses.viewer();
   const Eigen::Index width = tally.width;
-  const Eigen::VectorXd root = options.weight.cwiseSqrt();
+  ContactFree contact_free(robot, options.weight, source.path);
   RowSums sums(width, robot.dof());
   Block block;
   const auto close = [&] {
@@ -197,10 +194,10 @@ void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment 
     for (Eigen::Index row = 0; row < M.rows(); ++row) {
       if (!counted[row]) M.row(row).setZero();
     }
-    const Eigen::MatrixXd Q2 = reference::contact_free_basis(rows.J, options.weight).Q2;
-    sums.add(Q2.transpose() * (root.asDiagonal() * M));
+    const Eigen::MatrixXd beyond = contact_free(rows.J, M);
+    sums.add(beyond);
     tally.freedom +=
-        independent * static_cast<double>(std::min<Eigen::Index>(Q2.cols(), counted.count()));
+        independent * static_cast<double>(std::min<Eigen::Index>(beyond.rows(), counted.count()));
     if (block.samples++ > 0) continue;
     block.from = elapsed;
     block.log = log;

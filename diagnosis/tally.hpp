@@ -65,9 +65,8 @@ struct TallyOptions {
 };
 
 /// One pass over a log. `robot` as given; the model's transformations are applied.
-void add_to_tally(Tally& tally, const Robot& robot, reference::ContactTreatment contacts,
-                  const RichModel& model, const Recording& recording, const TallyOptions& options,
-                  bool reference);
+void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const RichModel& model,
+                  const Recording& recording, const TallyOptions& options, bool reference);
 
 /// What a modulation makes of the columns `own` of its hypothesis at a sample, dof x columns_of().
 /// `load` is the predicted one of all joints, `margin` (s) how far noise is filtered.

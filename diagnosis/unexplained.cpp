@@ -274,9 +274,9 @@ Structure unnamed(const Robot& robot, const Recording& recording, const Series& 
   return structure;
 }
 
-Structure lawless(const Robot& robot, reference::ContactTreatment contacts, const RichModel& model,
+Structure lawless(const Robot& robot, RowSource source, const RichModel& model,
                   const Recording& recording, std::size_t stride, const Stranger& stranger) {
-  const HypothesisColumns columns(robot, contacts, model, {stranger.carrier});
+  const HypothesisColumns columns(robot, source, model, {stranger.carrier});
   const Viewer& viewer = columns.viewer();
   const int joint = stranger.law.joint;
   const Eigen::Index row = robot.base_dof() + joint;

@@ -42,9 +42,9 @@ struct Structure {
 
 /// What a law without a name explains: the curve of its carrier's number over the signal that the
 /// number follows, by what `model`, which lacks it, leaves in the row of its joint.
-[[nodiscard]] Structure lawless(const Robot& robot, reference::ContactTreatment contacts,
-                                const RichModel& model, const Recording& recording,
-                                std::size_t stride, const Stranger& stranger);
+[[nodiscard]] Structure lawless(const Robot& robot, RowSource source, const RichModel& model,
+                                const Recording& recording, std::size_t stride,
+                                const Stranger& stranger);
 
 /// Autocorrelation of a row of the series at the first `lags` lags (samples apart), and the band
 /// in which that of white noise stays with 95 percent.

@@ -72,6 +72,20 @@ TEST(Diagnose, FindsAKneesFrictionAndItsFilesAreOfUse) {
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_LT(nlohmann::json::parse(again.out)["heldout"]["rms_after"][at].get<double>(),
             0.5 * result["heldout"]["rms_before"][at].get<double>());
+
+  const CommandRun fast =
+      shapeid(fmt::format("diagnose {} --log rough.csv.gz --json --path fast", files));
+  ASSERT_EQ(fast.status, 0) << fast.err;
+  const auto same = nlohmann::json::parse(fast.out);
+  EXPECT_EQ(result["path"], "reference");
+  EXPECT_EQ(same["path"], "fast");
+  ASSERT_EQ(same["findings"].size(), findings.size());
+  for (std::size_t k = 0; k < findings.size(); ++k) {
+    EXPECT_EQ(same["findings"][k]["site"], findings[k]["site"]);
+    const auto value = findings[k]["value"].get<double>();
+    constexpr double rounding = 1e-6;  // enlarged by the loop's many fits
+    EXPECT_NEAR(same["findings"][k]["value"].get<double>(), value, rounding * std::abs(value));
+  }
 }
 
 /// A knee that is pulled by the hip of another leg has no name. As a curve it predicts, here and
@@ -137,6 +151,13 @@ TEST(Diagnose, LogsOfDifferentRatesAreNotMixed) {
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.err.find("slow.csv: has 250 samples a second, run.csv has 500"), std::string::npos)
       << run.err;
+}
+
+TEST(Diagnose, RefusesAPathThatIsNone) {
+  const CommandRun run = shapeid(fmt::format("diagnose {} --log x.csv --path slow", files));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_NE(run.err.find("--path"), std::string::npos) << run.err;
 }
 
 TEST(Diagnose, ListsTheCatalogue) {

@@ -90,7 +90,7 @@ Recording record(const ArmLog& log, const std::function<void(std::vector<Sample>
 diagnosis::LoopSettings arm_settings() {
   const Robot robot = arm();
   diagnosis::LoopSettings settings;
-  settings.contacts = reference::ContactTreatment::ignore;
+  settings.rows = reference::ContactTreatment::ignore;
   settings.shapes = diagnosis::generous_regions(robot, {1, 2, 3});
   settings.expected_mass = 6.0;
   settings.size = Eigen::VectorXd::Ones(40);

@@ -60,8 +60,8 @@ TEST(Rest, TorqueThatHoldsAJointStillChangesNoFitAndNoError) {
   const LoopResult b = close_loop(arm(), other, nullptr, settings);
   EXPECT_EQ(a.model.Phi, b.model.Phi);
   EXPECT_EQ(test::found_ids(a), test::found_ids(b));
-  EXPECT_EQ(series(arm(), settings.contacts, a.model, one, 1).rms(),
-            series(arm(), settings.contacts, a.model, other, 1).rms());
+  EXPECT_EQ(series(arm(), settings.rows, a.model, one, 1).rms(),
+            series(arm(), settings.rows, a.model, other, 1).rms());
 }
 
 TEST(Rest, WithContactsEveryRowCounts) {

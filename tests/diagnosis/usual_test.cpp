@@ -24,7 +24,7 @@ Eigen::VectorXd left_on_another_log(const std::vector<AppliedEffect>& truth) {
   const RichModel model = usual_model(arm(), record({truth, 20.0, noise, 1}), settings, loop);
   EXPECT_EQ(model.effects.size(), 12U) << "four at each of three joints";
   const Recording other = record({truth, 20.0, noise, 2});
-  return series(arm(), settings.contacts, model, other, 1).rms() / noise;
+  return series(arm(), settings.rows, model, other, 1).rms() / noise;
 }
 
 TEST(Usual, LeavesNoiseOfWhatIsOfThatKind) {
