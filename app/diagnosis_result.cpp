@@ -95,6 +95,8 @@ json links_json(const DiagnosisRun& run, const Robot& robot) {
                   {"error_if_unnoticed", numbers(run.unnoticed.error.segment<10>(at))},
                   {"unnoticed", std::vector<std::string>(run.unnoticed.effect.begin() + at,
                                                          run.unnoticed.effect.begin() + at + 10)},
+                  {"far_from_given", diagnosis::is_far_from_given(robot, run.consistent,
+                                                                  run.unnoticed, free_links[i])},
                   {"data_standard_error", numbers(data.standard_error.segment<10>(own))},
                   {"determined", std::vector<bool>(data.determined.begin() + own,
                                                    data.determined.begin() + own + 10)}};

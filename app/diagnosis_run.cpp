@@ -231,6 +231,17 @@ void note_unsettled_links(const Robot& robot, DiagnosisRun& run) {
   }
 }
 
+void note_far_masses(const Robot& robot, DiagnosisRun& run) {
+  for (const int link : run.settings.shapes.free_links) {
+    if (!diagnosis::is_far_from_given(robot, run.consistent, run.unnoticed, link)) continue;
+    const Link& given = robot.links[static_cast<std::size_t>(link)];
+    run.notes.push_back(fmt::format(
+        "{} has {:.3g} kg here and {:.3g} kg as given, which no error covers: weigh it before "
+        "believing either",
+        given.name, run.consistent.model.Phi[Eigen::Index{10} * link], given.inertia.mass()));
+  }
+}
+
 void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
   const int base = robot.base_dof();
   for (int j = 0; j < robot.joint_count(); ++j) {
@@ -356,6 +367,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   note_rests(robot.robot, run);
   note_worse_joints(robot.robot, run);
   note_unsettled_links(robot.robot, run);
+  note_far_masses(robot.robot, run);
   return run;
 }
 

@@ -25,17 +25,18 @@ struct Fitted {
   Consistent model;
   Unnoticed unnoticed;
 
-  Fitted(const Recording& log, int link, const std::vector<AppliedEffect>& found = {}) {
-    settings.shapes = generous_regions(arm(), {link});
+  Fitted(const Recording& log, int link, const std::vector<AppliedEffect>& found = {},
+         const Robot& robot = arm()) {
+    settings.shapes = generous_regions(robot, {link});
     settings.expected_mass = 2.0;
     loop.weight = Eigen::VectorXd::Ones(3);
     loop.prior = 1e-6;
-    loop.model = {stacked_parameters(arm()), found};
+    loop.model = {stacked_parameters(robot), found};
     for (const AppliedEffect& a : found) {
       loop.found.push_back({a, "found", Eigen::VectorXd::Zero(a.value.size())});
     }
-    model = make_consistent(arm(), log, nullptr, settings, loop);
-    unnoticed = diagnosis::unnoticed(arm(), log, nullptr, settings, loop, model);
+    model = make_consistent(robot, log, nullptr, settings, loop);
+    unnoticed = diagnosis::unnoticed(robot, log, nullptr, settings, loop, model);
   }
 
   [[nodiscard]] double wrong(Eigen::Index number) const {
@@ -106,6 +107,23 @@ TEST(Unnoticed, ShrinksWithTheLength) {
   const double ratio = std::sqrt(squares[0] / squares[1]);
   EXPECT_GT(ratio, 1.4);
   EXPECT_LT(ratio, 2.9);
+}
+
+TEST(Unnoticed, AMassThatNoErrorBringsNearTheGivenIsFar) {
+  const Recording log = record({});
+  for (const double times : {0.3, 0.7, 1.0, 1.8, 3.0}) {
+    Robot robot = arm();
+    InertialParameters& given = robot.links[3].inertia;
+    given.values *= times;
+    const Fitted fitted(log, 3, {}, robot);
+    const bool far = times < 0.5 || times > 2.0;
+    EXPECT_EQ(is_far_from_given(robot, fitted.model, fitted.unnoticed, 3), far) << times;
+    Unnoticed unsure = fitted.unnoticed;
+    unsure.error[30] = 10.0;  // kg
+    EXPECT_FALSE(is_far_from_given(robot, fitted.model, unsure, 3)) << times;
+    given.values.setZero();
+    EXPECT_FALSE(is_far_from_given(robot, fitted.model, fitted.unnoticed, 3)) << "none is given";
+  }
 }
 
 }  // namespace
