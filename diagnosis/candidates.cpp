@@ -51,6 +51,11 @@ bool same_place(const AppliedEffect& a, const AppliedEffect& b) {
   return a.effect == b.effect && a.site == b.site;
 }
 
+bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](const AppliedEffect& b) { return same_place(a, b); });
+}
+
 std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichModel& model,
                                                const Recording& log, const Series& left) {
   std::vector<AppliedEffect> list = all_hypotheses(robot);

@@ -11,6 +11,8 @@ namespace shapeid::diagnosis {
 
 /// The same effect at the same place.
 [[nodiscard]] bool same_place(const AppliedEffect& a, const AppliedEffect& b);
+/// Whether one of them is the same effect at the same place.
+[[nodiscard]] bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a);
 
 /// All hypotheses; those of the model with their numbers, ripple where the residual (`left`, of the
 /// model on the log) has most of it, payloads only if the model has them.

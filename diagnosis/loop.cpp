@@ -234,10 +234,7 @@ class Loop {
     }
   }
 
-  [[nodiscard]] bool is_banned(const AppliedEffect& h) const {
-    return std::any_of(banned_.begin(), banned_.end(),
-                       [&](const AppliedEffect& b) { return same_place(b, h); });
-  }
+  [[nodiscard]] bool is_banned(const AppliedEffect& h) const { return has_place_of(banned_, h); }
 
   void take(const BlockFits& fits, const Term& fixed, const std::vector<Candidate>& list,
             const Selection& selection) {

@@ -121,9 +121,7 @@ bool LoopState::came_since(const AppliedEffect& effect) const {
 }
 
 bool LoopState::is_applied_transformation(const AppliedEffect& effect) const {
-  return effect.effect->transform.any() &&
-         std::any_of(result.model.effects.begin(), result.model.effects.end(),
-                     [&](const AppliedEffect& a) { return same_place(a, effect); });
+  return effect.effect->transform.any() && has_place_of(result.model.effects, effect);
 }
 
 Term LoopState::always(const Tally& tally) const {

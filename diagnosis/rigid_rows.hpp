@@ -56,7 +56,7 @@ class ContactFree {
 
   /// Q2^T W^(1/2) rows. `rows`: dof x any.
   [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& J, const Eigen::MatrixXd& rows);
-  /// P force with P = I - J^T (J^T)^+, for a weight of ones.
+  /// P force with P = I - J^T (J^T)^+. Only if the weight is one everywhere.
   [[nodiscard]] Eigen::MatrixXd beyond(const Eigen::MatrixXd& J, const Eigen::MatrixXd& force);
 
  private:

@@ -10,8 +10,8 @@
 
 namespace shapeid::diagnosis {
 
-/// Algorithm 1 on a problem, and its shapes' masses for other rows. Where the fast path declines
-/// the reference computes, and declined() says so.
+/// Algorithm 1 on a problem, and its shapes' masses for other rows. Throws Refusal "declined" where
+/// the fast path was asked for and declines.
 class ShapeMasses {
  public:
   /// `problem`: of the undivided shapes of `shapes`, W of ones.

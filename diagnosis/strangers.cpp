@@ -323,9 +323,7 @@ std::vector<AppliedEffect> carriers(const Robot& robot, const std::vector<Applie
     if (h.effect->site != SiteKind::joint) continue;
     if (h.effect->built_in || h.effect->needs_load_rate) continue;
     if (h.value.size() > 1 || h.shape.size() > 1) continue;
-    const bool known = std::any_of(effects.begin(), effects.end(),
-                                   [&](const AppliedEffect& a) { return same_place(a, h); });
-    if (!known) list.push_back(h);
+    if (!has_place_of(effects, h)) list.push_back(h);
   }
   for (int joint = 0; joint < robot.joint_count(); ++joint) {
     list.push_back(at_start(motor_ahead(), joint));

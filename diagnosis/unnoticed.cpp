@@ -9,11 +9,6 @@
 namespace shapeid::diagnosis {
 namespace {
 
-bool is_in(const std::vector<AppliedEffect>& effects, const AppliedEffect& a) {
-  return std::any_of(effects.begin(), effects.end(),
-                     [&](const AppliedEffect& b) { return same_place(a, b); });
-}
-
 /// E[theta^2] of each number of a hypothesis, by a fit whose last numbers these are.
 Eigen::VectorXd mean_squares(const AppliedEffect& hypothesis, const Fit& fit, bool hidden) {
   Eigen::VectorXd squares(hypothesis.value.size());
@@ -41,7 +36,7 @@ Unnoticed unnoticed(const Robot& robot, const Recording& log, const Recording* r
   std::vector<AppliedEffect> hypotheses = consistent.model.effects;
   const std::size_t present = hypotheses.size();
   for (const AppliedEffect& a : all_hypotheses(robot)) {
-    if (!is_in(consistent.model.effects, a)) hypotheses.push_back(a);
+    if (!has_place_of(consistent.model.effects, a)) hypotheses.push_back(a);
   }
   const BlockFits fits = state.tallied(hypotheses);
   std::vector<Term> terms = state.terms_of_model(fits, present);

@@ -111,14 +111,14 @@ struct Masses {
 TEST(EitherPath, FindsTheSameMasses) {
   const Masses given(1.0);
   const ShapeMasses one = given.by(Path::reference), other = given.by(Path::fast);
-  // The solvers' promise (docs/claims.md, C3): masses of an objective that is the same to 1e-12.
-  constexpr double promised = 1e-6;
-  EXPECT_LT((one.Phi() - other.Phi()).norm(), promised * one.Phi().norm());
+  // Of one optimum (claim C13): rounding, enlarged by what the rows leave nearly open.
+  constexpr double enlarged = 1e-6;
+  EXPECT_LT((one.Phi() - other.Phi()).norm(), enlarged * one.Phi().norm());
   const Eigen::MatrixXd Y = given.problem.Y.topRows(50);
   const Eigen::VectorXd F = given.problem.F.head(50);
   const Eigen::VectorXd a = one.Phi_of(Y, F), b = other.Phi_of(Y, F);
-  EXPECT_LT((a - b).norm(), promised * a.norm());
-  EXPECT_GT((a - one.Phi()).norm(), 1e3 * promised * a.norm()) << "other rows, other masses";
+  EXPECT_LT((a - b).norm(), enlarged * a.norm());
+  EXPECT_GT((a - one.Phi()).norm(), 1e3 * enlarged * a.norm()) << "other rows, other masses";
 }
 
 TEST(EitherPath, IsRefusedWhereTheFastPathDeclines) {

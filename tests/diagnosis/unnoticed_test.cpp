@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/regions.hpp"
