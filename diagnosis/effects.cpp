@@ -13,7 +13,7 @@ const std::vector<Effect>& all_effects() {
       // of the whole log
       torque_delay(), imu_delay(), gravity_tilt(),
       // at the accelerometer
-      accel_bias(), accel_misalignment(),
+      accel_bias(), accel_misalignment(), accel_noise(),
       // at a link
       payload(), payload_from(), external_force(), drag(),
       // at a contact

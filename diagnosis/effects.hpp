@@ -10,6 +10,7 @@ namespace shapeid::diagnosis {
 
 Effect accel_bias();
 Effect accel_misalignment();
+Effect accel_noise();
 Effect cogging();
 Effect contact_absent();
 Effect contact_late();

@@ -6,6 +6,7 @@
 
 #include "shapeid/diagnosis/best_round.hpp"
 #include "shapeid/diagnosis/candidates.hpp"
+#include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/prior.hpp"
@@ -68,6 +69,7 @@ class Loop {
     }
     if (!rounds.empty()) take_best_of(rounds, state_);
     try_large_transformation();
+    try_noise_for_weight();
   }
 
   [[nodiscard]] std::vector<Candidate> listed(const BlockFits& fits) const {
@@ -146,6 +148,48 @@ class Loop {
                          !(gain_of(state_.held_out_of_model(), error).t > not_worse_t);
     if (!simpler) result_ = several;
     result_.refit_seconds += seconds_since(start);
+  }
+
+  [[nodiscard]] double mass_over_given(int link) const {
+    return result_.model.Phi[Eigen::Index{10} * link] /
+           state_.robot.links[static_cast<std::size_t>(link)].inertia.mass();
+  }
+
+  /// Weight and inertia are of one mass. Noise of the accelerometer makes the one that accelerates
+  /// too small; constant forces, near the base, then stand for the weight that is missing, and with
+  /// more numbers than the noise has they predict a little better. So if the base has less than
+  /// half of its given mass, the noise is tried, exactly, in the place of all forces. It stays if
+  /// it predicts, and the base then has a mass that is nearer to the given one.
+  void try_noise_for_weight() {
+    constexpr double hardly_any = 0.5;
+    constexpr int base = 0;
+    const auto& free = state_.settings.shapes.free_links;
+    const bool sought = std::count(free.begin(), free.end(), base) > 0;
+    const double mass = mass_over_given(base);
+    if (state_.robot.root != Root::floating || !sought || !(mass < hardly_any)) return;
+    const AppliedEffect noise = at_start(*find_effect("accel_noise"), base);
+    if (has_place_of(state_.result.model.effects, noise)) return;
+    const LoopResult before = result_;
+    const std::vector<AppliedEffect> banned = banned_;
+    const auto start = std::chrono::steady_clock::now();
+    const Effect& force = *find_effect("external_force");
+    for (int link = 0; link < state_.robot.link_count(); ++link) {
+      banned_.push_back(at_start(force, link));
+    }
+    std::erase_if(result_.found, [&](const Found& f) { return f.effect.effect == &force; });
+    result_.found.push_back({noise, "accel_noise@base.accel", Eigen::VectorXd::Zero(1)});
+    state_.collect_effects();
+    refit();
+    screen();
+    refit();
+    prune_transformations();
+    const bool better = has_place_of(result_.model.effects, noise) &&
+                        std::abs(mass_over_given(base) - 1.0) < std::abs(mass - 1.0);
+    if (!better) {
+      result_ = before;
+      banned_ = banned;
+    }
+    result_.refit_seconds = before.refit_seconds + seconds_since(start);
   }
 
   [[nodiscard]] static std::vector<Term> chosen_terms(const Term& fixed,

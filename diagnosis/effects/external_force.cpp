@@ -21,7 +21,7 @@ Effect external_force() {
   e.site = SiteKind::link;
   e.parameters = {
       {"x", "N", false, 5.0, 100.0}, {"y", "N", false, 5.0, 100.0}, {"z", "N", false, 5.0, 100.0}};
-  e.confused_with = {"payload", "accel_bias", "torque_offset", "contact_undeclared"};
+  e.confused_with = {"payload", "accel_bias", "accel_noise", "torque_offset", "contact_undeclared"};
   e.separate_by = "turn the robot: a cable keeps its direction, a load its weight";
   e.under_contact = "on the base hidden as far as feet can balance it";
   e.source = "virtual power, docs/derivations/regressor.md";

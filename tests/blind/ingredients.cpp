@@ -102,6 +102,14 @@ void accel_misalignment(Ingredients& in, const Machine&, const Amount& a) {
         Eigen::AngleAxisd(-a.size, a.direction) * r.sample.base_specific_force;
   });
 }
+/// An accelerometer on a soft mount moves more than the base does.
+void accel_noise(Ingredients& in, const Machine&, const Amount& a) {
+  change_each(in, [a](Reading& r) {
+    const Eigen::Vector3d at_rest = r.attitude.conjugate() * Eigen::Vector3d(0.0, 0.0, 9.81);
+    Eigen::Vector3d& force = r.sample.base_specific_force;
+    force = at_rest + (force - at_rest) / (1.0 - a.size);
+  });
+}
 
 void torque_delay(Ingredients& in, const Machine&, const Amount& a) {
   in.signals.emplace_back([a](Readings& readings) {
@@ -232,6 +240,7 @@ std::vector<Kind> list() {
       make("imu_delay", Place::whole, false, 0.004, imu_delay, one),
       make("accel_bias", Place::accelerometer, false, 0.3, accel_bias, three),
       make("accel_misalignment", Place::accelerometer, false, 0.03, accel_misalignment, three),
+      make("accel_noise", Place::accelerometer, false, 0.1, accel_noise, one),
       make("gravity_tilt", Place::whole, true, 0.03, gravity_tilt, tilt_values),
       make("link_length", Place::joint, true, 0.01, link_length, one),
       make("contact_point", Place::contact, true, 0.01, contact_point, three),
@@ -249,6 +258,7 @@ std::vector<Kind> list() {
     if (k.id == "torque_delay" || k.id == "imu_delay") k.largest = 0.015;  // s
     if (k.id == "torque_lag") k.largest = 0.03;                            // s
     if (k.id == "torque_gain") k.largest = 0.6;
+    if (k.id == "accel_noise") k.largest = 0.7;
     if (k.id == "link_length" || k.id == "contact_point" || k.id == "foot_radius") {
       k.largest = 0.05;  // m
     }
