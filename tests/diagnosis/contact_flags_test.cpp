@@ -11,15 +11,14 @@
 
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/names.hpp"
-#include "shapeid/models/robot_yaml.hpp"
-#include "shapeid/models/simbody/random.hpp"
-#include "shapeid/models/simbody/simulation.hpp"
-#include "shapeid/models/urdf.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
+#include "shapeid/tests/diagnosis/trot.hpp"
 #include "shapeid/tests/support/generators.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
+
+using test::Trot;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -103,49 +102,24 @@ RC_GTEST_PROP(ContactFlags, AreTheSameAsAnEffectAndCorrectedInTheLog, ()) {
   }
 }
 
-/// A trot of Simbody's with noise of torque alone, and what its logs are searched with.
-struct Trot {
-  Trot() {
-    const std::string files = SHAPEID_SOURCE_DIR "/models/robots/quadruped.";
-    robot = read_urdf(files + "urdf").robot;
-    static_cast<void>(read_robot_yaml(files + "robot.yaml", robot));
-    SimulationOptions options;
-    options.duration = 6.0;
-    Random random(7);
-    simulate(robot, options, [&](const SimulatedSample& s) {
-      samples.push_back(s.sample);
-      constexpr double noise = 0.03;  // N m
-      for (double& tau : samples.back().tau) tau += noise * random.normal();
-    });
-    settings.size = Eigen::VectorXd::Ones(Eigen::Index{10} * robot.link_count());
-    settings.shapes.known = stacked_parameters(robot);
-    settings.stride = 4;
-  }
-
-  /// A foot's flag comes so much (s) after the touch, and goes so much before the foot does.
-  [[nodiscard]] Recording log(std::size_t foot, double late, double early) const {
-    std::vector<Sample> told = samples;
-    const Recording exact(samples, rate);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      if (!samples[i].in_contact[foot]) continue;
-      for (std::size_t k = 0; k < samples.size(); ++k) {
-        const double after = samples[i].time - samples[k].time;
-        if (samples[k].in_contact[foot] || after > late || after < -early) continue;
-        told[i].in_contact[foot] = false;
-      }
+/// A foot's flag comes so much (s) after the touch, and goes so much before the foot does.
+Recording told(const Trot& trot, std::size_t foot, double late, double early) {
+  const std::vector<Sample>& samples = trot.samples;
+  std::vector<Sample> told = samples;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!samples[i].in_contact[foot]) continue;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const double after = samples[i].time - samples[k].time;
+      if (samples[k].in_contact[foot] || after > late || after < -early) continue;
+      told[i].in_contact[foot] = false;
     }
-    return {std::move(told), rate};
   }
-
-  static constexpr double rate = 500.0;
-  Robot robot;
-  std::vector<Sample> samples;
-  LoopSettings settings;
-};
+  return {std::move(told), Trot::rate};
+}
 
 void expect_found(const Trot& trot, Recording log, const std::string& id, double time) {
   const std::vector<Found> found =
-      correct_contact_flags(trot.robot, log, nullptr, nullptr, trot.settings);
+      correct_contact_flags(trot.robot, log, nullptr, nullptr, trot.settings());
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].id, id);
   // Searched in steps of one and a half, and rounded up by a fifth.
@@ -156,10 +130,10 @@ void expect_found(const Trot& trot, Recording log, const std::string& id, double
 
 TEST(ContactFlags, AreFoundOnATrotWhereTheyAreWrong) {
   const Trot trot;
-  Recording right = trot.log(2, 0.0, 0.0);
-  EXPECT_TRUE(correct_contact_flags(trot.robot, right, nullptr, nullptr, trot.settings).empty());
-  expect_found(trot, trot.log(2, 0.016, 0.0), "contact_late@RR_foot", 0.016);
-  expect_found(trot, trot.log(1, 0.0, 0.024), "contact_short@FL_foot", 0.024);
+  Recording right = told(trot, 2, 0.0, 0.0);
+  EXPECT_TRUE(correct_contact_flags(trot.robot, right, nullptr, nullptr, trot.settings()).empty());
+  expect_found(trot, told(trot, 2, 0.016, 0.0), "contact_late@RR_foot", 0.016);
+  expect_found(trot, told(trot, 1, 0.0, 0.024), "contact_short@FL_foot", 0.024);
 }
 
 TEST(ContactFlags, TheGroundCannotPull) {
@@ -175,7 +149,8 @@ TEST(ContactFlags, TheGroundCannotPull) {
 
 TEST(ContactFlags, AContactThatWouldPullHasNoName) {
   const Trot trot;
-  LoopState state(trot.robot, trot.log(2, 0.0, 0.0), nullptr, trot.settings);
+  const LoopSettings settings = trot.settings();
+  LoopState state(trot.robot, told(trot, 2, 0.0, 0.0), nullptr, settings);
   state.fit_masses();
   const auto claim = [&](const std::string& id, int site, double up) {
     const AppliedEffect a = test::effect(id, site, {1.0, 0.5, up});
