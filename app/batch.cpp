@@ -27,7 +27,7 @@ RobotInputs read_robot_with_any(MotionInputs inputs, const std::vector<std::stri
       if (!first) first = e;
     }
   }
-  throw *first;
+  throw InputError(*first);
 }
 
 json logs_json(const std::vector<BatchLog>& logs) {

@@ -16,8 +16,6 @@
 namespace shapeid::app {
 namespace {
 
-using diagnosis::Series;
-
 constexpr const char* grey = "#8a8a8a";
 constexpr const char* orange = "#d9822b";
 constexpr const char* blue = "#1f5fa8";

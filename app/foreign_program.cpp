@@ -75,7 +75,7 @@ std::string ForeignProgram::ask(const std::string& line, int patience) {
     }
     end = unread_.find('\n');
   }
-  const std::string answer = unread_.substr(0, end);
+  std::string answer = unread_.substr(0, end);
   unread_.erase(0, end + 1);
   return answer;
 }

@@ -15,7 +15,7 @@ struct LimitOptions {
 /// Adds a point mass in each region where its polynomial is lowest, solves without the density
 /// term, drops the masses that became zero, and repeats (docs/derivations/certificate.md). Starts
 /// from the problem's own shapes. Empty for a problem without regions or other than masses.
-[[nodiscard]] certificate::Guess limit_of_divisions(const StatedProblem& problem,
+[[nodiscard]] certificate::Guess limit_of_divisions(const StatedProblem& stated,
                                                     const LimitOptions& options = {});
 
 }  // namespace shapeid::app

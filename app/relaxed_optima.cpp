@@ -38,10 +38,10 @@ class Barrier {
   explicit Barrier(const MassProblem& p) : links_(p.Y.cols() / 10) {
     const double length = length_of(p);
     const Eigen::Vector4d unit(length, length, length, 1.0);
-    for (int row = 0, k = 0; row < 4; ++row) {
-      for (int col = 0; col <= row; ++col, ++k) {
+    for (int j = 0, k = 0; j < 4; ++j) {
+      for (int i = 0; i <= j; ++i, ++k) {
         Eigen::Matrix4d E = Eigen::Matrix4d::Zero();
-        E(row, col) = E(col, row) = 1.0;
+        E(i, j) = E(j, i) = 1.0;
         entries_[static_cast<std::size_t>(k)] = E;
         parameters_.col(k) = from_pseudo_inertia(unit.asDiagonal() * E * unit.asDiagonal()).values;
       }
@@ -195,10 +195,12 @@ std::vector<Guess> path_to_least_over_bodies(const StatedProblem& stated) {
   constexpr double shrink = 0.1, gap = 1e-9, least = 1e-18;
   Eigen::VectorXd s = barrier.start();
   std::vector<Guess> path;
-  for (double mu = barrier.size() / barrier.order(); mu > least * barrier.size(); mu *= shrink) {
+  double mu = barrier.size() / barrier.order();
+  while (mu > least * barrier.size()) {
     if (!barrier.descend(s, mu)) break;
     path.push_back({barrier.Phi(s), {}});
     if (mu * barrier.order() < gap * barrier.data(s)) break;
+    mu *= shrink;
   }
   return path;
 }

@@ -10,14 +10,14 @@
 namespace shapeid::app {
 
 /// The least data term with nothing asked but masses >= 0. Empty for a problem with other columns.
-[[nodiscard]] certificate::Guess least_over_masses(const StatedProblem& problem);
+[[nodiscard]] certificate::Guess least_over_masses(const StatedProblem& stated);
 
 /// Points on the way to the least data term over all bodies that can exist, by a barrier: each
 /// strictly inside, the last the nearest. Empty for a problem with other columns.
 [[nodiscard]] std::vector<certificate::Guess> path_to_least_over_bodies(
-    const StatedProblem& problem);
+    const StatedProblem& stated);
 
 /// The last of them whose residual proves a floor under all bodies; of none, the last.
-[[nodiscard]] certificate::Guess least_over_bodies(const StatedProblem& problem);
+[[nodiscard]] certificate::Guess least_over_bodies(const StatedProblem& stated);
 
 }  // namespace shapeid::app

@@ -91,12 +91,12 @@ void TrackRun::watch_clock(MeasuredRow row) {
   }
   row_time_ = time;
   guard_.push(std::move(row));
-  while (std::optional<GuardedRow> passed = guard_.next()) take(std::move(*passed));
+  while (std::optional<GuardedRow> passed = guard_.next()) take(*passed);
   if (!line_time_) line_time_ = time;
   if (estimates_ && time - *line_time_ > longest_silence) print(Why::no_samples, time);
 }
 
-void TrackRun::take(GuardedRow row) {
+void TrackRun::take(const GuardedRow& row) {
   events_.add(row.faults);
   stream_.push(row.row);
   if (stream_.rate() > 0.0 && !estimates_) prepare();

@@ -60,7 +60,7 @@ class TrackRun {
 
   void prepare();
   void watch_clock(MeasuredRow row);
-  void take(GuardedRow row);
+  void take(const GuardedRow& row);
   void take(const Sample& sample);
   [[nodiscard]] bool stands_still(const Sample& sample);
   void print(Why why, double time);

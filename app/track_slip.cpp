@@ -49,6 +49,7 @@ std::vector<int> SlipWatch::watch(const Sample& sample) {
   if (robot_.root == Root::floating && !touching.empty()) {
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> component;
+      component.reserve(seen_from_base.size());
       for (const Eigen::Vector3d& u : seen_from_base) component.push_back(u[axis]);
       common[axis] = median(std::move(component));
     }

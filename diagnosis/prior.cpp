@@ -9,10 +9,12 @@ double choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
   std::vector<double> priors;
   std::vector<Eigen::VectorXd> errors;
   constexpr double strongest = 1000.0;  // a thirtieth of its natural size, for each parameter
-  for (double prior = 1e-4; prior <= 1.5 * strongest; prior *= 10.0) {
+  double prior = 1e-4;
+  while (prior <= 1.5 * strongest) {
     fits.set_prior(prior);
     priors.push_back(prior);
     errors.push_back(fits.held_out(terms));
+    prior *= 10.0;
   }
   const auto best = std::min_element(
       errors.begin(), errors.end(), [](const auto& a, const auto& b) { return a.sum() < b.sum(); });

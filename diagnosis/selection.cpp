@@ -341,7 +341,6 @@ class Search {
   void simplify() {
     bool simpler = true;
     while (simpler && !accepted_.empty()) {
-      simpler = false;
       const std::vector<std::size_t> before = accepted_;
       const Eigen::VectorXd error = fits_.held_out(terms(before));
       const std::vector<std::size_t> hidden = result_.hidden;

@@ -50,7 +50,8 @@ double strongest_ripple(const Robot& robot, const Recording& recording, const Se
   const double range = x.maxCoeff() - x.minCoeff();
   const double step = std::max(0.5 / std::max(range, 0.05), (upper - lower) / 2000.0);
   double best = lower, most = 0.0;
-  for (double N = lower; N <= upper; N += step) {
+  double N = lower;
+  while (N <= upper) {
     Eigen::MatrixX3d A(x.size(), 3);
     A << size * (N * x).cos(), size * (N * x).sin(), size;
     const Eigen::Vector3d g = A.transpose() * y;
@@ -59,6 +60,7 @@ double strongest_ripple(const Robot& robot, const Recording& recording, const Se
       most = explained;
       best = N;
     }
+    N += step;
   }
   return best;
 }

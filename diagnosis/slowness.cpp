@@ -34,13 +34,15 @@ Spectrum spectrum(const std::vector<double>& time, const Eigen::VectorXd& y, dou
   const double duration = time.back() - time.front();
   if (!(duration > 0.0)) return result;
   result.step = 1.0 / duration;
-  for (double f = result.step; f < highest; f += result.step) {
+  double f = result.step;
+  while (f < highest) {
     std::complex<double> sum = 0.0;
     for (std::size_t i = 0; i < time.size(); ++i) {
       sum += std::polar(y[static_cast<Eigen::Index>(i)],
                         2.0 * std::numbers::pi * f * (time[i] - time.front()));
     }
     result.power.push_back(std::norm(sum) / static_cast<double>(time.size()));
+    f += result.step;
   }
   return result;
 }

@@ -172,8 +172,9 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
   std::vector<Structure> found;
   // What four numbers of nothing take away from their own blocks they cost on others: the sum of
   // their squares is expected there to be theirs, less two a number.
-  const auto curves = static_cast<double>(robot.joint_count() * (2 * robot.joint_count() + 4) +
-                                          robot.joint_count() * std::ssize(recording.extra()));
+  const std::ptrdiff_t joints = robot.joint_count();
+  const auto curves =
+      static_cast<double>(joints * (2 * joints + 4 + std::ssize(recording.extra())));
   const CurveRule rule{limit_for(usual_gain_t, blocks),
                        least_squares_sum(false_alarms / curves, waves - 1) - 2.0 * (waves - 1),
                        recording.independent_share(stride)};
