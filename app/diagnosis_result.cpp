@@ -253,6 +253,11 @@ std::string doubt(const DiagnosisRun& run, const diagnosis::Found& f, const Robo
         "is itself: something else",
         variable_of(*f.varies, robot), f.varies->z, 100.0 * f.varies->share);
   }
+  if (f.needed) {
+    return "without it the links beyond this joint would have to be larger, or far heavier: a "
+           "rotor, or links of "
+           "another size";
+  }
   if (f.pulls) return "the ground would have to pull the foot";
   if (f.displaced) return "a law without a name explains it better: something else";
   if (f.faded) return "once the links are bodies it does not differ from zero by more than chance";

@@ -11,6 +11,7 @@
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/diagnosis/checks.hpp"
 #include "shapeid/diagnosis/contact_flags.hpp"
+#include "shapeid/diagnosis/needed.hpp"
 #include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/diagnosis/slowness.hpp"
 #include "shapeid/diagnosis/usual.hpp"
@@ -312,6 +313,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   log.recording.set_correction(run.loop.correction);
   run.consistent =
       diagnosis::make_consistent(robot.robot, log.recording, reference, run.settings, run.loop);
+  diagnosis::add_needed_rotors(robot.robot, log.recording, reference, run.settings, run.loop,
+                               run.consistent);
   diagnosis::mark_faded(log.recording, run.settings, run.consistent, run.loop);
   run.unnoticed = diagnosis::unnoticed(robot.robot, log.recording, reference, run.settings,
                                        run.loop, run.consistent);

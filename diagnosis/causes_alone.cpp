@@ -8,7 +8,7 @@ std::optional<Consistent> beside_causes_alone(const Robot& robot, const Recordin
                                               const Recording* reference,
                                               const LoopSettings& settings,
                                               const LoopResult& loop) {
-  const auto describes = [](const Found& f) { return !f.name_stands(); };
+  const auto describes = [](const Found& f) { return !f.name_stands() && !f.needed; };
   if (std::none_of(loop.found.begin(), loop.found.end(), describes)) return std::nullopt;
   LoopResult causes = loop;
   std::erase_if(causes.found, describes);

@@ -61,10 +61,12 @@ struct Found {
   bool only_with_others = false;
   /// It is the force of a ground that would have to pull.
   bool pulls = false;
+  /// Free parameters take it over; without it links of their size would be no bodies.
+  bool needed = false;
   /// Else it only describes: it predicts, and says nothing about the cause.
   [[nodiscard]] bool name_stands() const {
     return !varies && !drowned && !any_period && !beside_unknown && !displaced && !faded &&
-           !only_with_others && !pulls;
+           !only_with_others && !pulls && !needed;
   }
 };
 
