@@ -88,18 +88,19 @@ json links_json(const DiagnosisRun& run, const Robot& robot) {
     const Link& given = robot.links[static_cast<std::size_t>(free_links[i])];
     const auto own = 10 * static_cast<std::ptrdiff_t>(i);
     const reference::Determination& data = run.consistent.data;
-    json entry = {{"name", given.name},
-                  {"parameters", numbers(run.consistent.model.Phi.segment<10>(at))},
-                  {"given", numbers(given.inertia.values)},
-                  {"standard_error", numbers(run.consistent.Phi_error.segment<10>(at))},
-                  {"error_if_unnoticed", numbers(run.unnoticed.error.segment<10>(at))},
-                  {"unnoticed", std::vector<std::string>(run.unnoticed.effect.begin() + at,
-                                                         run.unnoticed.effect.begin() + at + 10)},
-                  {"far_from_given", diagnosis::is_far_from_given(robot, run.consistent,
-                                                                  run.unnoticed, free_links[i])},
-                  {"data_standard_error", numbers(data.standard_error.segment<10>(own))},
-                  {"determined", std::vector<bool>(data.determined.begin() + own,
-                                                   data.determined.begin() + own + 10)}};
+    json entry = {
+        {"name", given.name},
+        {"parameters", numbers(run.consistent.model.Phi.segment<10>(at))},
+        {"given", numbers(given.inertia.values)},
+        {"standard_error", numbers(run.consistent.Phi_error.segment<10>(at))},
+        {"error_if_unnoticed", numbers(run.unnoticed.error.segment<10>(at))},
+        {"unnoticed", std::vector<std::string>(run.unnoticed.effect.begin() + at,
+                                               run.unnoticed.effect.begin() + at + 10)},
+        {"far_from_given",
+         diagnosis::is_far_from_given(robot, run.consistent, run.unnoticed.error, free_links[i])},
+        {"data_standard_error", numbers(data.standard_error.segment<10>(own))},
+        {"determined",
+         std::vector<bool>(data.determined.begin() + own, data.determined.begin() + own + 10)}};
     if (run.causes_alone) {
       entry["beside_causes_alone"] = numbers(run.causes_alone->model.Phi.segment<10>(at));
       entry["hangs_on_descriptions"] =

@@ -234,7 +234,7 @@ void note_unsettled_links(const Robot& robot, DiagnosisRun& run) {
 
 void note_far_masses(const Robot& robot, DiagnosisRun& run) {
   for (const int link : run.settings.shapes.free_links) {
-    if (!diagnosis::is_far_from_given(robot, run.consistent, run.unnoticed, link)) continue;
+    if (!diagnosis::is_far_from_given(robot, run.consistent, run.unnoticed.error, link)) continue;
     const Link& given = robot.links[static_cast<std::size_t>(link)];
     run.notes.push_back(fmt::format(
         "{} has {:.3g} kg here and {:.3g} kg as given, which no error covers: weigh it before "

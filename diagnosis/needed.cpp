@@ -7,6 +7,7 @@
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/chance.hpp"
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/unnoticed.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -20,14 +21,24 @@ bool moves_any(const Robot& robot, int joint, const std::vector<int>& links) {
   });
 }
 
-std::vector<Found> rotors_that_may_lack(const Robot& robot, const LoopSettings& settings,
+std::vector<int> far_from_given(const Robot& robot, const LoopSettings& settings,
+                                const Consistent& consistent) {
+  std::vector<int> links;
+  for (const int link : settings.shapes.free_links) {
+    if (is_far_from_given(robot, consistent, consistent.Phi_error, link)) links.push_back(link);
+  }
+  return links;
+}
+
+/// At joints that move one of the links.
+std::vector<Found> rotors_that_may_lack(const Robot& robot, const std::vector<int>& links,
                                         const LoopResult& loop) {
   std::vector<Found> list;
   const Effect& rotor = *find_effect("rotor_inertia");
   for (int joint = 0; joint < robot.joint_count(); ++joint) {
     const AppliedEffect at = at_start(rotor, joint);
     if (has_place_of(loop.model.effects, at)) continue;
-    if (!moves_any(robot, joint, settings.shapes.free_links)) continue;
+    if (!moves_any(robot, joint, links)) continue;
     Found found{at, rotor.id + "@" + site_name(robot, rotor.site, joint), Eigen::VectorXd::Zero(1)};
     found.needed = true;
     list.push_back(std::move(found));
@@ -69,12 +80,14 @@ void add_needed_rotors(const Robot& robot, const Recording& log, const Recording
   constexpr Eigen::Index tenths = 10;  // of the jackknife
   const double least =
       limit_for(least_z(settings.rule.false_alarms, static_cast<double>(loop.hypotheses)), tenths);
-  std::vector<Found> rotors = rotors_that_may_lack(robot, settings, loop);
+  const std::vector<int> far = far_from_given(robot, settings, consistent);
+  std::vector<Found> rotors = rotors_that_may_lack(robot, far, loop);
   while (!rotors.empty()) {
     Consistent bodies = make_consistent(robot, log, reference, settings, with(loop, rotors));
     const std::size_t before = rotors.size();
     std::erase_if(rotors, [&](const Found& f) { return !(size_in(bodies, f.effect) > least); });
     if (rotors.size() < before) continue;
+    if (far_from_given(robot, settings, bodies).size() >= far.size()) return;
     for (Found& f : rotors) take_number(bodies, f);
     loop = with(loop, rotors);
     consistent = std::move(bodies);

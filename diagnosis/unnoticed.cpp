@@ -64,15 +64,15 @@ Unnoticed unnoticed(const Robot& robot, const Recording& log, const Recording* r
   return result;
 }
 
-bool is_far_from_given(const Robot& robot, const Consistent& consistent, const Unnoticed& unnoticed,
-                       int link) {
+bool is_far_from_given(const Robot& robot, const Consistent& consistent,
+                       const Eigen::VectorXd& error, int link) {
   const double given = robot.links[static_cast<std::size_t>(link)].inertia.mass();
   if (!(given > 0.0)) return false;
   const Eigen::Index number = Eigen::Index{10} * link;
   const double found = consistent.model.Phi[number];
   constexpr double factor = 2.0, errors = 3.0;
   return (found < given / factor || found > factor * given) &&
-         std::abs(found - given) > errors * unnoticed.error[number];
+         std::abs(found - given) > errors * error[number];
 }
 
 }  // namespace shapeid::diagnosis

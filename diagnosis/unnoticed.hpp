@@ -25,10 +25,10 @@ struct Unnoticed {
                                   const Recording* reference, const LoopSettings& settings,
                                   const LoopResult& loop, const Consistent& consistent);
 
-/// Whether the link's mass is below half or above twice the given one, by more than three of the
-/// errors that allow for what was not noticed. One of the two is wrong then, and the log does not
-/// say which: effects without a name, taken for granted, may carry most of a body.
+/// Whether the link's mass is below half or above twice the given one, by more than three of
+/// `error` (10 links; Unnoticed's, if there is one). One of the two is wrong then, and the log does
+/// not say which: effects without a name, taken for granted, may carry most of a body.
 [[nodiscard]] bool is_far_from_given(const Robot& robot, const Consistent& consistent,
-                                     const Unnoticed& unnoticed, int link);
+                                     const Eigen::VectorXd& error, int link);
 
 }  // namespace shapeid::diagnosis

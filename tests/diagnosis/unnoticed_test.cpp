@@ -116,12 +116,13 @@ TEST(Unnoticed, AMassThatNoErrorBringsNearTheGivenIsFar) {
     given.values *= times;
     const Fitted fitted(log, 3, {}, robot);
     const bool far = times < 0.5 || times > 2.0;
-    EXPECT_EQ(is_far_from_given(robot, fitted.model, fitted.unnoticed, 3), far) << times;
+    EXPECT_EQ(is_far_from_given(robot, fitted.model, fitted.unnoticed.error, 3), far) << times;
     Unnoticed unsure = fitted.unnoticed;
     unsure.error[30] = 10.0;  // kg
-    EXPECT_FALSE(is_far_from_given(robot, fitted.model, unsure, 3)) << times;
+    EXPECT_FALSE(is_far_from_given(robot, fitted.model, unsure.error, 3)) << times;
     given.values.setZero();
-    EXPECT_FALSE(is_far_from_given(robot, fitted.model, fitted.unnoticed, 3)) << "none is given";
+    EXPECT_FALSE(is_far_from_given(robot, fitted.model, fitted.unnoticed.error, 3))
+        << "none is given";
   }
 }
 
