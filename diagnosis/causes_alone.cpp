@@ -25,7 +25,10 @@ bool hangs_on_descriptions(const Consistent& model, const Consistent& causes_alo
   const Eigen::ArrayXd error = (model.Phi_error.segment<10>(at).cwiseAbs2() +
                                 causes_alone.Phi_error.segment<10>(at).cwiseAbs2())
                                    .cwiseSqrt();
-  return (moved > told_apart * error).any();
+  // What nothing but the prior holds has no scatter: it moves by the solver's tolerance.
+  constexpr double tolerance = 1e-6;
+  const Eigen::ArrayXd size = model.model.Phi.segment<10>(at).cwiseAbs();
+  return (moved > told_apart * error && moved > tolerance * size).any();
 }
 
 }  // namespace shapeid::diagnosis
