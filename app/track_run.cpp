@@ -85,13 +85,13 @@ void TrackRun::watch_clock(MeasuredRow row) {
   }
   if (!follows) {
     guard_.flush();
-    while (std::optional<GuardedRow> held = guard_.next()) take(std::move(*held));
+    while (const std::optional<GuardedRow> held = guard_.next()) take(*held);
     stream_.restart();
     line_time_.reset();
   }
   row_time_ = time;
   guard_.push(std::move(row));
-  while (std::optional<GuardedRow> passed = guard_.next()) take(*passed);
+  while (const std::optional<GuardedRow> passed = guard_.next()) take(*passed);
   if (!line_time_) line_time_ = time;
   if (estimates_ && time - *line_time_ > longest_silence) print(Why::no_samples, time);
 }
