@@ -232,6 +232,16 @@ void note_unsettled_links(const Robot& robot, DiagnosisRun& run) {
   }
 }
 
+void note_mass_beside_forces(const Robot& robot, DiagnosisRun& run) {
+  if (!run.loop.mass_beside_forces) return;
+  run.notes.push_back(
+      fmt::format("{} would have {:.3g} kg, as a free number, beside constant forces that stand "
+                  "for its weight; "
+                  "accel_noise took their place, "
+                  "because the mass then is nearer to the given one: weigh it",
+                  robot.links[0].name, *run.loop.mass_beside_forces));
+}
+
 void note_far_masses(const Robot& robot, DiagnosisRun& run) {
   for (const int link : run.settings.shapes.free_links) {
     if (!diagnosis::is_far_from_given(robot, run.consistent, run.unnoticed.error, link)) continue;
@@ -370,6 +380,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   note_rests(robot.robot, run);
   note_worse_joints(robot.robot, run);
   note_unsettled_links(robot.robot, run);
+  note_mass_beside_forces(robot.robot, run);
   note_far_masses(robot.robot, run);
   return run;
 }

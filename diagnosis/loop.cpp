@@ -185,7 +185,9 @@ class Loop {
     prune_transformations();
     const bool better = has_place_of(result_.model.effects, noise) &&
                         std::abs(mass_over_given(base) - 1.0) < std::abs(mass - 1.0);
-    if (!better) {
+    if (better) {
+      result_.mass_beside_forces = before.model.Phi[Eigen::Index{10} * base];
+    } else {
       result_ = before;
       banned_ = banned;
     }

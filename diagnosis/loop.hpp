@@ -82,6 +82,9 @@ struct LoopResult {
   std::vector<Ranked> first_ranking;  ///< beside masses alone
   std::vector<Ranked> last_ranking;   ///< of what was left out
   std::vector<std::string> hidden;    ///< cannot be told from masses and what was found
+  /// kg: the base's beside constant forces, whose place the accelerometer's noise took for a mass
+  /// nearer to the given one.
+  std::optional<double> mass_beside_forces;
   std::vector<std::pair<std::string, double>> wrong_signs;  ///< id, its parameter over its error
   std::vector<Stranger> strangers;  ///< laws without a name that explain what is left
   Eigen::VectorXd weight;

@@ -92,6 +92,7 @@ Division::Candidate Division::take_largest() noexcept {
     const bool ties = candidate.v >= (1.0 - options_.tie) * largest;
     if (ties && (best == nullptr || candidate.place < best->place)) best = &candidate;
   }
+  if (best == nullptr) return taken;
   taken = *best;
   best->v = 0.0;
   return taken;
@@ -147,7 +148,7 @@ std::string Division::id(int place) const {
   std::string way;
   int part = parts_[static_cast<std::size_t>(place)];
   for (int parent = tree_[part].parent; parent >= 0; parent = tree_[part].parent) {
-    way = (part == tree_[parent].first ? ".0" : ".1") + way;
+    way.insert(0, part == tree_[parent].first ? ".0" : ".1");
     part = parent;
   }
   return ids_[static_cast<std::size_t>(part)] + way;

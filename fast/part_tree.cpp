@@ -27,7 +27,9 @@ PartTree::PartTree(const BodyModel& model, int most_divisions)
 }
 
 void PartTree::make_room() noexcept {
-  if (static_cast<std::size_t>(used_ + 2 * most_divisions_) <= parts_.size()) return;
+  if (static_cast<std::size_t>(used_) + 2 * static_cast<std::size_t>(most_divisions_) <=
+      parts_.size())
+    return;
   used_ = whole_;
   for (int i = 0; i < whole_; ++i) parts_[static_cast<std::size_t>(i)].first = -1;
 }

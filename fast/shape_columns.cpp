@@ -38,9 +38,9 @@ struct Best {
 /// u . g of sixteen shapes, in two sums, so that one addition need not wait for the other.
 [[gnu::always_inline]] inline void slopes_of(const float* U, const float* g,
                                              Eight* slopes) noexcept {
-  for (int p = 0; p < 2; ++p) {
+  for (std::ptrdiff_t p = 0; p < 2; ++p) {
     Eight even = {}, odd = {};
-    for (int i = 0; i < 10; i += 2) {
+    for (std::ptrdiff_t i = 0; i < 10; i += 2) {
       Eight u, v;
       load(U + 16 * i + 8 * p, u);
       load(U + 16 * (i + 1) + 8 * p, v);
@@ -54,9 +54,9 @@ struct Best {
 /// 1 / sum_i |u_i| sizes_i of each of sixteen shapes.
 [[gnu::always_inline]] inline void inverse_sizes(const float* U, const float* sizes,
                                                  Eight* inverse) noexcept {
-  for (int p = 0; p < 2; ++p) {
+  for (std::ptrdiff_t p = 0; p < 2; ++p) {
     Eight sum = Eight{} + smallest_scale;
-    for (int i = 0; i < 10; ++i) {
+    for (std::ptrdiff_t i = 0; i < 10; ++i) {
       Eight u;
       load(U + 16 * i + 8 * p, u);
       sum += (u < 0.0F ? -u : u) * sizes[i];
@@ -72,7 +72,7 @@ struct Best {
   using Bits = std::uint32_t __attribute__((vector_size(32)));
   constexpr Bits lanes[] = {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10, 11, 12, 13, 14, 15}};
   Eight most[2];
-  for (int p = 0; p < 2; ++p) {
+  for (std::ptrdiff_t p = 0; p < 2; ++p) {
     const Eight possible = prices[p] <= no_price ? prices[p] : Eight{} + impossible;
     most[p] = reinterpret_cast<Eight>((reinterpret_cast<Bits>(possible) & ~15U) | lanes[p]);
   }
@@ -87,7 +87,7 @@ SHAPEID_WIDE Best price_by_lengths(const float* U, const float* g, const float* 
                                    const float* barrier, float* prices) noexcept {
   Eight slopes[2];
   slopes_of(U, g, slopes);
-  for (int p = 0; p < 2; ++p) {
+  for (std::ptrdiff_t p = 0; p < 2; ++p) {
     Eight factor, barred_by;
     load(scale + 8 * p, factor);
     load(barrier + 8 * p, barred_by);
@@ -107,7 +107,7 @@ SHAPEID_WIDE void price_by_both(const float* U, const float* g, const float* sca
   for (int i = 0; i < 10; ++i) sizes[i] = std::abs(g[i]);
   slopes_of(U, g, slopes);
   inverse_sizes(U, sizes, terms);
-  for (int p = 0; p < 2; ++p) {
+  for (std::ptrdiff_t p = 0; p < 2; ++p) {
     Eight factor, barred_by;
     load(scale + 8 * p, factor);
     load(barrier + 8 * p, barred_by);
@@ -123,7 +123,7 @@ SHAPEID_WIDE void price_by_both(const float* U, const float* g, const float* sca
 SHAPEID_WIDE void scales(const float* U, const float* sizes, float* scale) noexcept {
   Eight inverse[2];
   inverse_sizes(U, sizes, inverse);
-  for (int p = 0; p < 2; ++p) store(inverse[p], scale + 8 * p);
+  for (std::ptrdiff_t p = 0; p < 2; ++p) store(inverse[p], scale + 8 * p);
 }
 
 }  // namespace
