@@ -160,6 +160,7 @@ std::vector<std::string> fitted_logs(const DiagnoseOptions& options) {
 /// Held-out errors are of data that were used for nothing else.
 void refuse_same_logs(const DiagnoseOptions& options) {
   std::vector<std::string> paths = fitted_logs(options);
+  if (!options.reference.empty()) paths.push_back(options.reference);
   const std::size_t fitted = paths.size();
   paths.insert(paths.end(), options.test.begin(), options.test.end());
   for (std::size_t k = 1; k < paths.size(); ++k) {
@@ -178,12 +179,13 @@ void refuse_same_logs(const DiagnoseOptions& options) {
 /// The log at three times the cutoff, from which the filter's own error is computed; none if there
 /// is no filter, or one that works forward only.
 std::optional<RecordedLog> less_smooth(const RobotInputs& robot, const DiagnoseOptions& options,
+                                       const std::vector<std::string>& paths,
                                        const RecordedLog& log, std::optional<Part> part) {
   constexpr double times = 3.0, highest = 0.4;  // of the rate
   MotionInputs inputs = options.inputs;
   inputs.cutoff = std::min(times * inputs.cutoff, highest * log.motion.rate);
   if (inputs.exact || inputs.causal || !(inputs.cutoff > options.inputs.cutoff)) return {};
-  return read_recordings(fitted_logs(options), robot, inputs, part, log.shifts);
+  return read_recordings(paths, robot, inputs, part, log.shifts);
 }
 
 /// What was accepted under a name that does not stand, with the curve that it leaves when it is
@@ -286,13 +288,15 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   diagnosis::check_recording(robot.robot, log.recording, log.contacts);
   const std::vector<std::string> test_paths = split ? fitted_logs(options) : options.test;
   const std::optional<Part> test_part = split ? std::optional(Part::held_out) : std::nullopt;
-  RecordedLog test = read_recordings(test_paths, robot, options.inputs, test_part);
+  RecordedLog test = read_recordings(test_paths, robot, options.inputs, test_part,
+                                     split ? log.shifts : std::vector<double>());
   MotionInputs unsmoothed = options.inputs;
   unsmoothed.cutoff = 0.0;
   const RecordedLog raw = read_recordings(test_paths, robot, unsmoothed, test_part, test.shifts);
   std::optional<RecordedLog> earlier;
   if (!options.reference.empty()) {
     earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);
+    diagnosis::check_recording(robot.robot, earlier->recording, earlier->contacts);
   }
 
   DiagnosisRun run{settings_for(robot, options, log),
@@ -309,18 +313,23 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                    log.motion,
                    robot.robot.notes};
   diagnosis::check_clocks(robot.robot, log.recording, run.settings);
-  std::optional<RecordedLog> rough = less_smooth(robot, options, log, fitted_part);
-  if (rough) {
-    run.settings.rough = &rough->recording;
-    run.settings.cutoff = options.inputs.cutoff;
+  std::optional<RecordedLog> rough =
+      less_smooth(robot, options, fitted_logs(options), log, fitted_part);
+  std::optional<RecordedLog> rough_earlier;
+  if (earlier) {
+    rough_earlier = less_smooth(robot, options, {options.reference}, *earlier, std::nullopt);
   }
-  const Recording* reference = earlier ? &earlier->recording : nullptr;
+  const auto pointer = [](std::optional<RecordedLog>& of) { return of ? &of->recording : nullptr; };
+  run.settings.rough = pointer(rough);
+  run.settings.rough_reference = pointer(rough_earlier);
+  run.settings.cutoff = options.inputs.cutoff;
+  Recording* reference = pointer(earlier);
   const std::vector<diagnosis::Found> flags = diagnosis::correct_contact_flags(
-      robot.robot, log.recording, rough ? &rough->recording : nullptr, reference, run.settings);
-  diagnosis::correct_contact_flags(run.test, flags);
-  if (earlier) diagnosis::correct_contact_flags(earlier->recording, flags);
+      robot.robot, log.recording, reference, {pointer(rough), pointer(rough_earlier), &run.test},
+      run.settings);
   run.loop = diagnosis::close_loop(robot.robot, log.recording, reference, run.settings);
   log.recording.set_correction(run.loop.correction);
+  if (reference != nullptr) reference->set_correction(run.loop.reference_correction);
   run.consistent =
       diagnosis::make_consistent(robot.robot, log.recording, reference, run.settings, run.loop);
   diagnosis::add_needed_rotors(robot.robot, log.recording, reference, run.settings, run.loop,

@@ -16,8 +16,9 @@ namespace {
 constexpr std::size_t most_samples = 1000000;
 
 diagnosis::Recording recording_of(std::vector<Sample> samples, const MotionReport& motion,
-                                  const MotionInputs& inputs) {
+                                  const MotionInputs& inputs, double begins) {
   diagnosis::Recording recording(std::move(samples), motion.rate, motion.extra);
+  recording.set_origin(begins);
   if (!inputs.exact && inputs.cutoff > 0.0) {
     recording.set_independent_rate(2.0 * band_of_two_passes * inputs.cutoff);
   }
@@ -31,8 +32,10 @@ RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
   LogSamples log(path, robot, inputs);
   std::vector<Sample> samples;
   std::optional<double> start;
+  double end = 0.0;
   while (std::optional<Sample> sample = log.next()) {
     if (!start) start = sample->time;
+    end = sample->time;
     if (samples.size() == most_samples) {
       throw InputError({path},
                        fmt::format("more than {} samples, all of which are held", most_samples),
@@ -42,7 +45,13 @@ RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
       samples.push_back(*sample);
   }
   const MotionReport& report = log.report();
-  return {recording_of(std::move(samples), report, inputs), report, log.contacts(), {0.0}};
+  const double begins = start.value_or(0.0);
+  return {recording_of(std::move(samples), report, inputs, begins),
+          report,
+          log.contacts(),
+          begins,
+          end,
+          {0.0}};
 }
 
 RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotInputs& robot,
@@ -65,12 +74,8 @@ RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotIn
                        "logs with the same columns");
     }
     if (!more.recording.samples().empty() && !samples.empty()) all.starts.push_back(samples.size());
-    double shift = 0.0;
-    if (!shifts.empty()) {
-      shift = shifts[k];
-    } else if (!samples.empty() && !more.recording.samples().empty()) {
-      shift = samples.back().time + pause - more.recording.samples().front().time;
-    }
+    const double shift = shifts.empty() ? all.ends + pause - more.begins : shifts[k];
+    all.ends = more.ends + shift;
     all.shifts.push_back(shift);
     for (Sample sample : more.recording.samples()) {
       sample.time += shift;
@@ -80,7 +85,7 @@ RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotIn
     all.motion.samples += more.motion.samples;
     all.motion.gaps += more.motion.gaps + 1;
   }
-  all.recording = recording_of(std::move(samples), all.motion, inputs);
+  all.recording = recording_of(std::move(samples), all.motion, inputs, all.begins);
   return all;
 }
 

@@ -14,6 +14,8 @@ struct RecordedLog {
   diagnosis::Recording recording;
   MotionReport motion;
   reference::ContactTreatment contacts;
+  /// s: first and last time of the first log and the last, whatever part of them this is
+  double begins = 0.0, ends = 0.0;
   std::vector<double> shifts = {};       ///< s that each of several logs was moved by
   std::vector<std::size_t> starts = {};  ///< samples at which further logs begin
 };
@@ -23,8 +25,9 @@ struct RecordedLog {
                                          const MotionInputs& inputs, std::optional<Part> wanted);
 
 /// Several logs of the same robot as one, a second's pause between them, or moved in time by
-/// `shifts`, so that the same logs with another filter have the same times. Throws InputError if
-/// their rates or extra columns differ, or if contacts are logged in some only.
+/// `shifts`, so that the same logs with another filter, or other parts of them, have the same
+/// times. Throws InputError if their rates or extra columns differ, or if contacts are logged in
+/// some only.
 [[nodiscard]] RecordedLog read_recordings(const std::vector<std::string>& paths,
                                           const RobotInputs& robot, const MotionInputs& inputs,
                                           std::optional<Part> wanted,

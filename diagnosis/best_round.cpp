@@ -20,7 +20,8 @@ void take_best_of(const std::vector<LoopResult>& rounds, LoopState& state) {
   state.result = rounds[best];
   state.result.screening_seconds = last.screening_seconds;
   state.result.refit_seconds = last.refit_seconds;
-  state.use_correction(state.result.correction);
+  const LoopResult& taken = state.result;
+  state.use_correction(taken.correction, taken.reference_correction);
 }
 
 }  // namespace shapeid::diagnosis

@@ -81,11 +81,11 @@ std::vector<Modulation> modulations(const Robot& robot, const std::vector<Applie
   std::vector<Modulation> list;
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const AppliedEffect& a = effects[k];
-    if (!a.effect->is_payload) list.push_back({k, Signal::time, 0});
+    const std::optional<int> joint = joint_of(robot, a);
+    if (!a.effect->is_payload) list.push_back({k, Signal::time, joint.value_or(0)});
     if (a.effect->site == SiteKind::whole) {
       for (int j = 0; j < robot.joint_count(); ++j) list.push_back({k, Signal::row, j});
     }
-    const std::optional<int> joint = joint_of(robot, a);
     if (!joint) continue;
     for (const Signal signal : joint_signals) list.push_back({k, signal, *joint});
   }

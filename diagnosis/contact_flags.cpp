@@ -54,8 +54,9 @@ class Search {
          const LoopSettings& settings)
       : state_(robot, log, reference, settings) {}
 
-  /// The strongest of them if it is accepted among the first, beside these.
-  [[nodiscard]] std::optional<Found> strongest() {
+  /// The strongest of them that was not corrected before, if it is accepted among the first,
+  /// beside these.
+  [[nodiscard]] std::optional<Found> strongest(const std::vector<Found>& before) {
     state_.fit_masses();
     state_.correct();
     state_.reweigh();
@@ -67,7 +68,7 @@ class Search {
     rule.came_since = rule.excluded;
     rule.choices = [this](const AppliedEffect& h) { return periods_told_apart(state_.log, h); };
     const std::vector<Candidate> list = candidates(state_.robot, fits, rule);
-    SelectionRule few = state_.settings.rule;
+    SelectionRule few = state_.rule();
     constexpr int first = 6;
     few.most_terms = std::min(few.most_terms, first);
     const Selection selection = select(fits, state_.masses, list, few);
@@ -80,6 +81,10 @@ class Search {
       if (!is_flag(c.effect) || !pushes(state_.log, mean_force(value)) ||
           (found && found->gain >= v.gain))
         continue;
+      if (std::any_of(before.begin(), before.end(),
+                      [&](const Found& f) { return f.id == c.term.id; })) {
+        continue;
+      }
       const Effect* effect = find_effect(c.effect.effect->id);
       const double T = beyond * c.effect.shape[0];
       const double step = 0.5 * (times[1] / times[0] - 1.0) * T;
@@ -131,20 +136,23 @@ void correct_contact_flags(Recording& log, const std::vector<Found>& found) {
   }
 }
 
-std::vector<Found> correct_contact_flags(const Robot& robot, Recording& log, Recording* rough,
-                                         const Recording* reference, const LoopSettings& settings) {
+std::vector<Found> correct_contact_flags(const Robot& robot, Recording& log, Recording* reference,
+                                         const std::vector<Recording*>& along,
+                                         const LoopSettings& settings) {
   std::vector<Found> all;
   const bool has_flags = !log.samples().empty() && !log[0].in_contact.empty() &&
                          settings.rows.contacts == ContactTreatment::project;
   if (!has_flags) return all;
   const auto most = 2 * robot.contacts.size();  // each begins and ends
   while (all.size() < most) {
-    const std::optional<Found> found = Search(robot, log, reference, settings).strongest();
-    const auto known = [&](const Found& f) { return same_place(f.effect, found->effect); };
-    if (!found || std::any_of(all.begin(), all.end(), known)) break;
+    const std::optional<Found> found = Search(robot, log, reference, settings).strongest(all);
+    if (!found) break;
     all.push_back(*found);
     correct_contact_flags(log, {*found});
-    if (rough != nullptr) correct_contact_flags(*rough, {*found});
+    if (reference != nullptr) correct_contact_flags(*reference, {*found});
+    for (Recording* other : along) {
+      if (other != nullptr) correct_contact_flags(*other, {*found});
+    }
   }
   return all;
 }

@@ -10,11 +10,13 @@
 namespace shapeid::diagnosis {
 
 /// contact_late and contact_short where they are among the strongest of all hypotheses beside
-/// masses, one after the other. What is found is corrected in `log` and `rough` (may be null), so
-/// that the contact's force is projected away there. `settings.rough` is `rough`. Throws as
-/// close_loop() does.
+/// masses, one after the other, each once. What is found is corrected in `log`, `reference` (may be
+/// null) and the logs `along` (null ones are passed over), so that the contact's force is projected
+/// away there; what `settings.rough` and `settings.rough_reference` point to belongs among these.
+/// Throws as close_loop() does.
 [[nodiscard]] std::vector<Found> correct_contact_flags(const Robot& robot, Recording& log,
-                                                       Recording* rough, const Recording* reference,
+                                                       Recording* reference,
+                                                       const std::vector<Recording*>& along,
                                                        const LoopSettings& settings);
 
 /// Whether a force at a foot (base axes) is one that the ground can have: on the log's mean it does

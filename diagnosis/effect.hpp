@@ -44,7 +44,7 @@ struct ShapeNumber {
 
 /// What a sample's neighbours in the log tell of it.
 struct Surroundings {
-  double elapsed = 0.0;                            ///< s since the log's first sample
+  double elapsed = 0.0;                            ///< s since the log began (Recording)
   Eigen::Vector3d down = Eigen::Vector3d::Zero();  ///< Recording::down()
   /// s since each contact was declared to touch for the last time, and until it will be: 0 while it
   /// is, infinity if the segment does not say.

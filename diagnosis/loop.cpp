@@ -31,10 +31,12 @@ class Loop {
   LoopResult run() {
     state_.fit_masses();
     do {
-      seek();
-      weigh_transformations();
+      do {
+        seek();
+      } while (!all_transformations_stay());
       question_names(state_);
     } while (ban_mere_moments());
+    compare();
     return std::move(result_);
   }
 
@@ -44,6 +46,29 @@ class Loop {
     for (const Found& f : result_.found) list.push_back(f.id);
     std::sort(list.begin(), list.end());
     return list;
+  }
+
+  /// The given model, and rigid links alone, beside what was found: of the log as it is, without
+  /// any effect applied, with the last weights.
+  void compare() {
+    result_.error_end = state_.held_out_of_model().sum();
+    const RichModel found = result_.model;
+    result_.model.effects.clear();
+    const BlockFits plain = state_.tallied({});
+    result_.model = found;
+    result_.error_given = plain.given_error().sum();
+    result_.error_rigid = plain.held_out({state_.masses}).sum();
+    const auto& blocks = plain.tally().blocks;
+    result_.blocks = static_cast<std::size_t>(plain.held_blocks());
+    result_.samples = 0;
+    for (std::size_t b = plain.first_block(); b < blocks.size(); ++b) {
+      result_.samples += blocks[b].samples;
+    }
+    const double rows =
+        static_cast<double>(result_.samples) * static_cast<double>(state_.robot.dof());
+    for (double* error : {&result_.error_given, &result_.error_rigid, &result_.error_end}) {
+      *error /= rows;
+    }
   }
 
   /// Effects, until nothing changes. Weights follow from the effects and effects from the weights,
@@ -75,7 +100,7 @@ class Loop {
   [[nodiscard]] std::vector<Candidate> listed(const BlockFits& fits) const {
     CandidateRule rule;
     rule.free_links = state_.settings.shapes.free_links;
-    rule.has_reference = state_.reference != nullptr;
+    rule.has_reference = state_.reference.has_value();
     // The derivative of a transformation needs a model that is not wrong by other things.
     rule.transformations = round_ > 0;
     rule.excluded = [this](const AppliedEffect& h) {
@@ -93,7 +118,7 @@ class Loop {
     const Term fixed = state_.always(fits.tally());
     const std::vector<Candidate> list = listed(fits);
     // From the beginning each time: what was accepted with worse weights has to prove itself again.
-    const Selection selection = select(fits, fixed, list, state_.settings.rule);
+    const Selection selection = select(fits, fixed, list, state_.rule());
     note_large_transformation(fits, fixed, list, selection);
     result_.prior = choose_prior(fits, chosen_terms(fixed, list, selection));
     take(fits, fixed, list, selection);
@@ -135,6 +160,7 @@ class Loop {
   void try_large_transformation() {
     if (!large_ || result_.found.size() < 2) return;
     const LoopResult several = result_;
+    const std::vector<AppliedEffect> banned = banned_;
     const Eigen::VectorXd error = state_.held_out_of_model();
     const auto start = std::chrono::steady_clock::now();
     result_.found = {
@@ -146,7 +172,10 @@ class Loop {
     prune_transformations();
     const bool simpler = result_.found.size() < several.found.size() &&
                          !(gain_of(state_.held_out_of_model(), error).t > not_worse_t);
-    if (!simpler) result_ = several;
+    if (!simpler) {
+      result_ = several;
+      banned_ = banned;
+    }
     result_.refit_seconds += seconds_since(start);
   }
 
@@ -158,8 +187,9 @@ class Loop {
   /// Weight and inertia are of one mass. Noise of the accelerometer makes the one that accelerates
   /// too small; constant forces, near the base, then stand for the weight that is missing, and with
   /// more numbers than the noise has they predict a little better. So if the base has less than
-  /// half of its given mass, the noise is tried, exactly, in the place of all forces. It stays if
-  /// it predicts, and the base then has a mass that is nearer to the given one.
+  /// half of its given mass, the noise is tried, exactly, in the place of all forces, also if it is
+  /// in already. It stays if it predicts, and the base then has a mass that is nearer to the given
+  /// one.
   void try_noise_for_weight() {
     constexpr double hardly_any = 0.5;
     constexpr int base = 0;
@@ -168,16 +198,21 @@ class Loop {
     const double mass = mass_over_given(base);
     if (state_.robot.root != Root::floating || !sought || !(mass < hardly_any)) return;
     const AppliedEffect noise = at_start(*find_effect("accel_noise"), base);
-    if (has_place_of(state_.result.model.effects, noise)) return;
+    const Effect& force = *find_effect("external_force");
+    const auto is_force = [&](const Found& f) { return f.effect.effect == &force; };
+    const bool has_noise = has_place_of(state_.result.model.effects, noise);
+    const bool has_force = std::any_of(result_.found.begin(), result_.found.end(), is_force);
+    if (is_banned(noise) || (has_noise && !has_force)) return;
     const LoopResult before = result_;
     const std::vector<AppliedEffect> banned = banned_;
     const auto start = std::chrono::steady_clock::now();
-    const Effect& force = *find_effect("external_force");
     for (int link = 0; link < state_.robot.link_count(); ++link) {
-      banned_.push_back(at_start(force, link));
+      forces_.push_back(at_start(force, link));
     }
-    std::erase_if(result_.found, [&](const Found& f) { return f.effect.effect == &force; });
-    result_.found.push_back({noise, "accel_noise@base.accel", Eigen::VectorXd::Zero(1)});
+    std::erase_if(result_.found, is_force);
+    if (!has_noise) {
+      result_.found.push_back({noise, "accel_noise@base.accel", Eigen::VectorXd::Zero(1)});
+    }
     state_.collect_effects();
     refit();
     screen();
@@ -190,6 +225,7 @@ class Loop {
     } else {
       result_ = before;
       banned_ = banned;
+      forces_.clear();
     }
     result_.refit_seconds = before.refit_seconds + seconds_since(start);
   }
@@ -251,18 +287,21 @@ class Loop {
   }
 
   void take_back(std::size_t i) {
+    if (result_.found[i].effect.effect == find_effect("accel_noise")) {
+      result_.mass_beside_forces.reset();
+      forces_.clear();
+    }
     banned_.push_back(result_.found[i].effect);
     result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
     state_.collect_effects();
   }
 
-  /// What is lost without each of the applied transformations, as it is and not by its derivative.
-  void weigh_transformations() {
-    for (std::size_t i = 0; i < result_.found.size();) {
-      if (!result_.found[i].effect.effect->transform.any()) {
-        ++i;
-        continue;
-      }
+  /// Notes what is lost without each of the applied transformations, as it is and not by its
+  /// derivative. The first that is not worth it is taken back, and false returned: what was found
+  /// beside it, and in its place, is to be sought again.
+  [[nodiscard]] bool all_transformations_stay() {
+    for (std::size_t i = 0; i < result_.found.size(); ++i) {
+      if (!result_.found[i].effect.effect->transform.any()) continue;
       const Eigen::VectorXd with = state_.held_out_of_model();
       const std::vector<Found> all = result_.found;
       result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
@@ -272,15 +311,16 @@ class Loop {
       state_.collect_effects();
       result_.found[i].gain = gain.share;
       result_.found[i].t = gain.t;
-      if (is_worth(gain)) {
-        ++i;
-      } else {
-        take_back(i);
-      }
+      if (is_worth(gain)) continue;
+      take_back(i);
+      return false;
     }
+    return true;
   }
 
-  [[nodiscard]] bool is_banned(const AppliedEffect& h) const { return has_place_of(banned_, h); }
+  [[nodiscard]] bool is_banned(const AppliedEffect& h) const {
+    return has_place_of(banned_, h) || has_place_of(forces_, h);
+  }
 
   void take(const BlockFits& fits, const Term& fixed, const std::vector<Candidate>& list,
             const Selection& selection) {
@@ -311,20 +351,6 @@ class Loop {
     state_.set_masses(selection.fit);
     step_transformations(fits.tally(), fixed, selection.fit);
     state_.collect_effects();
-    const auto per_sample = [&](const Eigen::VectorXd& errors) {
-      std::size_t samples = 0;
-      for (std::size_t b = fits.first_block(); b < fits.tally().blocks.size(); ++b) {
-        samples += fits.tally().blocks[b].samples;
-      }
-      return errors.sum() /
-             static_cast<double>(samples * static_cast<std::size_t>(state_.robot.dof()));
-    };
-    result_.error_given = per_sample(selection.error_given);
-    result_.error_rigid = per_sample(selection.error_rigid);
-    result_.error_end = per_sample(selection.error_end);
-    result_.blocks = fits.tally().blocks.size();
-    result_.samples = 0;
-    for (const Block& b : fits.tally().blocks) result_.samples += b.samples;
     result_.hypotheses = list.size();
     const auto ranked = [&](const std::vector<Scored>& scores) {
       std::vector<Ranked> ranking;
@@ -418,6 +444,7 @@ class Loop {
   LoopState state_;
   LoopResult& result_ = state_.result;
   std::vector<AppliedEffect> banned_;
+  std::vector<AppliedEffect> forces_;  ///< whose place the accelerometer's noise has taken
   std::optional<Candidate> large_;
   int round_ = 0;
   int moments_describe_ = 0;  ///< searches in which moments came in that are no loads

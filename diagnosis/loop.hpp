@@ -29,6 +29,7 @@ struct LoopSettings {
   /// The log filtered at a higher cutoff than `cutoff` (Hz), the log's own: what the filter makes
   /// of products is then taken out. Null: the log counts as it is.
   const Recording* rough = nullptr;
+  const Recording* rough_reference = nullptr;  ///< likewise of the reference log
   double cutoff = 0.0;
   SelectionRule rule;
 };
@@ -88,17 +89,20 @@ struct LoopResult {
   std::vector<std::pair<std::string, double>> wrong_signs;  ///< id, its parameter over its error
   std::vector<Stranger> strangers;  ///< laws without a name that explain what is left
   Eigen::VectorXd weight;
-  std::vector<Eigen::VectorXd> correction;  ///< of the log, by the last round's model; or none
+  /// Of the log and the reference, by the last round's model; or none.
+  std::vector<Eigen::VectorXd> correction, reference_correction;
   double placebo = 0.0;  ///< share of the held-out error that the best law no robot has takes away
   double prior = 1.0;
-  double error_given = 0.0, error_rigid = 0.0, error_end = 0.0;  ///< held-out, weighted, per sample
-  std::size_t samples = 0, hypotheses = 0, blocks = 0;
+  /// Held-out, weighted, over samples times dof: of the given model, of rigid links alone, and of
+  /// what was found.
+  double error_given = 0.0, error_rigid = 0.0, error_end = 0.0;
+  std::size_t samples = 0, hypotheses = 0, blocks = 0;  ///< of the log, without the reference's
   double screening_seconds = 0.0, refit_seconds = 0.0;
 };
 
 /// `reference` (may be null): an earlier log of the same robot; effects that came since are then
 /// hypotheses of their own, payloads among them. Throws Refusal "too-short" for less than eight
-/// blocks, "not-excited" if no joint moves.
+/// blocks.
 [[nodiscard]] LoopResult close_loop(const Robot& robot, const Recording& log,
                                     const Recording* reference, const LoopSettings& settings);
 

@@ -25,7 +25,8 @@ void keep_within_limits(AppliedEffect& a) {
 
 LoopState::LoopState(const Robot& robot_, const Recording& log_, const Recording* reference_,
                      const LoopSettings& settings_)
-    : robot(robot_), log(log_), reference(reference_), settings(settings_) {
+    : robot(robot_), log(log_), settings(settings_) {
+  if (reference_ != nullptr) reference = *reference_;
   centre = stacked_parameters(robot);
   result.model.Phi = centre;
   result.weight = settings.weight.size() > 0 ? settings.weight
@@ -49,20 +50,29 @@ BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
                              const std::vector<Modulation>& modulations) {
   Tally tally = empty_tally(robot, hypotheses, modulations);
   tally_options.weight = result.weight;
-  if (reference != nullptr) {
-    RichModel earlier = result.model;
-    std::erase_if(earlier.effects, [&](const AppliedEffect& a) { return came_since(a); });
+  if (reference) {
     TallyOptions options = tally_options;
     options.log_starts.clear();
-    add_to_tally(tally, robot, settings.rows, earlier, *reference, options, true);
+    add_to_tally(tally, robot, settings.rows, earlier_model(), *reference, options, true);
+    // The change of what was not there yet is none.
+    for (std::size_t k = 0; k < hypotheses.size(); ++k) {
+      if (!is_applied_transformation(hypotheses[k]) || !came_since(hypotheses[k])) continue;
+      const Eigen::Index n = hypotheses[k].value.size();
+      for (Block& block : tally.blocks) {
+        block.sums.middleRows(tally.first[k], n).setZero();
+        block.sums.middleCols(tally.first[k], n).setZero();
+      }
+    }
   }
   add_to_tally(tally, robot, settings.rows, result.model, log, tally_options, false);
-  constexpr std::size_t fewest_blocks = 8;
-  if (tally.blocks.size() < fewest_blocks) {
+  constexpr std::ptrdiff_t fewest_blocks = 8;
+  const auto blocks = std::count_if(tally.blocks.begin(), tally.blocks.end(),
+                                    [](const Block& b) { return !b.reference; });
+  if (blocks < fewest_blocks) {
     throw Refusal("too-short",
                   fmt::format("the log gives {} blocks of {:.2g} s to hold out, at least {} are "
                               "needed",
-                              tally.blocks.size(), tally_options.block_seconds, fewest_blocks));
+                              blocks, tally_options.block_seconds, fewest_blocks));
   }
   BlockFits fits(std::move(tally), centre, settings.size, settings.folds);
   fits.set_prior(result.prior);
@@ -78,13 +88,23 @@ void LoopState::fit_masses() {
 
 void LoopState::correct() {
   if (settings.rough == nullptr) return;
-  const Viewer viewer(robot, settings.rows, result.model.effects);
-  use_correction(filter_error(viewer, result.model, log, *settings.rough, settings.cutoff));
+  const auto error = [&](const RichModel& model, const Recording& smooth, const Recording& rough) {
+    const Viewer viewer(robot, settings.rows, model.effects);
+    return filter_error(viewer, model, smooth, rough, settings.cutoff);
+  };
+  std::vector<Eigen::VectorXd> of_reference;
+  if (reference && settings.rough_reference != nullptr) {
+    of_reference = error(earlier_model(), *reference, *settings.rough_reference);
+  }
+  use_correction(error(result.model, log, *settings.rough), of_reference);
 }
 
-void LoopState::use_correction(const std::vector<Eigen::VectorXd>& correction) {
-  result.correction = correction;
-  log.set_correction(correction);
+void LoopState::use_correction(const std::vector<Eigen::VectorXd>& of_log,
+                               const std::vector<Eigen::VectorXd>& of_reference) {
+  result.correction = of_log;
+  log.set_correction(of_log);
+  result.reference_correction = of_reference;
+  if (reference) reference->set_correction(of_reference);
 }
 
 void LoopState::reweigh() {
@@ -107,11 +127,26 @@ void LoopState::collect_effects() {
   }
 }
 
+SelectionRule LoopState::rule() const {
+  constexpr double gravity = 9.81;
+  double mass = 0.0;
+  for (const Link& link : robot.links) mass += link.inertia.mass();
+  SelectionRule rule = settings.rule;
+  rule.most_force = std::min(rule.most_force, gravity * std::max(mass, settings.expected_mass));
+  return rule;
+}
+
 void LoopState::set_masses(const Fit& fit) {
   result.model.Phi = centre;
   for (std::size_t i = 0; i < masses.columns.size(); ++i) {
     result.model.Phi[masses.columns[i]] += fit.value[static_cast<Eigen::Index>(i)];
   }
+}
+
+RichModel LoopState::earlier_model() const {
+  RichModel earlier = result.model;
+  std::erase_if(earlier.effects, [&](const AppliedEffect& a) { return came_since(a); });
+  return earlier;
 }
 
 bool LoopState::came_since(const AppliedEffect& effect) const {
@@ -157,7 +192,7 @@ std::vector<Gain> LoopState::gains_by_derivative() {
   for (std::size_t k = 0; k < result.model.effects.size(); ++k) {
     const AppliedEffect& a = result.model.effects[k];
     terms.push_back(term_of(robot, fits.tally(), k));
-    if (came_since(a) && !a.effect->transform.any()) terms.back().from_block = fits.first_block();
+    if (came_since(a)) terms.back().from_block = fits.first_block();
   }
   const FitsAround around(fits, std::move(terms));
   std::vector<Gain> gains(result.model.effects.size());

@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "shapeid/diagnosis/loop.hpp"
@@ -10,13 +11,13 @@
 namespace shapeid::diagnosis {
 
 struct LoopState {
-  /// Refers to all but the log.
+  /// Refers to all but the logs.
   LoopState(const Robot& robot, const Recording& log, const Recording* reference,
             const LoopSettings& settings);
 
   const Robot& robot;
   Recording log;
-  const Recording* reference;
+  std::optional<Recording> reference;
   const LoopSettings& settings;
   Eigen::VectorXd centre;  ///< of the prior, 10 links
   Term masses;             ///< columns of the free links
@@ -30,19 +31,25 @@ struct LoopState {
                                   const std::vector<Modulation>& modulations = {});
   /// The given prior's strength, and masses alone.
   void fit_masses();
-  /// What the filter makes of products, by the present model: of the log from now on.
+  /// What the filter makes of products, by the present model: of the log and the reference from now
+  /// on.
   void correct();
   /// W = 1 / variance of what the present model leaves, row by row.
   void reweigh();
-  /// Of the log from now on, and noted in the result.
-  void use_correction(const std::vector<Eigen::VectorXd>& correction);
+  /// Of the log and the reference from now on, and noted in the result.
+  void use_correction(const std::vector<Eigen::VectorXd>& of_log,
+                      const std::vector<Eigen::VectorXd>& of_reference = {});
   /// What a model leaves of the log.
   [[nodiscard]] Series left_by(const RichModel& model) const;
   /// The model's effects from what was found; transformations are kept within their limits.
   void collect_effects();
+  /// The settings' rule, for this robot: no constant force exceeds its weight.
+  [[nodiscard]] SelectionRule rule() const;
   /// From a fit whose first term is the masses.
   void set_masses(const Fit& fit);
 
+  /// The present model as the reference log has it.
+  [[nodiscard]] RichModel earlier_model() const;
   /// Whether it was found as something that the reference log has not.
   [[nodiscard]] bool came_since(const AppliedEffect& effect) const;
   [[nodiscard]] bool is_applied_transformation(const AppliedEffect& effect) const;

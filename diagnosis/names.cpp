@@ -29,8 +29,7 @@ class Names {
     state_.result.placebo = placebo / error;
     Eigen::VectorXd own_gain(static_cast<Eigen::Index>(effects));
     for (std::size_t k = 0; k < effects; ++k) {
-      const double share = found_[k].gain;  // of the error without it
-      own_gain[static_cast<Eigen::Index>(k)] = error * share / (1.0 - share);
+      own_gain[static_cast<Eigen::Index>(k)] = error * worth(found_[k].gain);
     }
     const auto varies = variations(asked.fits, asked.terms, own_gain);
     const Contest against = compete(asked, errors);
@@ -128,6 +127,10 @@ class Names {
     if (instead->error.sum() < named.sum()) found_[k].rival = instead->stranger;
   }
 
+  /// The squared error that comes back without it, in those of what is left: `share` is of the
+  /// error without it.
+  [[nodiscard]] static double worth(double share) { return share / (1.0 - share); }
+
   /// What is worth less than all that is unknown on the same joints may be a part of it: laws
   /// without a name, and effects whose number follows a signal.
   void mark_beside_unknown() {
@@ -135,16 +138,16 @@ class Names {
       const std::vector<bool> reach = reach_of(state_.robot, f.effect);
       double unknown = 0.0;
       for (const Stranger& s : state_.result.strangers) {
-        if (reach[static_cast<std::size_t>(s.law.joint)]) unknown += s.gain;
+        if (reach[static_cast<std::size_t>(s.law.joint)]) unknown += worth(s.gain);
       }
       for (const Found& other : found_) {
         if (!other.varies || other.displaced || &other == &f) continue;
         const std::vector<bool> its = reach_of(state_.robot, other.effect);
         const bool same = std::inner_product(its.begin(), its.end(), reach.begin(), false,
                                              std::logical_or<>(), std::logical_and<>());
-        if (same) unknown += other.gain;
+        if (same) unknown += worth(other.gain);
       }
-      f.beside_unknown = f.gain < unknown;
+      f.beside_unknown = worth(f.gain) < unknown;
     }
   }
 

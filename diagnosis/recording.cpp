@@ -14,6 +14,7 @@ Recording::Recording(std::vector<Sample> samples, double rate, std::vector<std::
     : samples_(std::move(samples)),
       rate_(rate),
       independent_rate_(rate),
+      origin_(samples_.empty() ? 0.0 : samples_.front().time),
       extra_(std::move(extra)),
       segment_begin_(samples_.size()),
       segment_end_(samples_.size()) {
@@ -153,11 +154,9 @@ void Recording::find_rests() {
   }
 }
 
-double Recording::elapsed(std::size_t index) const {
-  return samples_[index].time - samples_.front().time;
+double Recording::duration() const {
+  return samples_.empty() ? 0.0 : since_first(samples_.size() - 1);
 }
-
-double Recording::duration() const { return samples_.empty() ? 0.0 : elapsed(samples_.size() - 1); }
 
 /// Samples to either side that a shift and its cubic need.
 std::size_t Recording::reach() const {

@@ -34,8 +34,15 @@ class Recording {
     return std::min(1.0, independent_rate_ * static_cast<double>(stride) / rate_);
   }
   [[nodiscard]] const std::vector<std::string>& extra() const { return extra_; }
+  /// The time (s, as in the samples) at which the log began of which this is a part: parts of one
+  /// log share it. Without it the first sample's.
+  void set_origin(double time) { origin_ = time; }
+  /// s since the log began
+  [[nodiscard]] double elapsed(std::size_t index) const { return samples_[index].time - origin_; }
   /// s since the first sample
-  [[nodiscard]] double elapsed(std::size_t index) const;
+  [[nodiscard]] double since_first(std::size_t index) const {
+    return samples_[index].time - samples_.front().time;
+  }
   [[nodiscard]] double duration() const;
 
   /// The contact touches also for so long (s) before and after it is declared to.
@@ -78,7 +85,8 @@ class Recording {
   }
 
   /// Where gravity pulls, in base axes, of unit length: the specific force's mean over a second,
-  /// turned along by the gyro, in which whole steps of a gait cancel. Zero on a fixed base.
+  /// turned along by the gyro, in which whole steps of a gait cancel. As the URDF has it on a fixed
+  /// base.
   [[nodiscard]] Eigen::Vector3d down(std::size_t index) const {
     return down_.col(static_cast<Eigen::Index>(index));
   }
@@ -98,7 +106,7 @@ class Recording {
   void find_touches();
 
   std::vector<Sample> samples_;
-  double rate_, independent_rate_;
+  double rate_, independent_rate_, origin_;
   std::vector<std::string> extra_;
   std::vector<Eigen::VectorXd> correction_;
   std::vector<std::size_t> segment_begin_, segment_end_;        ///< of each sample's segment

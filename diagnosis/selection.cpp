@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 
@@ -40,8 +41,6 @@ class Search {
       : fits_(fits), masses_(masses), candidates_(candidates), rule_(rule) {}
 
   Selection run() {
-    result_.error_given = fits_.given_error();
-    result_.error_rigid = fits_.held_out({masses_});
     limit_ = limit_for(rule_.least_t, fits_.held_blocks());
     for (const Candidate& c : candidates_) {
       if (c.members.empty()) parameters_ += static_cast<double>(c.term.columns.size());
@@ -68,15 +67,25 @@ class Search {
     return list;
   }
 
-  /// It, another onset of it, or a member of the group is in already, or was dropped.
+  /// It, another onset of it, or a member of the group is in already.
   [[nodiscard]] bool taken(std::size_t k) const {
-    const auto spent = [&](std::size_t single) {
-      return std::count(dropped_.begin(), dropped_.end(), single) > 0 ||
-             std::any_of(accepted_.begin(), accepted_.end(),
+    return any_single(k, [&](std::size_t single) {
+      return std::any_of(accepted_.begin(), accepted_.end(),
                          [&](std::size_t other) { return same_place(single, other); });
-    };
+    });
+  }
+
+  /// It, or a member of the group, was in and did not stay. It may still be named as a rival.
+  [[nodiscard]] bool dropped(std::size_t k) const {
+    return any_single(k, [&](std::size_t single) {
+      return std::count(dropped_.begin(), dropped_.end(), single) > 0;
+    });
+  }
+
+  [[nodiscard]] bool any_single(std::size_t k,
+                                const std::function<bool(std::size_t)>& condition) const {
     const auto& members = candidates_[k].members;
-    return members.empty() ? spent(k) : std::any_of(members.begin(), members.end(), spent);
+    return members.empty() ? condition(k) : std::any_of(members.begin(), members.end(), condition);
   }
 
   [[nodiscard]] bool same_place(std::size_t k, std::size_t other) const {
@@ -85,11 +94,12 @@ class Search {
            a.since_reference == b.since_reference;
   }
 
-  [[nodiscard]] std::vector<std::size_t> shortlist(int length) {
+  /// The most promising beside what is accepted.
+  [[nodiscard]] std::vector<std::size_t> shortlist(int length, bool with_dropped) {
     std::vector<std::size_t> open;
     std::vector<Term> open_terms;
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
-      if (taken(k)) continue;
+      if (taken(k) || (!with_dropped && dropped(k))) continue;
       open.push_back(k);
       open_terms.push_back(candidates_[k].term);
     }
@@ -165,7 +175,9 @@ class Search {
       const auto at = static_cast<Eigen::Index>(p);
       // The column of a transformation is that of a change.
       const double start = effect.transform.any() ? candidates_[k].effect.value[at] : 0.0;
-      if (std::abs(start + fit.value[at]) > effect.parameters[p].limit) return false;
+      const Parameter& parameter = effect.parameters[p];
+      const double limit = parameter.unit == "N" ? rule_.most_force : parameter.limit;
+      if (std::abs(start + fit.value[at]) > limit) return false;
     }
     return true;
   }
@@ -183,14 +195,27 @@ class Search {
             fit.between_blocks.segment(from, n), fit.left, fit.freedom};
   }
 
+  /// By candidate k. What acts from a moment on gains in the blocks after it: those before would
+  /// only add to the scatter. Fewer blocks mean a wider limit; t is in proportion to that of all.
+  [[nodiscard]] Gain gain_by(std::size_t k, const Eigen::VectorXd& before,
+                             const Eigen::VectorXd& after) const {
+    Gain gain = gain_of(before, after);
+    const std::size_t from = candidates_[k].term.from_block;
+    if (from <= fits_.first_block()) return gain;
+    const Eigen::Index acts = before.size() - static_cast<Eigen::Index>(from - fits_.first_block());
+    gain.t =
+        gain_of(before.tail(acts), after.tail(acts)).t * limit_ / limit_for(rule_.least_t, acts);
+    return gain;
+  }
+
   bool advance() {
     const FitsAround now(fits_, terms(accepted_));
     const Fit fit_now = fits_.fit(terms(accepted_));
     std::vector<Scored> ranking;
     std::vector<Eigen::VectorXd> errors;
-    for (const std::size_t k : shortlist(rule_.shortlist)) {
+    for (const std::size_t k : shortlist(rule_.shortlist, false)) {
       const Eigen::VectorXd after = now.with(candidates_[k].term);
-      const Gain gain = gain_of(now.error(), after);
+      const Gain gain = gain_by(k, now.error(), after);
       Scored scored{k, gain.share, gain.t, {}, false};
       if (passes(scored)) {
         const Fit fit = fits_.fit(with(k));
@@ -286,7 +311,7 @@ class Search {
         const Eigen::Index n = std::ssize(candidates_[chosen[i]].term.columns);
         const Fit own = part_of(all, column, n);
         column += n;
-        const Gain gain = gain_of(now.without(1 + i), now.error());
+        const Gain gain = gain_by(chosen[i], now.without(1 + i), now.error());
         const std::pair<bool, double> own_worth = {
             !wrong_sign(chosen[i], own, 0.0) && gain.share >= 0.0 &&
                 within_limits(chosen[i], own) &&
@@ -345,7 +370,7 @@ class Search {
       const Eigen::VectorXd error = fits_.held_out(terms(before));
       const std::vector<std::size_t> hidden = result_.hidden;
       accepted_.clear();
-      const std::vector<std::size_t> rivals = shortlist(rule_.rivals);
+      const std::vector<std::size_t> rivals = shortlist(rule_.rivals, true);
       result_.hidden = hidden;
       accepted_ = before;
       std::vector<std::size_t> best = before;
@@ -387,7 +412,7 @@ class Search {
     if (accepted_.size() < 2) return;
     const std::vector<std::size_t> all = accepted_, hidden = result_.hidden;
     accepted_.clear();
-    const std::vector<std::size_t> rivals = shortlist(rule_.rivals);
+    const std::vector<std::size_t> rivals = shortlist(rule_.rivals, true);
     accepted_ = all;
     result_.hidden = hidden;
     for (const std::size_t r : rivals) {
@@ -437,10 +462,10 @@ class Search {
   [[nodiscard]] Verdict verdict(std::size_t k) {
     const FitsAround others(fits_, terms(accepted_));
     const Eigen::VectorXd& without = others.error();
-    const Gain gain = gain_of(without, result_.error_end);
+    const Gain gain = gain_by(k, without, result_.error_end);
     Verdict verdict{k, gain.share, gain.t, is_by_itself(k), {}};
     const std::vector<std::size_t> hidden = result_.hidden;
-    for (const std::size_t other : shortlist(rule_.rivals)) {
+    for (const std::size_t other : shortlist(rule_.rivals, true)) {
       if (other == k || same_place(k, other) || !candidates_[other].members.empty()) continue;
       const Eigen::VectorXd instead = others.with(candidates_[other].term);
       const Gain own = gain_of(without, instead);

@@ -1,6 +1,7 @@
 // Which hypotheses lower the error on blocks that were not fitted, one after the other.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct SelectionRule {
   int most_terms = 60;
   int shortlist = 24;  ///< of the candidates, by promise, whose held-out error is computed
   int rivals = 24;     ///< likewise of those that might take an accepted one's place
+  /// N: constant forces beyond this are not believed. Some are nearly hidden by contacts, or by
+  /// each other.
+  double most_force = std::numeric_limits<double>::infinity();
 };
 
 /// What no longer gains this many standard errors, all else in, is dropped again.
@@ -70,8 +74,8 @@ struct Selection {
   std::vector<Scored> last_ranking;  ///< of what was not accepted
   std::vector<Scored> wrong_signs;   ///< evidence of something else
   std::vector<std::size_t> hidden;   ///< the data cannot tell them from masses and what is fitted
-  Eigen::VectorXd error_given, error_rigid, error_end;  ///< per held-out block
-  Fit fit;                                              ///< masses, then accepted in their order
+  Eigen::VectorXd error_end;         ///< per held-out block
+  Fit fit;                           ///< masses, then accepted in their order
 };
 
 /// `masses`: columns that are fitted always, the free links' above all.

@@ -29,6 +29,15 @@ struct Spectrum {
   }
 };
 
+/// s: the usual one, whatever gaps there are.
+double step_of(const std::vector<double>& time) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
+  const auto middle = steps.begin() + std::ssize(steps) / 2;
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
 Spectrum spectrum(const std::vector<double>& time, const Eigen::VectorXd& y, double highest) {
   Spectrum result;
   const double duration = time.back() - time.front();
@@ -65,6 +74,7 @@ std::vector<Structure> slow_remains(const Robot& robot, const Recording& recordi
   std::vector<double> time;
   for (const std::size_t i : series.index) time.push_back(recording[i].time);
   if (time.size() < fewest) return found;
+  const double step = step_of(time);
   for (int j = 0; j < robot.joint_count(); ++j) {
     const Eigen::Index row = robot.base_dof() + j;
     const Eigen::ArrayXd counts = series.counted.row(row).cast<double>().transpose();
@@ -76,8 +86,10 @@ std::vector<Structure> slow_remains(const Robot& robot, const Recording& recordi
     if (low_end < fewest || end - from < fewest) continue;
     const double low = power.mean(0, low_end), noise = power.mean(from, end);
     // The logarithm of a mean of n exponential numbers has a standard deviation of 1 / sqrt(n).
-    const double error =
-        std::sqrt(1.0 / static_cast<double>(low_end) + 1.0 / static_cast<double>(end - from));
+    // Where only a share of the duration counts, that share of them is independent.
+    const double share = counts.sum() * step / (time.back() - time.front() + step);
+    const double error = std::sqrt(
+        (1.0 / static_cast<double>(low_end) + 1.0 / static_cast<double>(end - from)) / share);
     const double z = std::log(low / noise) / error;
     if (!(z > least_z)) continue;
     Structure structure;

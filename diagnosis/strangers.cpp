@@ -355,7 +355,8 @@ namespace {
 /// Whether the joint's torque is seldom so light that noise decides its side: play of an unloaded
 /// gear cannot be seen.
 bool drives_from_a_side(const Recording& log, int joint) {
-  constexpr double light = 0.1, seldom = 0.1;  // N m or N; of the samples
+  constexpr double seldom = 0.1;  // of the samples
+  const double light = light_load(log, joint);
   const auto count = std::count_if(log.samples().begin(), log.samples().end(),
                                    [&](const Sample& s) { return std::abs(s.tau[joint]) < light; });
   return static_cast<double>(count) < seldom * static_cast<double>(log.samples().size());

@@ -35,9 +35,6 @@ class RowSums {
   Eigen::Index used_ = 0;
 };
 
-// N m or N: teeth and brushes do not change sides at once.
-constexpr double light_load = 0.1;
-
 /// The signal's value at a sample, of those that are a factor.
 double value_of(const Modulation& modulation, const Recording& recording, std::size_t index,
                 const View& view, const PredictedLoad& load) {
@@ -54,7 +51,7 @@ double value_of(const Modulation& modulation, const Recording& recording, std::s
     case Signal::load:
       return load.joint[j];
     case Signal::side:
-      return std::tanh(load.joint[j] / light_load);
+      return std::tanh(load.joint[j] / light_load(recording, j));
     case Signal::turned:
       return recording.turned(index, j);
     case Signal::peak: {
@@ -97,7 +94,8 @@ Lead lead_of_side(const Recording& recording, std::size_t index, Eigen::Index jo
   const auto k = static_cast<std::size_t>(std::lround(0.02 * recording.rate()));
   if (k == 0 || !recording.surrounded(index, k)) return {};
   const auto side = [&](std::size_t i) {
-    return lead_of({.signal = Signal::play}, recording[i].tau[joint]);
+    return lead_of({.signal = Signal::play, .joint = static_cast<int>(joint)}, recording,
+                   recording[i].tau[joint]);
   };
   const double h = static_cast<double>(k) / recording.rate();
   return {side(index), (side(index + k) - 2.0 * side(index) + side(index - k)) / (h * h)};
@@ -105,8 +103,14 @@ Lead lead_of_side(const Recording& recording, std::size_t index, Eigen::Index jo
 
 }  // namespace
 
-double lead_of(const Modulation& gear, double load) {
-  return gear.signal == Signal::play ? std::tanh(load / light_load) : load;
+double light_load(const Recording& recording, Eigen::Index joint) {
+  constexpr double usual = 0.1, share = 0.1;
+  const double often = recording.high_torque(0, joint);
+  return often > 0.0 ? std::min(usual, share * often) : usual;
+}
+
+double lead_of(const Modulation& gear, const Recording& recording, double load) {
+  return gear.signal == Signal::play ? std::tanh(load / light_load(recording, gear.joint)) : load;
 }
 
 Eigen::MatrixXd modulated(const Modulation& modulation, const Eigen::MatrixXd& own,
@@ -166,13 +170,13 @@ void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const Rich
   std::size_t log = 0;
   Eigen::MatrixXd M(robot.dof(), width);
   for (const std::size_t index : recording.usable(options.stride)) {
-    const double elapsed = recording.elapsed(index);
-    const int here = static_cast<int>(elapsed / options.block_seconds);
+    const double place = recording.since_first(index);
+    const int here = static_cast<int>(place / options.block_seconds);
     const std::size_t log_before = log;
     while (log < options.log_starts.size() && index >= options.log_starts[log]) ++log;
     if (here != number || log != log_before) close();
     number = here;
-    if (elapsed - here * options.block_seconds > options.block_seconds - options.margin) continue;
+    if (place - here * options.block_seconds > options.block_seconds - options.margin) continue;
 
     const View view = viewer.view(recording, index);
     const auto counted = counted_rows(viewer, recording, index, view);
@@ -199,7 +203,7 @@ void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const Rich
     tally.freedom +=
         independent * static_cast<double>(std::min<Eigen::Index>(beyond.rows(), counted.count()));
     if (block.samples++ > 0) continue;
-    block.from = elapsed;
+    block.from = recording.elapsed(index);
     block.log = log;
   }
   close();

@@ -75,8 +75,12 @@ void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const Rich
                                         std::size_t index, const View& view,
                                         const PredictedLoad& load, double margin);
 
+/// The joint's load (N m or N) below which teeth and brushes do not change sides at once: 0.1, or a
+/// tenth of what the joint often has if that is less.
+[[nodiscard]] double light_load(const Recording& recording, Eigen::Index joint);
+
 /// How far a motor is ahead of its joint by a gear of number one under a load.
-[[nodiscard]] double lead_of(const Modulation& gear, double load);
+[[nodiscard]] double lead_of(const Modulation& gear, const Recording& recording, double load);
 
 [[nodiscard]] Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses,
                                 const std::vector<Modulation>& modulations = {});

@@ -305,7 +305,7 @@ Structure lawless(const Robot& robot, RowSource source, const RichModel& model,
     const std::size_t bin = bin_of(x[i], edges);
     places.add(bin, x[i]);
     if (stranger.law.of_gear()) {
-      numbers.add(bin, stranger.number * lead_of(stranger.law, x[i]));
+      numbers.add(bin, stranger.number * lead_of(stranger.law, recording, x[i]));
     } else {
       numbers.add(bin, carrier[i] * missing[i], carrier[i] * carrier[i]);
     }

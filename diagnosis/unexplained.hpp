@@ -14,7 +14,7 @@ namespace shapeid::diagnosis {
 struct Structure {
   std::string joint;
   std::string variable;  ///< "q.knee", "dq.hip", "ddq.knee", "tau.knee", its "dtau.knee" and
-                         ///< "ddtau.knee", "turn.knee" (Recording::turned), "time", a log column,
+                         ///< "turn.knee" (Recording::turned), "time", a log column,
                          ///< or "frequency": none of these, but slow (slowness.hpp)
   /// Of the joint's residual variance, on blocks that were not used; of an effect whose number
   /// follows the signal: of what that effect is worth.

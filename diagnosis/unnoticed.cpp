@@ -10,14 +10,24 @@ namespace shapeid::diagnosis {
 namespace {
 
 /// E[theta^2] of each number of a hypothesis, by a fit whose last numbers these are.
-Eigen::VectorXd mean_squares(const AppliedEffect& hypothesis, const Fit& fit, bool hidden) {
+Eigen::VectorXd mean_squares(const AppliedEffect& hypothesis, const Fit& fit) {
   Eigen::VectorXd squares(hypothesis.value.size());
   for (Eigen::Index p = 0; p < squares.size(); ++p) {
     const Parameter& parameter = hypothesis.effect->parameters[static_cast<std::size_t>(p)];
     const Eigen::Index at = fit.value.size() - squares.size() + p;
     const double theta = parameter.nonnegative ? std::max(fit.value[at], 0.0) : fit.value[at];
-    squares[p] = hidden ? std::pow(parameter.size, 2)
-                        : std::pow(theta, 2) + std::pow(fit.standard_error[at], 2);
+    squares[p] = std::pow(theta, 2) + std::pow(fit.standard_error[at], 2);
+  }
+  return squares;
+}
+
+/// The same of a hypothesis that the data say nothing of: as much as moves no inertial number
+/// (`moves`, a column a number of the hypothesis) further than by what it could have (`sizes`).
+Eigen::VectorXd mean_squares_if_hidden(const Eigen::MatrixXd& moves, const Eigen::VectorXd& sizes) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(moves.cols());
+  for (Eigen::Index p = 0; p < squares.size(); ++p) {
+    const double furthest = moves.col(p).cwiseAbs().cwiseQuotient(sizes).maxCoeff();
+    if (furthest > 0.0) squares[p] = std::pow(furthest, -2);
   }
   return squares;
 }
@@ -47,12 +57,15 @@ Unnoticed unnoticed(const Robot& robot, const Recording& log, const Recording* r
   const std::vector<BlockFits::Promise> promises = fits.promises(terms, others);
   const std::vector<Eigen::MatrixXd> moves = fits.moves(terms, others);
   Eigen::VectorXd most = Eigen::VectorXd::Zero(std::ssize(state.masses.columns));
+  const Eigen::VectorXd sizes = settings.size(state.masses.columns);
   for (std::size_t k = 0; k < others.size(); ++k) {
     terms.push_back(others[k]);
-    const Eigen::VectorXd squares =
-        mean_squares(hypotheses[present + k], fits.fit(terms), promises[k].hidden());
+    const Eigen::MatrixXd own_moves = moves[k].topRows(most.size());
+    const Eigen::VectorXd squares = promises[k].hidden()
+                                        ? mean_squares_if_hidden(own_moves, sizes)
+                                        : mean_squares(hypotheses[present + k], fits.fit(terms));
     terms.pop_back();
-    const Eigen::VectorXd added = moves[k].topRows(most.size()).cwiseAbs2() * squares;
+    const Eigen::VectorXd added = own_moves.cwiseAbs2() * squares;
     for (Eigen::Index i = 0; i < most.size(); ++i) {
       if (!(added[i] > most[i])) continue;
       most[i] = added[i];

@@ -12,8 +12,7 @@ namespace shapeid::diagnosis {
 
 /// A force at a contact, base axes.
 inline std::vector<Parameter> contact_force_parameters() {
-  return {
-      {"x", "N", false, 5.0, 100.0}, {"y", "N", false, 5.0, 100.0}, {"z", "N", false, 5.0, 100.0}};
+  return {{"x", "N", false, 5.0}, {"y", "N", false, 5.0}, {"z", "N", false, 5.0}};
 }
 
 /// By how much a flag is wrong.

@@ -19,8 +19,7 @@ Effect external_force() {
   e.title = "a constant force pulls at the link's origin";
   e.equation = "tau -= J_link^T (x, y, z), force in base axes";
   e.site = SiteKind::link;
-  e.parameters = {
-      {"x", "N", false, 5.0, 100.0}, {"y", "N", false, 5.0, 100.0}, {"z", "N", false, 5.0, 100.0}};
+  e.parameters = {{"x", "N", false, 5.0}, {"y", "N", false, 5.0}, {"z", "N", false, 5.0}};
   e.confused_with = {"payload", "accel_bias", "accel_noise", "torque_offset", "contact_undeclared"};
   e.separate_by = "turn the robot: a cable keeps its direction, a load its weight";
   e.under_contact = "on the base hidden as far as feet can balance it";

@@ -130,6 +130,30 @@ TEST(Diagnose, FitsAndTestsSeveralLogsTogether) {
   EXPECT_NEAR(two["heldout"]["samples"].get<int>(), 2 * one["heldout"]["samples"].get<int>(), 1);
 }
 
+/// What is fitted and what is held out are parts of one log: what is put on at its twelfth second
+/// is there in the stretch from the eighteenth on.
+TEST(Diagnose, ALoadActsFromItsMomentAlsoInWhatIsHeldOut) {
+  ASSERT_EQ(
+      shapeid("simulate --seconds 20 --load 2 0.1 0.02 0.05 --load-from 12 --out load.csv").status,
+      0);
+  const CommandRun run =
+      shapeid(fmt::format("diagnose {} --trust --log load.csv --json --out loaded", files));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto result = nlohmann::json::parse(run.out);
+  const auto& findings = result["findings"];
+  const auto load = std::find_if(findings.begin(), findings.end(), [](const auto& f) {
+    return f["effect"] == "payload_from" && f["site"] == "base";
+  });
+  ASSERT_NE(load, findings.end()) << findings.dump(2);
+  const auto squares = [&](const char* of) {
+    double sum = 0.0;
+    for (const auto& rms : result["heldout"][of]) sum += std::pow(rms.get<double>(), 2);
+    return sum;
+  };
+  // Without the load the error would be what it was before.
+  EXPECT_LT(squares("rms_after"), 0.1 * squares("rms_before"));
+}
+
 TEST(Diagnose, TestsOnNothingThatIsFitted) {
   ASSERT_EQ(shapeid("simulate --seconds 2 --out run.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 2 --seed 2 --out other.csv").status, 0);
@@ -140,6 +164,9 @@ TEST(Diagnose, TestsOnNothingThatIsFitted) {
   };
   expect_refused("--log run.csv --test ./run.csv", "./run.csv: is fitted, too");
   expect_refused("--log other.csv --also run.csv --test run.csv", "run.csv: is fitted, too");
+  expect_refused("--log run.csv --reference other.csv --test other.csv",
+                 "other.csv: is fitted, too");
+  expect_refused("--log run.csv --reference run.csv", "run.csv: is given twice");
   expect_refused("--log run.csv --also other.csv run.csv", "run.csv: is given twice");
   expect_refused("--log run.csv --test other.csv other.csv", "other.csv: is given twice");
 }

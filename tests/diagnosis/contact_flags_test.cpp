@@ -119,7 +119,7 @@ Recording told(const Trot& trot, std::size_t foot, double late, double early) {
 
 void expect_found(const Trot& trot, Recording log, const std::string& id, double time) {
   const std::vector<Found> found =
-      correct_contact_flags(trot.robot, log, nullptr, nullptr, trot.settings());
+      correct_contact_flags(trot.robot, log, nullptr, {}, trot.settings());
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].id, id);
   // Searched in steps of one and a half, and rounded up by a fifth.
@@ -131,9 +131,19 @@ void expect_found(const Trot& trot, Recording log, const std::string& id, double
 TEST(ContactFlags, AreFoundOnATrotWhereTheyAreWrong) {
   const Trot trot;
   Recording right = told(trot, 2, 0.0, 0.0);
-  EXPECT_TRUE(correct_contact_flags(trot.robot, right, nullptr, nullptr, trot.settings()).empty());
+  EXPECT_TRUE(correct_contact_flags(trot.robot, right, nullptr, {}, trot.settings()).empty());
   expect_found(trot, told(trot, 2, 0.016, 0.0), "contact_late@RR_foot", 0.016);
   expect_found(trot, told(trot, 1, 0.0, 0.024), "contact_short@FL_foot", 0.024);
+}
+
+/// All inertias and torques six times as large: the same robot in other units. Forces were believed
+/// up to a hundred newtons once, and another foot's flag was moved by 84 ms.
+TEST(ContactFlags, AreFoundOnAHeavyRobotAsOnALightOne) {
+  constexpr double times = 6.0;
+  Trot trot;
+  for (Link& link : trot.robot.links) link.inertia.values *= times;
+  for (Sample& s : trot.samples) s.tau *= times;
+  expect_found(trot, told(trot, 2, 0.016, 0.0), "contact_late@RR_foot", 0.016);
 }
 
 TEST(ContactFlags, TheGroundCannotPull) {

@@ -9,7 +9,9 @@
 
 #include "shapeid/diagnosis/consistent.hpp"
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/regions.hpp"
+#include "shapeid/models/error.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
 namespace shapeid::diagnosis {
@@ -143,6 +145,53 @@ TEST(Loop, StaticLoadIsFoundAgainstAReferenceLogAndNotWithout) {
   ASSERT_EQ(found_ids(result), Ids{"payload@link3"});
   EXPECT_TRUE(result.found[0].since_reference);
   EXPECT_LT(std::abs(result.found[0].effect.value[0] - 0.8), 0.1);
+}
+
+TEST(Loop, AReferenceLogIsNotHeldOut) {
+  const Recording tiny = record({{}, 3.0}), reference = record({{}, 20.0, 0.02, 2});
+  const LoopSettings settings = arm_settings();
+  EXPECT_THROW(static_cast<void>(close_loop(arm(), tiny, &reference, settings)), Refusal);
+  const Recording log = record({});
+  const LoopResult alone = close_loop(arm(), log, nullptr, settings);
+  const LoopResult beside = close_loop(arm(), log, &reference, settings);
+  EXPECT_EQ(alone.blocks, beside.blocks);
+  EXPECT_EQ(alone.samples, beside.samples);
+}
+
+/// A gain that came since is applied, and changes nothing in the reference log.
+TEST(Loop, AGainThatCameSinceIsFoundAsThat) {
+  const Recording log = record({{effect("torque_gain", 1, {0.2})}, 20.0, 0.02, 2});
+  const Recording reference = record({});
+  const LoopResult result = close_loop(arm(), log, &reference, arm_settings());
+  ASSERT_EQ(found_ids(result), Ids{"torque_gain@joint2"});
+  EXPECT_TRUE(result.found[0].since_reference);
+  expect_value(result.found[0], {0.2});
+}
+
+/// Rigid links alone, beside what was found: not with the delay that was found, but without.
+TEST(Loop, RigidLinksAreComparedWithoutWhatWasFound) {
+  const LoopResult result = loop_of({{effect("torque_delay", 0, {0.012})}});
+  ASSERT_EQ(found_ids(result), Ids{"torque_delay@all"});
+  EXPECT_NEAR(result.error_end, 1.0, 0.2);
+  const double without = 1.0 / (1.0 - result.found[0].gain);  // by its gain
+  EXPECT_NEAR(result.error_rigid / (result.error_end * without), 1.0, 0.05);
+  EXPECT_GT(result.error_given, 2.0);
+}
+
+/// The filter's own error is taken out of both logs, or would be what came since.
+TEST(Loop, BothLogsAreCorrected) {
+  const Recording log = record({{effect("viscous_friction", 1, {0.3})}}), rough = record({});
+  LoopSettings settings = arm_settings();
+  settings.rough = settings.rough_reference = &rough;
+  settings.cutoff = 10.0;
+  const Robot robot = arm();
+  LoopState state(robot, log, &log, settings);
+  state.fit_masses();
+  state.correct();
+  ASSERT_EQ(state.result.correction.size(), log.samples().size());
+  EXPECT_GT(state.result.correction[500].norm(), 0.0);
+  EXPECT_EQ(state.result.correction, state.result.reference_correction);
+  EXPECT_EQ(state.reference->correction(500), state.result.correction[500]);
 }
 
 TEST(Loop, FrictionThatIsNegativeIsNotBelieved) {

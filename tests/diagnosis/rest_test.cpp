@@ -75,5 +75,34 @@ TEST(Rest, WithContactsEveryRowCounts) {
   EXPECT_TRUE(counted_rows(viewer, log, index, view).all());
 }
 
+/// What is light for an arm is all that a toy's joint ever has.
+TEST(LightLoad, IsATenthOfWhatASmallJointOftenHas) {
+  std::vector<Sample> samples(100);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    Sample& s = samples[i];
+    s.time = 0.01 * static_cast<double>(i);
+    s.q = s.dq = s.ddq = Eigen::Vector3d::Zero();
+    s.tau = Eigen::Vector3d(0.05, -20.0, 0.0);
+  }
+  const Recording log(std::move(samples), 100.0);
+  EXPECT_DOUBLE_EQ(light_load(log, 0), 0.005);
+  EXPECT_DOUBLE_EQ(light_load(log, 1), 0.1);
+  EXPECT_DOUBLE_EQ(light_load(log, 2), 0.1) << "of no torque nothing is known";
+}
+
+/// Parts of one log share its clock; blocks begin with the part.
+TEST(Recording, PartsOfALogShareItsClock) {
+  std::vector<Sample> samples(3);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].time = 8.0 + 0.01 * double(i);
+  Recording part(std::move(samples), 100.0);
+  constexpr double rounding = 1e-12;  // s
+  EXPECT_NEAR(part.elapsed(2), 0.02, rounding) << "a log of its own, if nothing else is said";
+  part.set_origin(3.0);
+  EXPECT_NEAR(part.elapsed(2), 5.02, rounding);
+  EXPECT_NEAR(part.surroundings(2).elapsed, 5.02, rounding);
+  EXPECT_NEAR(part.since_first(2), 0.02, rounding);
+  EXPECT_NEAR(part.duration(), 0.02, rounding);
+}
+
 }  // namespace
 }  // namespace shapeid::diagnosis

@@ -49,12 +49,12 @@ struct Fitted {
 constexpr Eigen::Index Iyy = 7, Izz = 9;
 
 /// Joint 1 stands upright: of its link nothing but Izz is seen, and in nothing but the rotor's
-/// column. The data say nothing of what is the rotor's: it may have its usual size.
-TEST(Unnoticed, WhatCannotBeToldAtAllMayHaveItsUsualSize) {
+/// column. The data say nothing of what is the rotor's: it may be all that the link could have.
+TEST(Unnoticed, WhatCannotBeToldAtAllMayBeAllThatTheLinkCouldHave) {
   const Fitted fitted(record({}), 1);
   EXPECT_EQ(fitted.effect_at(10 + Izz), "rotor_inertia@joint1");
-  const double usual = find_effect("rotor_inertia")->parameters[0].size;
-  const double expected = std::hypot(fitted.model.Phi_error[10 + Izz], usual);
+  const double expected =
+      std::hypot(fitted.model.Phi_error[10 + Izz], fitted.settings.size[10 + Izz]);
   EXPECT_NEAR(fitted.unnoticed.error[10 + Izz] / expected, 1.0, 1e-6);  // the fits' regularity
 }
 
