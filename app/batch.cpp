@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -82,7 +83,23 @@ void BatchOptions::add_to(CLI::App& verb) {
   add_delivery_options(verb, delivery);
 }
 
+namespace {
+
+/// The same log twice would say that the answer is twice as sure.
+void refuse_repeated(const std::vector<std::string>& logs) {
+  for (std::size_t k = 1; k < logs.size(); ++k) {
+    for (std::size_t i = 0; i < k; ++i) {
+      std::error_code unknown;  // a log that cannot be opened is said when it is read
+      if (!std::filesystem::equivalent(logs[k], logs[i], unknown)) continue;
+      throw InputError({logs[k]}, "is given twice", "each log once");
+    }
+  }
+}
+
+}  // namespace
+
 void batch(const BatchOptions& options, Peers& peers) {
+  refuse_repeated(options.logs);
   const RobotInputs robot = read_robot_with_any(options.inputs, options.logs);
   const BodyModel model = sought_bodies(options.sought, robot.robot);
   BatchOptions with_mass = options;

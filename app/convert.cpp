@@ -42,10 +42,14 @@ void convert(const Options& options) {
     values[static_cast<Eigen::Index>(i)] = number(words[i]);
   }
   const InertialParameters body = from_order(from, values);
+  const Eigen::VectorXd result = to_order(to, body);
+  if (!body.values.allFinite() || !result.allFinite()) {
+    throw InputError("these numbers do not fit into a double in another order",
+                     "kg, m and kg m^2 of a body");
+  }
   if (const Violation why = why_impossible(body)) {
     fmt::print(stderr, "warning: no body can have these parameters: {}\n", *why);
   }
-  const Eigen::VectorXd result = to_order(to, body);
   if (options.json) {
     const nlohmann::json document = {{"order", options.to},
                                      {"numbers", std::vector<double>(result.begin(), result.end())},

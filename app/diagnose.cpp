@@ -96,7 +96,7 @@ void add_diagnose(CLI::App& app) {
   whole->excludes(shapes);
   verb->add_option("--expected-mass", d.expected_mass,
                    "kg, of all sought links (default: as given)")
-      ->check(above_zero());
+      ->check(mass_of_a_robot());
   verb->add_option("--least-t", d.rule.least_t,
                    "standard errors by which an effect must lower the held-out error")
       ->check(above_zero())

@@ -125,6 +125,9 @@ class EffectsRun {
 reference::IdentifySettings settings_for(const LogSamples& log, const RobotInputs& robot,
                                          const MotionInputs& inputs,
                                          reference::IdentifySettings settings) {
+  if (settings.division.k1 == 0.0 && settings.division.k2 == 0.0) {
+    throw InputError("--k1 and --k2 are both 0", "one above 0: they say which shape is divided");
+  }
   settings.contacts = log.contacts();
   if (settings.weight.size() == 0) settings.weight = weight(robot);
   if (inputs.row_cutoff > 0.0) {

@@ -67,6 +67,15 @@ void identify(Options& options) {
 
   options.run.settings.expected_mass = mass;
   const Result result = run_identification(robot, model, options.inputs, options.run);
+  double found = 0.0;
+  for (const int link : model.free_links) found += result.found.Phi[Eigen::Index{10} * link];
+  constexpr double nothing = 1e-9;  // of what is expected: rounding of bounds that are active
+  if (!(found > nothing * mass)) {
+    throw Refusal(
+        "no-mass",
+        "the log asks for no mass at all where some is sought: the sign of the torques or "
+        "of the accelerometer is wrong, or the given inertias are too large");
+  }
   const Judgement judged = judge(result);
   const std::optional<double>& floor = judged.certified.proof.floor;
   deliver(options.delivery, result_json(result, floor, robot.robot),
@@ -88,20 +97,28 @@ void add_identify(CLI::App& app) {
                    "kg: a link found lighter keeps its given inertia")
       ->check(zero_or_above())
       ->capture_default_str();
-  verb->add_flag(
+  add_delivery_options(*verb, options->delivery);
+  CLI::Option* online = verb->add_flag(
       "--online", options->online,
       "a JSON line per window, as on the robot: smoothed forward in time, filter (17), no "
       "divisions");
   verb->add_option("--window", options->window, "samples a window (--online)")
       ->check(above_zero())
+      ->needs(online)
       ->capture_default_str();
   verb->add_option("--stride", options->stride, "samples from window to window (--online)")
       ->check(above_zero())
+      ->needs(online)
       ->capture_default_str();
   verb->add_option("--alpha", options->alpha, "filter (17) (--online)")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(share_above_zero())
+      ->needs(online)
       ->capture_default_str();
-  add_delivery_options(*verb, options->delivery);
+  // Windows are answered one by one, undivided and on standard output.
+  for (const char* other : {"--out", "--json", "--test", "--effects", "--min-mass", "--row-cutoff",
+                            "--hold-out", "--divisions", "--k1", "--k2", "--eps"}) {
+    online->excludes(verb->get_option(other));
+  }
   verb->callback([options] { identify(*options); });
 }
 

@@ -21,9 +21,9 @@ namespace {
 /// Whether a log, as seen through its mapping, has an IMU.
 bool has_imu(const LogTable& log, const std::optional<Mapping>& mapping) {
   const auto starts_with_base = [](const std::string& name) { return name.starts_with("base."); };
-  if (mapping) {
-    return std::any_of(mapping->columns.begin(), mapping->columns.end(),
-                       [&](const auto& rule) { return starts_with_base(rule.first); });
+  if (mapping && std::any_of(mapping->columns.begin(), mapping->columns.end(),
+                             [&](const auto& rule) { return starts_with_base(rule.first); })) {
+    return true;
   }
   return std::any_of(log.columns().begin(), log.columns().end(), starts_with_base);
 }
@@ -33,7 +33,10 @@ std::string robot_yaml_beside(const std::string& urdf) {
   const std::filesystem::path path(urdf);
   for (const auto& name : {path.stem().string() + ".robot.yaml", std::string("robot.yaml")}) {
     const auto candidate = path.parent_path() / name;
-    if (std::filesystem::exists(candidate)) return candidate.string();
+    // A link to nowhere is there, and is refused when it is read.
+    if (std::filesystem::exists(std::filesystem::symlink_status(candidate))) {
+      return candidate.string();
+    }
   }
   return {};
 }
@@ -53,6 +56,7 @@ void MotionInputs::add_robot_to(CLI::App& verb) {
       ->capture_default_str();
   verb.add_option("--contact-threshold", contact_threshold,
                   "derived contacts: share of the robot's weight that a foot must carry")
+      ->check(share_above_zero())
       ->capture_default_str();
 }
 
@@ -63,15 +67,20 @@ void MotionInputs::add_to(CLI::App& verb) {
 }
 
 void MotionInputs::add_smoothing_to(CLI::App& verb) {
-  verb.add_option("--cutoff", cutoff,
-                  "Hz, of the zero-phase filter over every channel; 0 does not smooth")
-      ->capture_default_str();
+  auto* smoothing =
+      verb.add_option("--cutoff", cutoff,
+                      "Hz, of the zero-phase filter over every channel; 0 does not smooth")
+          ->check(zero_or_above())
+          ->capture_default_str();
   verb.add_option("--row-cutoff", row_cutoff,
                   "Hz: filter the rows of the equations as well; then --cutoff can be high, which "
                   "distorts less (docs/recovery.md)")
       ->check(above_zero());
-  verb.add_option("--rate", rate, "Hz, of the regular grid (default: the log's)");
-  verb.add_flag("--exact", exact, "take dq, ddq and base.gyrodot from the log (simulations)");
+  auto* grid = verb.add_option("--rate", rate, "Hz, of the regular grid (default: the log's)")
+                   ->check(rate_of_a_log());
+  verb.add_flag("--exact", exact, "take dq, ddq and base.gyrodot from the log (simulations)")
+      ->excludes(grid)
+      ->excludes(smoothing);
 }
 
 ContactTreatment contact_treatment(const MotionInputs& inputs, const Robot& robot) {
@@ -90,6 +99,13 @@ ContactRule contact_rule(const MotionInputs& inputs, const Robot& robot) {
 }
 
 RobotInputs read_robot(const MotionInputs& inputs) {
+  std::error_code unknown;  // a log that is not there is said when it is opened
+  const auto kind = std::filesystem::status(inputs.log, unknown).type();
+  if (inputs.log == "-" || kind == std::filesystem::file_type::fifo ||
+      kind == std::filesystem::file_type::character) {
+    throw InputError({inputs.log}, "is a stream, and a log is read more than once",
+                     "a file; `shapeid track -` follows a stream");
+  }
   return read_robot(inputs, LogReader(inputs.log).table());
 }
 
@@ -109,7 +125,13 @@ RobotInputs read_robot(const MotionInputs& inputs, const LogTable& log) {
   result.robot = std::move(file.robot);
   const std::string notes =
       inputs.robot_yaml.empty() ? robot_yaml_beside(inputs.robot) : inputs.robot_yaml;
-  if (!notes.empty()) result.notes = read_robot_yaml(notes, result.robot);
+  if (!notes.empty()) {
+    result.notes = read_robot_yaml(notes, result.robot);
+  } else if (options.root == Root::floating) {
+    result.warnings.push_back(fmt::format(
+        "no robot.yaml beside {}: the IMU is taken to be at the base's origin, unturned",
+        inputs.robot));
+  }
   add_default_contacts(result.robot, log, result.mapping);
   return result;
 }

@@ -180,6 +180,9 @@ void inspect_motion(Options& options) {
 
 void inspect(Options& options) {
   const bool is_robot = options.file.ends_with(".urdf") || options.file.ends_with(".xml");
+  if (is_robot && !options.inputs.robot.empty()) {
+    throw InputError({options.file}, "is a robot itself", "--robot goes with a log");
+  }
   if (is_robot) {
     inspect_robot(options);
   } else if (options.inputs.robot.empty()) {
@@ -196,9 +199,11 @@ void add_inspect(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("inspect", "what is in a URDF or a log, and what is wrong with it");
   verb->add_option("file", options->file, "robot.urdf, log.csv or log.csv.gz")->required();
-  verb->add_option("--robot", options->inputs.robot, "URDF: read the log as this robot's motion");
-  verb->add_option("--mapping", options->inputs.mapping, "mapping.yaml of the log");
-  verb->add_option("--robot-yaml", options->inputs.robot_yaml, "robot.yaml (default: beside)");
+  auto* robot = verb->add_option("--robot", options->inputs.robot,
+                                 "URDF: read the log as this robot's motion");
+  verb->add_option("--mapping", options->inputs.mapping, "mapping.yaml of the log")->needs(robot);
+  verb->add_option("--robot-yaml", options->inputs.robot_yaml, "robot.yaml (default: beside)")
+      ->needs(robot);
   verb->add_flag("--json", options->json, "print JSON");
   verb->callback([options] { inspect(*options); });
 }

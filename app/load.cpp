@@ -1,14 +1,15 @@
 // shapeid load: mass and place of an unknown load on a link, every link's inertia being known.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
+#include <optional>
 
 #include "shapeid/app/identification.hpp"
 #include "shapeid/app/load_text.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/number.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
 
 namespace shapeid::app {
@@ -23,14 +24,8 @@ struct Options {
 };
 
 double bound(const std::string& text) {
-  try {
-    std::size_t used = 0;
-    const double value = std::stod(text, &used);
-    if (used == text.size() && std::isfinite(value)) return value;
-  } catch (const std::exception&) {
-    // reported below, together with numbers followed by rubbish
-  }
-  throw InputError("--area: '" + text + "' is not a number", "LINK x0 x1 y0 y1 z0 z1, in m");
+  if (const std::optional<double> value = parse_number(text)) return *value;
+  throw InputError("--area " + why_no_number(text), "LINK x0 x1 y0 y1 z0 z1, in m");
 }
 
 BodyModel region(const Options& options, const Robot& robot) {
@@ -77,7 +72,7 @@ void add_load(CLI::App& app) {
       ->expected(7);
   verb->add_option("--expected-mass", options->expected_mass,
                    "kg, roughly: it scales the criterion")
-      ->check(above_zero())
+      ->check(mass_of_a_robot())
       ->capture_default_str();
   add_delivery_options(*verb, options->delivery);
   verb->callback([options] { load(*options); });

@@ -2,10 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <vector>
 
+#include "shapeid/models/error.hpp"
 #include "shapeid/models/number.hpp"
 
 namespace shapeid::app {
@@ -29,6 +37,84 @@ CLI::Validator above_zero() {
 
 CLI::Validator zero_or_above() {
   return number_that([](double x) { return x >= 0.0; }, "at least 0");
+}
+
+CLI::Validator share_above_zero() {
+  return number_that([](double x) { return x > 0.0 && x <= 1.0; }, "above 0 and at most 1");
+}
+
+CLI::Validator mass_of_a_robot() {
+  return number_that([](double x) { return x >= 1e-6 && x <= 1e6; }, "from 1e-6 to 1e6 kg");
+}
+
+CLI::Validator rate_of_a_log() {
+  return number_that([](double x) { return x >= 1.0 && x <= 2e4; }, "from 1 to 20000 Hz");
+}
+
+namespace {
+
+/// A count, without a sign, that fits.
+bool is_count(const std::string& text) {
+  std::uint64_t count = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, count);
+  return error == std::errc() && stop == end;
+}
+
+void check_value(const CLI::Option& option, const std::string& value) {
+  const std::string name = option.get_name(), type = option.get_type_name();
+  if (value.empty()) {
+    throw InputError(name + " is empty", "give a value, or leave the option out");
+  }
+  if (type.starts_with("FLOAT") && !parse_number(value)) {
+    throw InputError(name + " " + why_no_number(value), "give a finite decimal number");
+  }
+  if (type.starts_with("UINT") && !is_count(value)) {
+    throw InputError(fmt::format("{} is \"{}\"", name, value), "give a count, 0 or more");
+  }
+}
+
+/// What verbs write into the folder that --out names.
+constexpr std::array written_into_folders = {
+    "result.json",     "problem.json", "answer.json", "certificate.json",
+    "identified.urdf", "effects.yaml", "report.html", "predict_torque.hpp"};
+
+/// Whether `path`, written to, would change what `input` names: the file, or one of its own in the
+/// folder.
+bool writes_over(const std::filesystem::path& path, const std::filesystem::path& input) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(input, none)) return false;
+  if (!std::filesystem::is_directory(path, none)) {
+    return std::filesystem::equivalent(path, input, none);
+  }
+  return std::any_of(
+      written_into_folders.begin(), written_into_folders.end(),
+      [&](const char* name) { return std::filesystem::equivalent(path / name, input, none); });
+}
+
+bool is_written(const CLI::Option& option) {
+  return option.get_name() == "--out" || option.get_name() == "--checkpoint";
+}
+
+}  // namespace
+
+void check_given(const CLI::App& verb) {
+  const std::vector<const CLI::Option*> options = verb.get_options();
+  for (const CLI::Option* option : options) {
+    if (option->get_type_size() == 0) continue;  // flags
+    for (const std::string& value : option->results()) check_value(*option, value);
+  }
+  for (const CLI::Option* out : options) {
+    if (!is_written(*out) || out->count() == 0) continue;
+    for (const CLI::Option* in : options) {
+      if (is_written(*in)) continue;
+      for (const std::string& input : in->results()) {
+        if (!writes_over(out->results().front(), input)) continue;
+        throw InputError({input}, "is read, and would be written over by " + out->get_name(),
+                         "another place for what is written");
+      }
+    }
+  }
 }
 
 }  // namespace shapeid::app

@@ -9,5 +9,15 @@ namespace shapeid::app {
 [[nodiscard]] CLI::Validator above_zero();
 /// A finite number, zero or above.
 [[nodiscard]] CLI::Validator zero_or_above();
+/// A finite number above zero, at most one.
+[[nodiscard]] CLI::Validator share_above_zero();
+/// A mass of robots and of what they carry, kg.
+[[nodiscard]] CLI::Validator mass_of_a_robot();
+/// Samples a second of logs.
+[[nodiscard]] CLI::Validator rate_of_a_log();
+
+/// What was given to a verb, before it begins. Throws InputError for an empty value, for a number
+/// that is none, and for a file to write that is read.
+void check_given(const CLI::App& verb);
 
 }  // namespace shapeid::app

@@ -1,14 +1,20 @@
 #include "shapeid/app/run_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <system_error>
+#include <vector>
 
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/file_output.hpp"
 #include "shapeid/models/text.hpp"
 
 namespace shapeid::app {
@@ -29,12 +35,35 @@ int finish_output() {
                   bad_input);
 }
 
+/// Files that are not whole yet go, and the process ends as it would have.
+void stop(int signal) {
+  remove_unfinished_files();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+/// CLI11 would say that a verb is missing, not which word is none.
+void check_verb(const CLI::App& app, int argc, char** argv) {
+  const std::vector<const CLI::App*> verbs = app.get_subcommands({});
+  if (argc < 2 || verbs.empty() || *argv[1] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* verb : verbs) names.push_back(verb->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  throw InputError(fmt::format("there is no verb \"{}\"", argv[1]),
+                   fmt::format("{}", fmt::join(names, ", ")));
+}
+
 }  // namespace
 
 int run_command(CLI::App& app, int argc, char** argv) {
   // A reader that has gone is an error of writing, said in a line, not a silent end.
   std::signal(SIGPIPE, SIG_IGN);
+  for (const int end : {SIGINT, SIGTERM, SIGHUP}) std::signal(end, stop);
+  for (CLI::App* verb : app.get_subcommands({})) {
+    verb->parse_complete_callback([verb] { check_given(*verb); });
+  }
   try {
+    check_verb(app, argc, argv);
     app.parse(argc, argv);
     return finish_output();
   } catch (const CLI::ParseError& e) {

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "shapeid/app/bundled.hpp"
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/recording.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
@@ -23,6 +25,10 @@ struct Options {
 };
 
 void simulate_log(Options& options) {
+  if (!options.out.ends_with(".csv") && !options.out.ends_with(".csv.gz") &&
+      !std::filesystem::is_character_file(options.out) && !std::filesystem::is_fifo(options.out)) {
+    throw InputError({options.out}, "is no name of a log", "NAME.csv or NAME.csv.gz");
+  }
   if (options.robot.empty()) {
     options.robot = bundled("quadruped.urdf");
     if (options.robot_yaml.empty()) options.robot_yaml = bundled("quadruped.robot.yaml");
@@ -37,10 +43,18 @@ void simulate_log(Options& options) {
     load.mass = options.load[0];
     load.centre = {options.load[1], options.load[2], options.load[3]};
     if (options.load.size() == 5) load.sides.setConstant(options.load[4]);
-    if (!(load.mass > 0.0) || !(load.sides[0] > 0.0)) {
-      throw InputError("--load: mass and side must be positive", "MASS X Y Z [SIDE], kg and m");
+    constexpr double heaviest = 1e4, furthest = 100.0;  // kg, m
+    if (!(load.mass > 0.0 && load.mass <= heaviest) || !(load.sides[0] > 0.0) ||
+        load.sides[0] > furthest || load.centre.cwiseAbs().maxCoeff() > furthest) {
+      throw InputError("--load: no block that a robot could carry",
+                       "MASS X Y Z [SIDE], kg and m, mass and side above 0");
     }
     options.simulation.load = load;
+    if (!(options.simulation.load_from < options.simulation.duration &&
+          options.simulation.load_from < options.simulation.load_until)) {
+      throw InputError("--load-from: the block is never there",
+                       "a moment before --load-until and before the end of the log");
+    }
   }
   options.sensors.noise = !options.exact;
   options.sensors.exact_extras = options.exact;
@@ -73,12 +87,17 @@ void add_simulate(CLI::App& app) {
       ->capture_default_str();
   verb->add_option("--seed", options->simulation.seed, "of the wanted motion and of the noise")
       ->capture_default_str();
-  verb->add_option("--load", options->load,
-                   "MASS X Y Z [SIDE]: a block fixed to the base, kg and m (side 0.04)")
-      ->expected(4, 5);
+  auto* load =
+      verb->add_option("--load", options->load,
+                       "MASS X Y Z [SIDE]: a block fixed to the base, kg and m (side 0.04)")
+          ->expected(4, 5);
   verb->add_option("--load-from", options->simulation.load_from, "s: when the block is put on")
+      ->check(zero_or_above())
+      ->needs(load)
       ->capture_default_str();
-  verb->add_option("--load-until", options->simulation.load_until, "s: when it is taken off again");
+  verb->add_option("--load-until", options->simulation.load_until, "s: when it is taken off again")
+      ->check(above_zero())
+      ->needs(load);
   verb->add_flag("--exact", options->exact,
                  "no noise; accelerations and contact forces are logged as well");
   verb->add_flag("--json", options->json, "print JSON");

@@ -30,7 +30,7 @@ void SoughtLinks::add_to(CLI::App& verb) {
   named->excludes(of_shapes);
   verb.add_option("--expected-mass", expected_mass,
                   "kg, of all sought links together (default: as given)")
-      ->check(above_zero());
+      ->check(mass_of_a_robot());
 }
 
 BodyModel sought_bodies(const SoughtLinks& sought, const Robot& robot) {

@@ -141,13 +141,14 @@ void track(Options& options) {
   if (!options.checkpoint.empty()) {
     write_checkpoint(options.checkpoint, run, source.position(), setup);
   }
-  if (run.lines() == 0) {
-    fmt::print(stderr, "{}: too short for a line: no {} rows in the order of time, or no window\n",
-               options.inputs.log, SampleStream::head_rows);
-  }
   if (source.unfinished() > 0) {
     fmt::print(stderr, "{}: the last {} bytes are no whole line, and were left\n",
                options.inputs.log, source.unfinished());
+  }
+  if (run.lines() == 0) {
+    throw Refusal("too-short", fmt::format("{}: no line: no {} rows in the order of time, or no "
+                                           "window",
+                                           options.inputs.log, SampleStream::head_rows));
   }
 }
 
@@ -163,25 +164,28 @@ void add_track(CLI::App& app) {
   verb->add_option("--cutoff", options->cutoff, "Hz, of the causal filter over every channel")
       ->check(above_zero())
       ->capture_default_str();
-  verb->add_option("--rate", options->inputs.rate, "Hz, of the regular grid (default: the log's)");
+  verb->add_option("--rate", options->inputs.rate, "Hz, of the regular grid (default: the log's)")
+      ->check(rate_of_a_log());
   fast::IdentifierSettings& identifier = options->settings.estimates.identifier;
   verb->add_option("--window", identifier.window, "samples a window")
       ->check(above_zero())
       ->capture_default_str();
   verb->add_option("--alpha", identifier.alpha, "filter (17)")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(share_above_zero())
       ->capture_default_str();
   verb->add_option("--recent", options->settings.estimates.recent, "s, of the longer window")
-      ->check(above_zero())
+      ->check(CLI::Range(0.001, 3600.0))
       ->capture_default_str();
   verb->add_option("--wander", options->settings.estimates.wander,
                    "share of its size by which a parameter may wander in a second")
       ->check(zero_or_above())
       ->capture_default_str();
-  verb->add_flag("--follow", options->follow.follow, "at the end of the file wait for more");
+  auto* follow =
+      verb->add_flag("--follow", options->follow.follow, "at the end of the file wait for more");
   verb->add_option("--patience", options->follow.patience,
                    "s without a new byte after which following ends; 0 never")
       ->check(zero_or_above())
+      ->needs(follow)
       ->capture_default_str();
   auto* checkpoint = verb->add_option("--checkpoint", options->checkpoint,
                                       "file that always holds a state to go on from");

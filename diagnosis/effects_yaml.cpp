@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -45,16 +46,39 @@ AppliedEffect read_place(const YamlInput& file, const YAML::Node& node, const Ro
   return at_start(*effect, *site);
 }
 
+void check_shape(const YamlInput& file, const YAML::Node& node, const ShapeNumber& shape,
+                 double value) {
+  if (value >= shape.lower && value <= shape.upper) return;
+  file.refuse(node, fmt::format("{} is {:g}", shape.name, value),
+              fmt::format("{:g} to {:g} {}", shape.lower, shape.upper, shape.unit));
+}
+
+void check_value(const YamlInput& file, const YAML::Node& node, const Parameter& parameter,
+                 double value) {
+  const double least = parameter.nonnegative ? 0.0 : -parameter.limit;
+  if (value >= least && value <= parameter.limit) return;
+  file.refuse(node, fmt::format("{} is {:g}", parameter.name, value),
+              std::isfinite(parameter.limit)
+                  ? fmt::format("{:g} to {:g} {}", least, parameter.limit, parameter.unit)
+                  : fmt::format("at least 0 {}", parameter.unit));
+}
+
 AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Robot& robot) {
   file.check_keys(node, "an effect", {"effect", "site", "values"}, {});
   AppliedEffect applied = read_place(file, node, robot);
   const std::vector<std::string> names = number_names(*applied.effect);
   file.check_keys(node["values"], "values", names, {});
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const double value = file.number(node["values"][names[i]], names[i]);
-    const auto at = static_cast<Eigen::Index>(i);
-    (at < applied.shape.size() ? applied.shape[at] : applied.value[at - applied.shape.size()]) =
-        value;
+    const YAML::Node number = node["values"][names[i]];
+    const double value = file.number(number, names[i]);
+    const std::size_t shapes = applied.effect->shape.size();
+    if (i < shapes) {
+      check_shape(file, number, applied.effect->shape[i], value);
+      applied.shape[static_cast<Eigen::Index>(i)] = value;
+    } else {
+      check_value(file, number, applied.effect->parameters[i - shapes], value);
+      applied.value[static_cast<Eigen::Index>(i - shapes)] = value;
+    }
   }
   return applied;
 }
@@ -81,7 +105,9 @@ Curve read_curve(const YamlInput& file, const YAML::Node& node, const Robot& rob
   }
   if (node["shape"]) file.check_keys(node["shape"], "shape", names, {});
   for (std::size_t i = 0; i < names.size(); ++i) {
-    curve.law.shape[static_cast<Eigen::Index>(i)] = file.number(node["shape"][names[i]], names[i]);
+    const double value = file.number(node["shape"][names[i]], names[i]);
+    check_shape(file, node["shape"][names[i]], law.shape[i], value);
+    curve.law.shape[static_cast<Eigen::Index>(i)] = value;
   }
   const std::string name = file.text(node["over"], "over");
   const std::optional<CurveVariable> over = find_variable(name, robot);

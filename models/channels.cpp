@@ -249,6 +249,12 @@ double RowMeaning::time(const LogRow& row) const {
   if (std::isnan(time)) {
     throw InputError({path_, row.line, plan_.time.from}, "is empty", "give every row its time");
   }
+  constexpr double latest =
+      1e12;  // s: thirty thousand years; beyond, doubles tell no samples apart
+  if (!(std::abs(time) < latest)) {
+    throw InputError({path_, row.line, plan_.time.from}, fmt::format("is {:g} s", time),
+                     "give seconds; nanoseconds take scale: 1e-9");
+  }
   return time;
 }
 
@@ -313,6 +319,12 @@ void MeasuredRows::check_clock(const MeasuredRow& row) {
             ? fmt::format("the clock stands still at {} s", row.time)
             : fmt::format("the clock runs back from {} to {} s", *last_time_, row.time),
         "give rows in increasing time, each time once");
+  }
+  constexpr double longest_pause = 86400.0;  // s: what begins a day later is another log
+  if (last_time_ && row.time - *last_time_ > longest_pause) {
+    throw InputError({log_.path(), row.line, plan().time.from},
+                     fmt::format("the clock jumps from {} to {} s", *last_time_, row.time),
+                     "give seconds; nanoseconds take scale: 1e-9");
   }
   last_time_ = row.time;
 }

@@ -27,6 +27,10 @@ class OutputPlace {
   std::string final_, writable_;
 };
 
+/// Removes what is being written by this process, whole or not. Only calls that a signal's handler
+/// may make.
+void remove_unfinished_files() noexcept;
+
 /// Writes `text` beside `path` and renames it into place, so that a half-written file never
 /// replaces a good one. Throws InputError if the place cannot be written (missing folder, full
 /// disk).

@@ -106,7 +106,29 @@ void Plausibility::add_gravity(const MeasuredRow& row) {
   ++force_count_;
 }
 
+/// Nothing that is measured on a robot is larger by orders of magnitude. Sums of squares of what is
+/// would not be numbers any more.
+void Plausibility::judge_size() const {
+  constexpr double most_torque = 1e6, most_speed = 1e5, most_turn = 1e3, most_force = 1e5;
+  const auto judge_channels = [&](int first, int count, double most, const char* unit) {
+    for (int channel = first; first >= 0 && channel < first + count; ++channel) {
+      const Range& r = range(channel);
+      if (r.least > r.most || std::max(-r.least, r.most) <= most) continue;
+      throw InputError(
+          place(channel, r.line),
+          fmt::format("{:g} is no reading of a robot", r.most > -r.least ? r.most : r.least),
+          fmt::format("{}, at most {:g}", unit, most));
+    }
+  };
+  judge_channels(plan_.tau, robot_.joint_count(), most_torque, "N m or N");
+  judge_channels(plan_.dq, robot_.joint_count(), most_speed, "rad/s or m/s");
+  if (!plan_.floating()) return;
+  judge_channels(plan_.gyro, 3, most_turn, "rad/s");
+  judge_channels(plan_.accel, 3, most_force, "m/s^2");
+}
+
 void Plausibility::judge() {
+  judge_size();
   for (int j = 0; j < robot_.joint_count(); ++j) {
     judge_slope(j);
     judge_position(j);
@@ -178,13 +200,18 @@ void Plausibility::judge_frozen() const {
   const auto refuse = [&](int channel) {
     throw InputError(place(channel),
                      fmt::format("stays at {:g} while the joints move", range(channel).least),
-                     "log the live signal, or allow frozen channels");
+                     "log the live signal, or leave the rows out");
   };
-  bool any = false;
+  bool any = false, torque = robot_.joint_count() == 0;
   for (int j = 0; j < robot_.joint_count(); ++j) {
     any = any || moves(j);
+    torque = torque || range(plan_.tau + j).width() > 0.0;
     // Zero is what a free joint has.
     if (moves(j) && range(plan_.tau + j).frozen()) refuse(plan_.tau + j);
+  }
+  if (any && !torque) {
+    throw InputError(place(plan_.tau), "and every other torque never changes while the joints move",
+                     "log the torque of every joint in N m");
   }
   for (const int imu : {plan_.gyro, plan_.accel}) {
     for (int axis = 0; any && plan_.floating() && axis < 3; ++axis) {

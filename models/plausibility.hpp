@@ -20,7 +20,8 @@ void check_clock(const std::string& path, const std::string& column, double medi
 ///  * logged dq that follows the slope of q with another factor than one (degrees, milliseconds) or
 ///    with the opposite sign;
 ///  * an accelerometer whose mean magnitude is not gravity (g as unit, mm/s^2, gravity removed);
-///  * channels that never change while the joints move.
+///  * channels that never change while the joints move, and torques of which none does;
+///  * readings that no robot has, by orders of magnitude.
 /// A block decides only what it has motion enough to decide. Throws InputError.
 class Plausibility {
  public:
@@ -60,6 +61,7 @@ class Plausibility {
   }
   [[nodiscard]] Place place(int channel, int line = 0) const;
   void add_gravity(const MeasuredRow& row);
+  void judge_size() const;
   void judge_position(int joint) const;
   void judge_slope(int joint) const;
   void judge_gravity() const;

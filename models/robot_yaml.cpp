@@ -36,7 +36,7 @@ Contact read_contact(const YamlInput& in, const YAML::Node& node, const Robot& r
   const LinkSite site = site_of(in, node["link"], contact.name, robot);
   contact.link = site.link;
   if (node["kind"]) contact.kind = kind_of(in, node["kind"]);
-  if (node["point"]) contact.frame.translation() = in.three(node["point"], "point");
+  if (node["point"]) contact.frame.translation() = in.place(node["point"], "point");
   const bool line = contact.kind == ContactKind::line;
   if (line && !node["axis"]) {
     in.refuse(node, fmt::format("the line contact of {} does not say which line", contact.name),
@@ -85,7 +85,13 @@ void read_noise(const YamlInput& in, const YAML::Node& node, const Robot& robot,
                 "write q, dq, ddq or tau, alone or with .<joint>, base.gyro or base.accel, alone "
                 "or with .x, or force.<link>.x");
     }
-    notes.noise_sigma[channel] = in.positive(node[channel], "the sigma of " + channel);
+    const double sigma = in.positive(node[channel], "the sigma of " + channel);
+    constexpr double least = 1e-12, most = 1e12;
+    if (sigma < least || sigma > most) {
+      in.refuse(node[channel], fmt::format("the sigma of {} is {:g}", channel, sigma),
+                "the standard deviation of its noise, in its own unit");
+    }
+    notes.noise_sigma[channel] = sigma;
   }
 }
 
@@ -112,10 +118,11 @@ void read_masses(const YamlInput& in, const YAML::Node& node, const Robot& robot
       key = robot.links[static_cast<std::size_t>(link)].name;
     }
     const Eigen::VectorXd bounds = in.numbers(range, "the mass of " + name, 2);
-    if (bounds[0] < 0.0 || bounds[1] <= bounds[0]) {
+    constexpr double heaviest = 1e6;  // kg
+    if (bounds[0] < 0.0 || bounds[1] <= bounds[0] || bounds[1] > heaviest) {
       in.refuse(range,
                 fmt::format("the mass of {} lies from {:g} to {:g}", name, bounds[0], bounds[1]),
-                "write [lower, upper] in kg, 0 <= lower < upper");
+                "write [lower, upper] in kg, 0 <= lower < upper <= 1e6");
     }
     if (!notes.expected_mass.emplace(key, RobotNotes::MassRange{bounds[0], bounds[1]}).second) {
       in.refuse(range, fmt::format("{} is one rigid body with a link named before", name),
@@ -135,6 +142,10 @@ RobotNotes read_robot_yaml(const std::string& path, Robot& robot) {
   std::vector<Contact> contacts;
   if (const YAML::Node list = root["contacts"]) {
     if (!list.IsSequence()) in.refuse(list, "contacts is not a list", "write - {link: NAME}");
+    if (list.size() == 0) {
+      in.refuse(list, "contacts is an empty list",
+                "leave it out for those of the log, or give --contacts none");
+    }
     for (const YAML::Node& node : list) contacts.push_back(read_contact(in, node, robot));
   }
   if (root["noise"]) read_noise(in, root["noise"], robot, notes);

@@ -18,7 +18,12 @@ constexpr std::size_t largest_yaml = std::size_t{1} << 20;
 
 YAML::Node load_yaml(const std::string& path) {
   try {
-    return YAML::Load(read_small_file(path, largest_yaml));
+    const std::vector<YAML::Node> documents = YAML::LoadAll(read_small_file(path, largest_yaml));
+    if (documents.size() > 1) {
+      throw InputError({path, documents[1].Mark().line + 1, {}}, "a second document begins here",
+                       "one document a file");
+    }
+    return documents.empty() ? YAML::Node() : documents.front();
   } catch (const YAML::Exception& error) {
     throw InputError({path, error.mark.line + 1, {}}, "not YAML: " + error.msg, "write YAML");
   }
@@ -106,10 +111,19 @@ Eigen::Vector3d YamlInput::three(const YAML::Node& node, const std::string& what
   return numbers(node, what, 3);
 }
 
+Eigen::Vector3d YamlInput::place(const YAML::Node& node, const std::string& what) const {
+  constexpr double furthest = 1000.0;  // m
+  const Eigen::Vector3d result = three(node, what);
+  if (result.cwiseAbs().maxCoeff() > furthest) {
+    refuse(node, fmt::format("{} is {:g} m away", what, result.norm()), "metres, on the robot");
+  }
+  return result;
+}
+
 Eigen::Isometry3d YamlInput::pose(const YAML::Node& node, const std::string& what) const {
   check_keys(node, what, {}, {"xyz", "rpy"});
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  if (node["xyz"]) result.translation() = three(node["xyz"], what + " xyz");
+  if (node["xyz"]) result.translation() = place(node["xyz"], what + " xyz");
   if (node["rpy"]) result.linear() = rotation_from_rpy(three(node["rpy"], what + " rpy"));
   return result;
 }

@@ -43,6 +43,8 @@ class YamlInput {
   [[nodiscard]] Eigen::VectorXd numbers(const YAML::Node& node, const std::string& what,
                                         Eigen::Index count) const;
   [[nodiscard]] Eigen::Vector3d three(const YAML::Node& node, const std::string& what) const;
+  /// A place within a kilometre, m.
+  [[nodiscard]] Eigen::Vector3d place(const YAML::Node& node, const std::string& what) const;
   /// {xyz, rpy}, both optional: m and rad, roll about x, then pitch about y, then yaw about z.
   [[nodiscard]] Eigen::Isometry3d pose(const YAML::Node& node, const std::string& what) const;
 

@@ -37,10 +37,9 @@ void spoil(const std::string& log_name, const std::string& to, double from, doub
 }
 
 nlohmann::json identified(const std::string& arguments) {
-  // Torque as logged: a filter would carry it out of the stretch.
-  const CommandRun run = shapeid(
-      fmt::format("identify {} --shapes box.yaml --exact --cutoff 0 --divisions 3 --json {}", files,
-                  arguments));
+  // Torque as logged (--exact): a filter would carry it out of the stretch.
+  const CommandRun run = shapeid(fmt::format(
+      "identify {} --shapes box.yaml --exact --divisions 3 --json {}", files, arguments));
   EXPECT_EQ(run.status, 0) << run.err;
   return run.status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
 }

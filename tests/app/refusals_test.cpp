@@ -44,7 +44,7 @@ TEST(Refusals, OneLineThatSaysWhatIsWrongAndWhatWouldBeRight) {
   const std::string letters = scratch_file("letters.csv", "time,q.hinge,tau.hinge\n0,1,x\n");
   const std::vector<Refused> table = {
       {"", 2, "subcommand is required"},
-      {"frobnicate", 2, "subcommand"},
+      {"frobnicate", 2, "there is no verb \"frobnicate\""},
       {"identify", 2, "--robot is required"},
       {"identify --robot missing.urdf --log " + log, 2, "missing.urdf"},
       {fmt::format("identify --robot {} --log missing.csv", robot), 2, "missing.csv"},
@@ -67,7 +67,7 @@ TEST(Refusals, OneLineThatSaysWhatIsWrongAndWhatWouldBeRight) {
       {"convert --from pinocchio --to drake 1 0 0 0 1 0 1 0 0 1e999", 2, "1e999"},
       {"simulate --out missing_folder/log.csv --seconds 0.2", 2, "missing_folder"},
       {"simulate --out log.csv --load 1 2", 2, "--load"},
-      {"simulate --out log.csv --load -1 0 0 0.08", 2, "positive"},
+      {"simulate --out log.csv --load -1 0 0 0.08", 2, "mass and side above 0"},
       {"inspect missing.csv", 2, "missing.csv"},
       {"inspect " + no_robot, 2, "broken.urdf"},
   };

@@ -1,0 +1,264 @@
+// What is given to a verb and cannot be meant: numbers, values, files, readings. Each was once
+// taken (or crashed, or never ended).
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "shapeid/models/log.hpp"
+#include "shapeid/models/log_writer.hpp"
+#include "shapeid/models/text.hpp"
+#include "shapeid/tests/app/command.hpp"
+
+namespace shapeid::test {
+namespace {
+
+const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
+const std::string robot =
+    fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
+
+/// One line that says so, exit status 2 (or another), nothing printed.
+void expect_refused(const std::string& arguments, const std::string& says, int status = 2) {
+  SCOPED_TRACE("shapeid " + arguments);
+  const CommandRun run = shapeid(arguments);
+  EXPECT_EQ(run.status, status) << run.err;
+  EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_TRUE(run.out.empty()) << run.out;
+}
+
+class Given : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    ASSERT_EQ(shapeid("simulate --seconds 2 --out given.csv").status, 0);
+  }
+
+  /// The log with one number changed.
+  static void write_with(const std::string& column, int line, double value) {
+    change([&](const std::vector<std::string>& columns, LogRow& row) {
+      if (row.line != line) return;
+      const auto at = std::find(columns.begin(), columns.end(), column) - columns.begin();
+      row.values[static_cast<std::size_t>(at)] = value;
+    });
+  }
+  static void change(
+      const std::function<void(const std::vector<std::string>&, LogRow&)>& change_row) {
+    LogReader log(scratch() + "/given.csv");
+    LogWriter out(scratch() + "/changed.csv", log.columns());
+    while (std::optional<LogRow> row = log.next()) {
+      change_row(log.columns(), *row);
+      out.write(row->values);
+    }
+    out.close();
+  }
+};
+
+TEST_F(Given, NumbersThatAreNoneOrBeyondAnyRobot) {
+  const std::string identify = fmt::format("identify {} --log given.csv ", robot);
+  for (const char* rate : {"0", "-5", "nan", "inf", "1e9", "0x100"}) {
+    expect_refused(identify + "--rate " + rate, "--rate");
+    expect_refused(fmt::format("track {} given.csv --rate {}", robot, rate), "--rate");
+  }
+  for (const char* mass : {"1e307", "1e-200", "nan"}) {
+    expect_refused(identify + "--expected-mass " + mass, "--expected-mass");
+    expect_refused(fmt::format("track {} given.csv --expected-mass {}", robot, mass),
+                   "--expected-mass");
+  }
+  expect_refused(identify + "--k1 0 --k2 0", "both 0");
+  expect_refused(identify + "--online --alpha 0", "--alpha");
+  expect_refused(identify + "--contact-threshold 5", "at most 1");
+  expect_refused(identify + "--contact-threshold nan", "nan");
+  expect_refused(fmt::format("track {} given.csv --recent 1e9", robot), "--recent");
+  expect_refused("certify given.csv given.csv --gap nan", "--gap is not a finite number");
+  expect_refused("simulate --out a.csv --seed -1", "--seed");
+  expect_refused("simulate --out a.csv --seed 99999999999999999999", "--seed");
+  expect_refused("simulate --out a.csv --load 1 1e308 0 0", "--load");
+  expect_refused("simulate --out a.csv --load 1 0 0 0 --load-from nan", "--load-from");
+  expect_refused("simulate --out a.csv --load 1 0 0 0 --load-from 20", "never there");
+  expect_refused("simulate --out a.csv --load 1 0 0 0 --load-from 2 --load-until 1", "never there");
+  expect_refused("convert --from pinocchio --to mujoco 1e-300 1e300 1 .6 1 .1 1.2 .2 .3 1.4",
+                 "do not fit into a double");
+}
+
+TEST_F(Given, ValuesThatAreEmptyAndOptionsThatWouldDoNothing) {
+  const std::string identify = fmt::format("identify {} --log given.csv ", robot);
+  for (const char* option : {"--out", "--test", "--effects", "--shapes", "--mapping"}) {
+    expect_refused(fmt::format("{} {} ''", identify, option), fmt::format("{} is empty", option));
+  }
+  for (const char* other : {"--out o", "--test given.csv", "--effects none.yaml", "--min-mass 1",
+                            "--row-cutoff 5", "--hold-out 1", "--k1 2", "--json"}) {
+    expect_refused(fmt::format("{} --online {}", identify, other), "excludes");
+  }
+  for (const char* other : {"--window 5", "--stride 5", "--alpha 0.5"}) {
+    expect_refused(identify + other, "requires --online");
+  }
+  expect_refused(identify + "--exact --cutoff 20", "excludes");
+  expect_refused(identify + "--exact --rate 500", "excludes");
+  expect_refused(fmt::format("track {} given.csv --patience 5", robot), "requires --follow");
+  expect_refused("simulate --out a.csv --load-from 1", "requires --load");
+  expect_refused("simulate --out a.txt", "no name of a log");
+  expect_refused("inspect given.csv --mapping none.yaml", "requires --robot");
+  expect_refused(fmt::format("inspect {0}quadruped.urdf --robot none", robots), "a robot itself");
+  expect_refused("identfy", "there is no verb \"identfy\"");
+}
+
+TEST_F(Given, LogsThatAreGivenTwiceOrFlowBy) {
+  expect_refused(fmt::format("batch {} --log given.csv ./given.csv", robot), "given twice");
+  expect_refused(fmt::format("identify {} --log -", robot), "is a stream");
+  expect_refused(fmt::format("inspect - {}", robot), "is a stream");
+}
+
+TEST_F(Given, FilesThatAreReadAreNotWrittenOver) {
+  const auto copied = [](const std::string& from, const std::string& name) {
+    std::filesystem::create_directories(scratch() + "/own");
+    std::filesystem::copy_file(from, scratch() + "/own/" + name,
+                               std::filesystem::copy_options::overwrite_existing);
+  };
+  copied(robots + "quadruped.urdf", "identified.urdf");
+  copied(robots + "quadruped.robot.yaml", "identified.robot.yaml");
+  copied(scratch() + "/given.csv", "log.csv");
+  const std::string own = "own/identified.urdf",
+                    before = read_small_file(scratch() + "/" + own, 1 << 20);
+  expect_refused(fmt::format("identify --robot {} --log given.csv --divisions 0 --out own", own),
+                 "would be written over by --out");
+  expect_refused(fmt::format("simulate --robot {0} --robot-yaml own/identified.robot.yaml "
+                             "--out own/../own/identified.robot.yaml",
+                             own),
+                 "would be written over by --out");
+  expect_refused(fmt::format("track {} own/log.csv --checkpoint own/log.csv", robot),
+                 "would be written over by --checkpoint");
+  expect_refused(fmt::format("track --robot {0} own/log.csv --checkpoint {0}", own),
+                 "would be written over by --checkpoint");
+  EXPECT_EQ(read_small_file(scratch() + "/" + own, 1 << 20), before);
+  // A folder with other files of the user's in it is a place like any other.
+  EXPECT_EQ(
+      shapeid(fmt::format("identify {} --log own/log.csv --divisions 0 --out own", robot)).status,
+      0);
+}
+
+TEST_F(Given, ReadingsThatNoRobotHas) {
+  const auto identified = fmt::format("identify {} --log changed.csv --divisions 0", robot);
+  const std::vector<std::pair<std::string, double>> readings = {{"base.gyro.x", 1e80},
+                                                                {"base.gyro.z", -2e3},
+                                                                {"base.accel.y", 1e6},
+                                                                {"tau.FR_knee", 1e10},
+                                                                {"dq.RL_hip", -1e6}};
+  for (const auto& [column, value] : readings) {
+    write_with(column, 502, value);
+    expect_refused(identified, fmt::format("changed.csv:502, column {}", column));
+  }
+  for (const double time : {1.7e18, 1e30, 2e5}) {
+    write_with("time", 1001, time);
+    expect_refused(identified, "changed.csv:1001, column time");
+    expect_refused(fmt::format("inspect changed.csv {}", robot), "changed.csv:1001, column time");
+  }
+  write_with("time", 2, -1.7e18);
+  expect_refused(fmt::format("track {} changed.csv", robot), "changed.csv:2, column time");
+}
+
+TEST_F(Given, LogsThatAskForNoMass) {
+  const auto scale = [](const std::string& prefix, double factor) {
+    change([&](const std::vector<std::string>& columns, LogRow& row) {
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        if (columns[c].starts_with(prefix)) row.values[c] *= factor;
+      }
+    });
+  };
+  const auto identified = fmt::format("identify {} --log changed.csv --divisions 0", robot);
+  scale("base.accel.", -1.0);
+  expect_refused(identified, "asks for no mass", 1);
+  scale("tau.", -1.0);
+  expect_refused(identified, "asks for no mass", 1);
+  scale("tau.", 0.0);
+  expect_refused(identified, "never changes while the joints move");
+}
+
+/// A mapping that says nothing of the base leaves the log's own names, and with them the base.
+TEST_F(Given, AMappingNeedsNoEntryForOurOwnNames) {
+  scratch_file("torque.yaml", "torque: {kind: joint}\n");
+  const std::string plain = fmt::format("identify {} --log given.csv --divisions 0 --json", robot);
+  const CommandRun mapped = shapeid(plain + " --mapping torque.yaml"), unmapped = shapeid(plain);
+  ASSERT_EQ(mapped.status, 0) << mapped.err;
+  EXPECT_EQ(mapped.out, unmapped.out);
+}
+
+TEST_F(Given, ARobotWithoutNotesSaysWhatIsTakenForGranted) {
+  std::filesystem::create_directories(scratch() + "/alone");
+  std::filesystem::copy_file(robots + "quadruped.urdf", scratch() + "/alone/dog.urdf",
+                             std::filesystem::copy_options::overwrite_existing);
+  const std::string words = "identify --robot alone/dog.urdf --log given.csv --divisions 0";
+  EXPECT_NE(shapeid(words).out.find("IMU is taken to be at the base's origin"), std::string::npos);
+  std::filesystem::remove(scratch() + "/alone/dog.robot.yaml");
+  std::filesystem::create_symlink("nowhere.yaml", scratch() + "/alone/dog.robot.yaml");
+  expect_refused(words, "dog.robot.yaml");
+}
+
+TEST_F(Given, EffectsBeyondTheirRange) {
+  const auto expect_wrong = [](const std::string& entry, const std::string& says) {
+    scratch_file("wrong.yaml", "effects:\n  - " + entry + "\n");
+    expect_refused(
+        fmt::format("identify {} --log given.csv --divisions 0 --effects wrong.yaml", robot),
+        "wrong.yaml:2: " + says);
+  };
+  expect_wrong("{effect: torque_delay, site: all, values: {d: 0.05}}", "d is 0.05");
+  expect_wrong("{effect: torque_delay, site: all, values: {d: -1e300}}", "d is -1e+300");
+  expect_wrong("{effect: coulomb_friction, site: FR_knee, values: {width: 0.05, c: -0.6}}",
+               "c is -0.6; at least 0");
+  expect_wrong("{effect: coulomb_friction, site: FR_knee, values: {width: 50, c: 0.6}}",
+               "width is 50");
+  expect_wrong("{effect: rotor_inertia, site: FR_knee, values: {I: -1}}", "I is -1; at least 0");
+  scratch_file("wrong.yaml", "effects: []\n---\neffects: []\n");
+  expect_refused(fmt::format("identify {} --log given.csv --effects wrong.yaml", robot),
+                 "wrong.yaml:3: a second document");
+}
+
+TEST_F(Given, NotesBeyondAnyRobot) {
+  const auto expect_wrong = [](const std::string& notes, const std::string& says) {
+    scratch_file("notes.yaml", notes + "\n");
+    expect_refused(
+        fmt::format("identify --robot {}quadruped.urdf --robot-yaml notes.yaml --log given.csv",
+                    robots),
+        says);
+  };
+  expect_wrong("imu: {xyz: [1e308, 1e308, 0]}", "notes.yaml:1: imu xyz");
+  expect_wrong("contacts: [{link: FR_foot, point: [0, 0, 1e200]}]", "notes.yaml:1: point");
+  expect_wrong("contacts: []", "an empty list");
+  expect_wrong("noise: {tau: 1e-155}", "the sigma of tau");
+  expect_wrong("expected_mass: {base: [4, 1e308]}", "the mass of base");
+}
+
+/// What is not whole when a user loses patience is not left behind.
+TEST_F(Given, AnInterruptLeavesNoHalfOfAFile) {
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const std::string out = scratch() + "/cut.csv";
+    execl(SHAPEID_BUILD_DIR "/shapeid", "shapeid", "simulate", "--seconds", "600", "--out",
+          out.c_str(), nullptr);
+    _exit(127);
+  }
+  const std::string part = fmt::format("{}/cut.csv.part{}", scratch(), child);
+  constexpr int tries = 1000;
+  for (int i = 0; i < tries && !std::filesystem::exists(part); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_TRUE(std::filesystem::exists(part)) << "it was being written";
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGINT);
+  EXPECT_FALSE(std::filesystem::exists(part));
+  EXPECT_FALSE(std::filesystem::exists(scratch() + "/cut.csv"));
+}
+
+}  // namespace
+}  // namespace shapeid::test
