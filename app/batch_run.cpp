@@ -50,7 +50,7 @@ std::string packed(const BatchLog& log) {
               {"samples", log.samples}, {"gaps", log.gaps},
               {"rate", log.rate},       {"contacts_derived", log.contacts_derived},
               {"notes", log.notes}}
-      .dump();
+      .dump(-1, ' ', false, json::error_handler_t::replace);  // names of files are any bytes
 }
 
 BatchLog unpacked_log(const std::string& path, const std::string& bytes) {

@@ -84,8 +84,8 @@ void add_diagnose(CLI::App& app) {
   add_hold_out_option(*verb, d.inputs);
   verb->add_option("--reference", d.reference,
                    "earlier log of the same robot: what has come since is then a finding");
-  auto* shapes = verb->add_option("--shapes", d.shapes,
-                                  "shapes.yaml (default: one generous box a sought link)");
+  auto* shapes = verb->add_option(
+      "--shapes", d.shapes, "shapes.yaml (default: a grid of 216 cells about each sought link)");
   auto* named = verb->add_option("--free", d.free_links,
                                  "links of unknown inertia (default: the floating base, or all "
                                  "links of a fixed one)");

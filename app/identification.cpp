@@ -171,7 +171,9 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
 void deliver(const Delivery& delivery, const nlohmann::json& document, const std::string& text,
              const Result& result, const Judgement& judged, const RobotInputs& robot,
              const MotionInputs& inputs) {
-  const std::string json = document.dump(2) + "\n";
+  // Names of files are any bytes.
+  const std::string json =
+      document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   fmt::print("{}", delivery.json ? json : text);
   if (delivery.folder.empty()) return;
   std::error_code failed;

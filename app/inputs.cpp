@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "shapeid/app/option_checks.hpp"
@@ -132,7 +133,7 @@ RobotInputs read_robot(const MotionInputs& inputs, const LogTable& log) {
         "no robot.yaml beside {}: the IMU is taken to be at the base's origin, unturned",
         inputs.robot));
   }
-  add_default_contacts(result.robot, log, result.mapping);
+  if (!result.notes.contacts_given) add_default_contacts(result.robot, log, result.mapping);
   return result;
 }
 
@@ -199,6 +200,13 @@ LogSamples::LogSamples(const std::string& path, const RobotInputs& robot,
   if (contacts_ == reference::ContactTreatment::measured && !reader_.report().forces_logged) {
     throw InputError({path}, "--contacts measured, but there are no force.* columns",
                      "log force.<link>.x, .y, .z for every contact, or choose another treatment");
+  }
+  if (contacts_ != ContactTreatment::measured) return;
+  std::set<std::string> names;
+  for (const Contact& contact : robot.robot.contacts) {
+    if (names.insert(contact.name).second) continue;
+    throw InputError(fmt::format("--contacts measured, but {} has several contacts", contact.name),
+                     "one contact for a measured force, at the place where it acts");
   }
 }
 

@@ -59,7 +59,9 @@ int run_command(CLI::App& app, int argc, char** argv) {
   // A reader that has gone is an error of writing, said in a line, not a silent end.
   std::signal(SIGPIPE, SIG_IGN);
   for (const int end : {SIGINT, SIGTERM, SIGHUP}) std::signal(end, stop);
-  for (CLI::App* verb : app.get_subcommands({})) {
+  std::vector<CLI::App*> verbs = app.get_subcommands({});
+  if (verbs.empty()) verbs.push_back(&app);  // a program that is one
+  for (CLI::App* verb : verbs) {
     verb->parse_complete_callback([verb] { check_given(*verb); });
   }
   try {

@@ -44,6 +44,7 @@ TrackSettings settings_for(const Options& options, const RobotInputs& robot,
   settings.stream.rate = options.inputs.rate;
   if (identifier.contacts == ContactTreatment::project) {
     settings.stream.derive_contacts = contact_rule(options.inputs, robot.robot);
+    settings.contact_threshold = options.inputs.contact_threshold;
   }
   return settings;
 }
@@ -145,7 +146,8 @@ void track(Options& options) {
     fmt::print(stderr, "{}: the last {} bytes are no whole line, and were left\n",
                options.inputs.log, source.unfinished());
   }
-  if (run.lines() == 0) {
+  // With a checkpoint more may come, and be gone on with.
+  if (run.lines() == 0 && options.checkpoint.empty()) {
     throw Refusal("too-short", fmt::format("{}: no line: no {} rows in the order of time, or no "
                                            "window",
                                            options.inputs.log, SampleStream::head_rows));

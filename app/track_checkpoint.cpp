@@ -66,19 +66,24 @@ std::string setup_digest(const RobotInputs& robot, const BodyModel& model,
     mapping.push_back(robot.mapping->keep_rows);
     mapping.push_back(robot.mapping->torque_factor);
   }
-  const json setup = {{"robot", robot_json(robot.robot)},
-                      {"imu", rows_of(robot.notes.imu.matrix())},
-                      {"mapping", mapping},
-                      {"known", vector_json(model.known)},
-                      {"free", model.free_links},
-                      {"U", rows_of(shape_columns(model))},
-                      {"V", vector_json(shape_volumes(model))},
-                      {"weight", vector_json(i.weight)},
-                      {"natural_size", vector_json(e.natural_size)},
-                      {"options",
-                       {static_cast<int>(i.contacts), i.window, i.stride, i.alpha, i.expected_mass,
-                        i.lambda.value_or(-1.0), e.recent, e.wander, settings.stream.cutoff,
-                        settings.stream.rate, settings.stream.derive_contacts != nullptr}}};
+  json setup = {{"robot", robot_json(robot.robot)},
+                {"imu", rows_of(robot.notes.imu.matrix())},
+                {"mapping", mapping},
+                {"known", vector_json(model.known)},
+                {"free", model.free_links},
+                {"U", rows_of(shape_columns(model))},
+                {"V", vector_json(shape_volumes(model))},
+                {"weight", vector_json(i.weight)},
+                {"natural_size", vector_json(e.natural_size)},
+                {"options",
+                 {static_cast<int>(i.contacts), i.window, i.stride, i.alpha, i.expected_mass,
+                  i.lambda.value_or(-1.0), e.recent, e.wander, settings.stream.cutoff,
+                  settings.stream.rate, settings.stream.derive_contacts != nullptr}}};
+  if (settings.stream.derive_contacts) {
+    // What contacts are derived from: share of the weight that a foot must carry, given inertias.
+    setup["derived_contacts"] = {settings.contact_threshold,
+                                 vector_json(stacked_parameters(robot.robot))};
+  }
   return digest(setup.dump());
 }
 

@@ -101,6 +101,9 @@ void Estimates::forget_samples() {
 }
 
 void Estimates::take_window(double time) {
+  // Without any force (drives that are off) a window has no scale, neither of errors nor of lambda.
+  const Eigen::MatrixXd& R = identifier_.window().R();
+  if (!identifier_.lambda() || R.col(R.cols() - 1).isZero(0.0)) return;
   learn_noise();
   recent_block_.assign(identifier_.window());
   // One that stands out weighs as much less as it is noisier.

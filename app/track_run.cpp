@@ -93,7 +93,12 @@ void TrackRun::watch_clock(MeasuredRow row) {
   guard_.push(std::move(row));
   while (const std::optional<GuardedRow> passed = guard_.next()) take(*passed);
   if (!line_time_) line_time_ = time;
-  if (estimates_ && time - *line_time_ > longest_silence) print(Why::no_samples, time);
+  if (!estimates_) return;
+  constexpr double windows = 1.5;  // a window that is late has had time to come
+  const double window = static_cast<double>(settings_.estimates.identifier.window) / stream_.rate();
+  if (time - *line_time_ > std::max(longest_silence, windows * window)) {
+    print(Why::no_samples, time);
+  }
 }
 
 void TrackRun::take(const GuardedRow& row) {

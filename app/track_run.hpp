@@ -19,6 +19,7 @@ namespace shapeid::app {
 struct TrackSettings {
   EstimateSettings estimates;
   StreamOptions stream;
+  double contact_threshold = 0.0;  ///< with which stream.derive_contacts was made
 };
 
 /// A robot that is followed. `log`, `robot` and `model` must outlive it.

@@ -195,16 +195,17 @@ class Search {
             fit.between_blocks.segment(from, n), fit.left, fit.freedom};
   }
 
-  /// By candidate k. What acts from a moment on gains in the blocks after it: those before would
-  /// only add to the scatter. Fewer blocks mean a wider limit; t is in proportion to that of all.
+  /// By candidate k. What acts from a moment on gains in the blocks after it. Those before add to
+  /// the gain where masses had taken some of it, and only to the scatter where none are free: the
+  /// larger t of both counts. Fewer blocks mean a wider limit; t is in proportion to that of all.
   [[nodiscard]] Gain gain_by(std::size_t k, const Eigen::VectorXd& before,
                              const Eigen::VectorXd& after) const {
     Gain gain = gain_of(before, after);
     const std::size_t from = candidates_[k].term.from_block;
     if (from <= fits_.first_block()) return gain;
     const Eigen::Index acts = before.size() - static_cast<Eigen::Index>(from - fits_.first_block());
-    gain.t =
-        gain_of(before.tail(acts), after.tail(acts)).t * limit_ / limit_for(rule_.least_t, acts);
+    const double t = gain_of(before.tail(acts), after.tail(acts)).t;
+    gain.t = std::max(gain.t, t * limit_ / limit_for(rule_.least_t, acts));
     return gain;
   }
 

@@ -46,14 +46,19 @@ double strongest_ripple(const Robot& robot, const Recording& recording, const Se
   const Eigen::VectorXd y = left.residual(row, counted);
   Eigen::ArrayXd size = Eigen::ArrayXd::Ones(x.size());
   if (of == RippleOf::load) size = left.predicted(row, counted).transpose();
-  // Half of what the range of x resolves.
+  // Over the whole range the phases of two neighbours differ by half a radian: between them hardly
+  // anything of a ripple is lost.
   const double range = x.maxCoeff() - x.minCoeff();
-  const double step = std::max(0.5 / std::max(range, 0.05), (upper - lower) / 2000.0);
+  constexpr double least_range = 0.05, most_range = 500.0;  // rad or m
+  const double step = 0.5 / std::clamp(range, least_range, most_range);
+  // From one frequency to the next by the sum of angles: a sine costs as much as all the rest.
+  Eigen::ArrayXd cosine = (lower * x).cos(), sine = (lower * x).sin();
+  const Eigen::ArrayXd cosine_of_step = (step * x).cos(), sine_of_step = (step * x).sin();
   double best = lower, most = 0.0;
   double N = lower;
   while (N <= upper) {
     Eigen::MatrixX3d A(x.size(), 3);
-    A << size * (N * x).cos(), size * (N * x).sin(), size;
+    A << size * cosine, size * sine, size;
     const Eigen::Vector3d g = A.transpose() * y;
     const double explained = g.dot((A.transpose() * A).ldlt().solve(g));
     if (explained > most) {
@@ -61,6 +66,9 @@ double strongest_ripple(const Robot& robot, const Recording& recording, const Se
       best = N;
     }
     N += step;
+    const Eigen::ArrayXd turned = cosine * cosine_of_step - sine * sine_of_step;
+    sine = sine * cosine_of_step + cosine * sine_of_step;
+    cosine = turned;
   }
   return best;
 }

@@ -21,13 +21,21 @@ Eigen::VectorXd mean_squares(const AppliedEffect& hypothesis, const Fit& fit) {
   return squares;
 }
 
-/// The same of a hypothesis that the data say nothing of: as much as moves no inertial number
-/// (`moves`, a column a number of the hypothesis) further than by what it could have (`sizes`).
-Eigen::VectorXd mean_squares_if_hidden(const Eigen::MatrixXd& moves, const Eigen::VectorXd& sizes) {
+/// The same of a hypothesis that the data say nothing of: lengths, angles and times, which have a
+/// range, have their usual size; a rotor or a force, which depends on the robot, as much as moves
+/// no inertial number (`moves`, a column a number of the hypothesis) further than by what it could
+/// have (`sizes`).
+Eigen::VectorXd mean_squares_if_hidden(const AppliedEffect& hypothesis,
+                                       const Eigen::MatrixXd& moves, const Eigen::VectorXd& sizes) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(moves.cols());
   for (Eigen::Index p = 0; p < squares.size(); ++p) {
+    const Parameter& parameter = hypothesis.effect->parameters[static_cast<std::size_t>(p)];
     const double furthest = moves.col(p).cwiseAbs().cwiseQuotient(sizes).maxCoeff();
-    if (furthest > 0.0) squares[p] = std::pow(furthest, -2);
+    if (std::isfinite(parameter.limit)) {
+      squares[p] = std::pow(parameter.size, 2);
+    } else if (furthest > 0.0) {
+      squares[p] = std::pow(furthest, -2);
+    }
   }
   return squares;
 }
@@ -61,9 +69,10 @@ Unnoticed unnoticed(const Robot& robot, const Recording& log, const Recording* r
   for (std::size_t k = 0; k < others.size(); ++k) {
     terms.push_back(others[k]);
     const Eigen::MatrixXd own_moves = moves[k].topRows(most.size());
+    const AppliedEffect& hypothesis = hypotheses[present + k];
     const Eigen::VectorXd squares = promises[k].hidden()
-                                        ? mean_squares_if_hidden(own_moves, sizes)
-                                        : mean_squares(hypotheses[present + k], fits.fit(terms));
+                                        ? mean_squares_if_hidden(hypothesis, own_moves, sizes)
+                                        : mean_squares(hypothesis, fits.fit(terms));
     terms.pop_back();
     const Eigen::VectorXd added = own_moves.cwiseAbs2() * squares;
     for (Eigen::Index i = 0; i < most.size(); ++i) {

@@ -50,9 +50,7 @@ Division::Division(const BodyModel& model, const DivisionOptions& options)
   history_.reserve(static_cast<std::size_t>(options.most_divisions));
 }
 
-void Division::forget_masses() noexcept { undivided_.setZero(); }
-
-Outcome Division::start(const Eigen::MatrixXd& R) noexcept {
+Outcome Division::start(const Eigen::MatrixXd& R, Start from) noexcept {
   tree_.make_room();
   history_.clear();
   parts_.clear();
@@ -62,7 +60,7 @@ Outcome Division::start(const Eigen::MatrixXd& R) noexcept {
     parts_.push_back(part);
     static_cast<void>(solver_.append(links_[j], tree_[part].u, tree_[part].V));
     const double mass = undivided_[static_cast<Eigen::Index>(j)];
-    if (mass > 0.0) solver_.start_at(part, mass);
+    if (from == Start::last_masses && mass > 0.0) solver_.start_at(part, mass);
   }
   const Outcome outcome = solver_.solve(R);
   if (outcome == Outcome::solved) undivided_ = solver_.m();

@@ -29,11 +29,10 @@ class Division {
   /// lambda >= 0.
   void set_lambda(double lambda) noexcept { solver_.set_lambda(lambda); }
 
-  /// Solves for the undivided shapes, from the masses that they had at the last start(). If the
-  /// solver declines, the undivided shapes are left with those masses.
-  Outcome start(const Eigen::MatrixXd& R) noexcept;
-  /// The next start() is cold.
-  void forget_masses() noexcept;
+  enum class Start { last_masses, no_masses };
+  /// Solves for the undivided shapes, from the masses that they had at the last start() or from
+  /// none. If the solver declines, the undivided shapes are left with those masses.
+  Outcome start(const Eigen::MatrixXd& R, Start from = Start::last_masses) noexcept;
 
   enum class Step {
     divided,

@@ -20,6 +20,10 @@ const IdentifierSettings& checked(const IdentifierSettings& settings) {
   if (settings.window == 0 || settings.stride == 0) {
     throw InputError("a window or stride of no samples", "both count samples, at least 1");
   }
+  constexpr std::size_t longest = 1'000'000'000;  // a negative number in C comes as more
+  if (settings.window > longest || settings.stride > longest) {
+    throw InputError("a window or stride of more than a billion samples", "some dozens");
+  }
   if (!(settings.expected_mass > 0.0)) {
     throw InputError("the expected mass is not positive", "kg, of all free shapes together");
   }
@@ -126,6 +130,8 @@ Identifier::Fed Identifier::feed(const Sample& sample) noexcept {
 }
 
 void Identifier::forget_samples() noexcept {
+  by_six_rows_ += rows_.samples_by_six_rows();
+  spent_ = slowest_ = 0.0;
   rows_.clear();
   if (sliding_) sliding_->clear();
   in_block_ = in_window_ = since_last_ = 0;
@@ -142,10 +148,9 @@ bool Identifier::solve(const Eigen::MatrixXd& R) noexcept {
   const double lambda =
       lambda_.value_or(1e-12 * squares * volume_ / (expected_mass_ * expected_mass_));
   division_.set_lambda(lambda);
-  if (!warm_) division_.forget_masses();
-  outcome_ = division_.start(R);
+  outcome_ = division_.start(R, warm_ ? Division::Start::last_masses : Division::Start::no_masses);
   if (outcome_ != Outcome::solved) return false;
-  lambda_ = lambda;
+  if (squares > 0.0) lambda_ = lambda;  // of no forces there is no scale
   int iterations = division_.masses().iterations();
   answer_.stopped_by = division_.run();
   for (const Division::Cut& cut : division_.history()) iterations += cut.iterations;

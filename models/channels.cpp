@@ -136,6 +136,13 @@ void declare_torque(const std::optional<Mapping>& mapping, const std::string& pa
     tau.scale *= factor->second;
     tau.offset *= factor->second;
   }
+  if (mapping) {
+    for (const auto& [joint, factor] : mapping->torque_factor) {
+      if (robot.find_joint(joint)) continue;
+      throw InputError(fmt::format("the mapping gives a torque factor for {}", joint),
+                       fmt::format("a joint of {} that moves", robot.name));
+    }
+  }
 }
 
 void check_root(const Finder& finder, const std::string& path, const Robot& robot) {

@@ -87,9 +87,18 @@ struct MotionReader::State {
     const double row_step = median_row_step(head);
     if (options.exact_derivatives) {
       report.rate = row_step > 0.0 ? 1.0 / row_step : 0.0;
+      if (head.size() > 1) judge_head(row_step);
     } else {
       prepare(row_step);
     }
+  }
+
+  void judge_head(double row_step) {
+    plausibility.emplace(source.path(), robot, source.plan(),
+                         Plausibility::Options{options.gap * row_step, options.expect_gravity,
+                                               options.refuse_frozen});
+    for (const MeasuredRow& row : head) plausibility->add(row);
+    plausibility->judge();
   }
 
   /// Sets up all that stands between measured rows and samples.
@@ -99,11 +108,7 @@ struct MotionReader::State {
                        "a motion takes at least some tenths of a second");
     }
     check_clock(source.path(), source.plan().time.from, row_step);
-    plausibility.emplace(source.path(), robot, source.plan(),
-                         Plausibility::Options{options.gap * row_step, options.expect_gravity,
-                                               options.refuse_frozen});
-    for (const MeasuredRow& row : head) plausibility->add(row);
-    plausibility->judge();
+    judge_head(row_step);
     const Eigen::VectorXd steps = median_steps(head, source.plan(), source.path());
     const double logged_rate = 1.0 / row_step;
     report.rate = options.rate > 0.0 ? options.rate : logged_rate;

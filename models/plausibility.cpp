@@ -120,6 +120,10 @@ void Plausibility::judge_size() const {
           fmt::format("{}, at most {:g}", unit, most));
     }
   };
+  constexpr double most_place = 1e6, most_rate = 1e8;
+  judge_channels(plan_.q, robot_.joint_count(), most_place, "rad or m");
+  judge_channels(plan_.ddq, robot_.joint_count(), most_rate, "rad/s^2 or m/s^2");
+  judge_channels(plan_.gyrodot, 3, most_rate, "rad/s^2");
   judge_channels(plan_.tau, robot_.joint_count(), most_torque, "N m or N");
   judge_channels(plan_.dq, robot_.joint_count(), most_speed, "rad/s or m/s");
   if (!plan_.floating()) return;
@@ -156,7 +160,7 @@ void Plausibility::judge_position(int j) const {
                     most == q.most ? q.most : q.least, joint.lower, joint.upper),
         fmt::format("give radians, or map with scale: {:.17g}", degree));
   }
-  if (most > many_turns) {
+  if (most > many_turns && std::isfinite(joint.lower) && std::isfinite(joint.upper)) {
     throw InputError(place(plan_.q + j, q.line),
                      fmt::format("{:g} rad on the limited joint {}", most, joint.name),
                      "give radians of the joint, not of the motor or in encoder counts");
@@ -189,7 +193,7 @@ void Plausibility::judge_gravity() const {
   std::string right = "give the specific force in m/s^2, gravity included";
   if (between(1.0)) right += "; the unit looks like g (scale: 9.80665)";
   if (between(1e3 * gravity)) right += "; the unit looks like mm/s^2 (scale: 0.001)";
-  if (mean <= least) right += "; gravity seems to be removed (or the robot falls freely)";
+  if (mean <= least * gravity) right += "; gravity seems to be removed (or the robot falls freely)";
   throw InputError(place(plan_.accel),
                    fmt::format("the accelerometer's mean magnitude is {:.3g} m/s^2", mean), right);
 }

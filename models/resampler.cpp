@@ -61,8 +61,13 @@ double Resampler::interpolate(const Track& track, double longest) const {
   const std::size_t before = track.size() > 1 && track[1].time <= t ? 1 : 0;
   if (track[before].time == t) return track[before].value;
   std::size_t first = before, last = before + 1;
-  if (before > 0 && track[before].time - track[0].time <= longest) first = 0;
-  if (track.size() > last + 1 && track[last + 1].time - track[last].time <= longest) ++last;
+  // Neighbours that are close together (stamps of arrival, in bursts) tell a slope by the noise of
+  // both: a cubic through them would amplify it without bound.
+  constexpr double close = 0.1;
+  const double step = track[last].time - track[before].time;
+  const auto helps = [&](double apart) { return apart <= longest && apart >= close * step; };
+  if (before > 0 && helps(track[before].time - track[0].time)) first = 0;
+  if (track.size() > last + 1 && helps(track[last + 1].time - track[last].time)) ++last;
   double sum = 0.0;  // Lagrange's form
   for (std::size_t i = first; i <= last; ++i) {
     double weight = 1.0;

@@ -64,7 +64,8 @@ bool is_channel(const std::string& name, const Robot& robot) {
       return robot.find_joint(name.substr(quantity.size() + 1)).has_value();
     }
   }
-  for (const std::string_view quantity : {"base.gyro", "base.accel", "base.quat"}) {
+  for (const std::string_view quantity :
+       {"base.gyro", "base.accel", "base.quat", "base.force", "base.moment"}) {
     if (name == quantity) return true;
   }
   // What remains is one component of a vector.
@@ -83,7 +84,7 @@ void read_noise(const YamlInput& in, const YAML::Node& node, const Robot& robot,
     if (!is_channel(channel, robot)) {
       in.refuse(node[channel], fmt::format("{} is no channel of a log of {}", channel, robot.name),
                 "write q, dq, ddq or tau, alone or with .<joint>, base.gyro or base.accel, alone "
-                "or with .x, or force.<link>.x");
+                "or with .x, force.<link>.x, base.force or base.moment");
     }
     const double sigma = in.positive(node[channel], "the sigma of " + channel);
     constexpr double least = 1e-12, most = 1e12;
@@ -142,17 +143,14 @@ RobotNotes read_robot_yaml(const std::string& path, Robot& robot) {
   std::vector<Contact> contacts;
   if (const YAML::Node list = root["contacts"]) {
     if (!list.IsSequence()) in.refuse(list, "contacts is not a list", "write - {link: NAME}");
-    if (list.size() == 0) {
-      in.refuse(list, "contacts is an empty list",
-                "leave it out for those of the log, or give --contacts none");
-    }
     for (const YAML::Node& node : list) contacts.push_back(read_contact(in, node, robot));
   }
   if (root["noise"]) read_noise(in, root["noise"], robot, notes);
   if (root["rotors"]) read_rotors(in, root["rotors"], robot, notes);
   if (root["expected_mass"]) read_masses(in, root["expected_mass"], robot, notes);
   // Nothing has been refused: only now does the robot change.
-  if (root["contacts"]) robot.contacts = std::move(contacts);
+  notes.contacts_given = static_cast<bool>(root["contacts"]);
+  if (notes.contacts_given) robot.contacts = std::move(contacts);
   return notes;
 }
 

@@ -23,6 +23,7 @@ struct RobotNotes {
     double lower = 0.0, upper = 0.0;  ///< kg
   };
   std::map<std::string, MassRange> expected_mass;  ///< per free link, or "load"
+  bool contacts_given = false;  ///< the robot's contacts are those of the file, if only none
 };
 
 /// Reads robot.yaml and puts its contacts into `robot` (replacing those there). Throws InputError.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "shapeid/models/inertia_lint.hpp"
 #include "shapeid/models/text.hpp"
 #include "shapeid/models/urdf_tree.hpp"
@@ -14,7 +16,9 @@ namespace {
 /// An impossible member is forgiven where the rigid body that it is part of can exist: a camera's
 /// placeholder of 1e-6 kg must not refuse a robot.
 bool can_exist_lumped(const Robot& robot, const std::string& member) {
-  const Link& link = robot.links[static_cast<std::size_t>(robot.find_link(member).value())];
+  const std::optional<int> index = robot.find_link(member);
+  if (!index) return false;  // a world that was left out
+  const Link& link = robot.links[static_cast<std::size_t>(*index)];
   return link.members.size() > 1 &&
          !why_impossible(from_centre(link.inertia.mass(), Eigen::Vector3d::Zero(),
                                      link.inertia.tensor_about_centre()));

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <set>
+#include <sstream>
 
 #include "shapeid/models/number.hpp"
 #include "shapeid/models/text.hpp"
@@ -14,16 +16,29 @@ namespace {
 /// Our files are pages, not data: a thousand links with ten shapes each fit.
 constexpr std::size_t largest_yaml = std::size_t{1} << 20;
 
+/// YAML::Load() passes over what follows the first document. (YAML::LoadAll() takes all memory for
+/// some texts that are none.)
+void refuse_second_document(const std::string& text, const std::string& path) {
+  std::istringstream lines(text);
+  std::string line;
+  bool begun = false;  // anything but comments and blanks
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const bool marker = line.starts_with("---") && (line.size() == 3 || std::isspace(line[3]) != 0);
+    if (marker && begun) {
+      throw InputError({path, number, {}}, "a second document begins here", "one document a file");
+    }
+    const auto first = line.find_first_not_of(" \t\r");
+    begun = begun || marker || (first != std::string::npos && line[first] != '#');
+  }
+}
+
 }  // namespace
 
 YAML::Node load_yaml(const std::string& path) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(read_small_file(path, largest_yaml));
-    if (documents.size() > 1) {
-      throw InputError({path, documents[1].Mark().line + 1, {}}, "a second document begins here",
-                       "one document a file");
-    }
-    return documents.empty() ? YAML::Node() : documents.front();
+    const std::string text = read_small_file(path, largest_yaml);
+    refuse_second_document(text, path);
+    return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     throw InputError({path, error.mark.line + 1, {}}, "not YAML: " + error.msg, "write YAML");
   }
@@ -112,7 +127,7 @@ Eigen::Vector3d YamlInput::three(const YAML::Node& node, const std::string& what
 }
 
 Eigen::Vector3d YamlInput::place(const YAML::Node& node, const std::string& what) const {
-  constexpr double furthest = 1000.0;  // m
+  constexpr double furthest = 1e6;  // m
   const Eigen::Vector3d result = three(node, what);
   if (result.cwiseAbs().maxCoeff() > furthest) {
     refuse(node, fmt::format("{} is {:g} m away", what, result.norm()), "metres, on the robot");

@@ -43,7 +43,7 @@ class YamlInput {
   [[nodiscard]] Eigen::VectorXd numbers(const YAML::Node& node, const std::string& what,
                                         Eigen::Index count) const;
   [[nodiscard]] Eigen::Vector3d three(const YAML::Node& node, const std::string& what) const;
-  /// A place within a kilometre, m.
+  /// A place within a thousand kilometres, m.
   [[nodiscard]] Eigen::Vector3d place(const YAML::Node& node, const std::string& what) const;
   /// {xyz, rpy}, both optional: m and rad, roll about x, then pitch about y, then yaw about z.
   [[nodiscard]] Eigen::Isometry3d pose(const YAML::Node& node, const std::string& what) const;

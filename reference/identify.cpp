@@ -166,11 +166,14 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
   problem.U = shape_columns(model);
   problem.V = shape_volumes(model);
   problem.lambda = settings.lambda.value_or(default_lambda(problem, settings.expected_mass));
-  problem.mass_bound = settings.mass_bound.value_or(10.0 * settings.expected_mass);
   DivisionOptions division = settings.division;
   division.expected_mass = settings.expected_mass;
 
   result.run = divide_and_solve(model, problem, division, watch);
+  // Only certificates use it. What was expected may have been a guess: what was found fits in.
+  const double found = result.run.solution.m.sum();
+  result.run.problem.mass_bound =
+      settings.mass_bound.value_or(std::max(10.0 * settings.expected_mass, 2.0 * found));
   const auto& history = result.run.history;
   result.undivided_objective =
       history.empty() ? result.run.solution.value.total() : history.front().objective_before;

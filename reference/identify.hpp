@@ -22,7 +22,7 @@ struct IdentifySettings {
   Eigen::VectorXd weight;            ///< diagonal of W, generalised order; empty: ones
   double expected_mass = 0.0;        ///< M0 > 0, kg, of all free shapes together
   std::optional<double> lambda;      ///< default: default_lambda()
-  std::optional<double> mass_bound;  ///< kg; default: ten times M0
+  std::optional<double> mass_bound;  ///< kg; default: ten times M0, or twice what is found
   DivisionOptions division;          ///< most_divisions = 0 solves once and does not divide
   double block_seconds = 0.5;        ///< contiguous blocks for standard errors
   /// Low-pass the rows in time; the samples then need little smoothing of their own.

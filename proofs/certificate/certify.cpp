@@ -219,7 +219,13 @@ class Certifier {
       proof.parameter_distance.setConstant(infinity);
       return;
     }
-    if (!unique) return;
+    const auto misstated = [&](std::size_t i) -> Rational {  // parameters, against the masses'
+      return abs(exact(claimed(i)) - Phi_[i]);
+    };
+    if (!unique) {
+      for (std::size_t i = 0; i < Phi_.size(); ++i) widen(group_of(i), rounded_up(misstated(i)));
+      return;
+    }
     if (!optimum) {
       const Rational by_volume = gap / p_.lambda;
       if (!p_.V.empty()) {
@@ -229,7 +235,7 @@ class Certifier {
       // Cauchy: (sum_j U_ij d_j)^2 <= (sum_j U_ij^2 V_j) (sum_j d_j^2 / V_j).
       const Vector squares = p_.U.squared().times(p_.V);
       for (std::size_t i = 0; i < squares.size(); ++i) {
-        widen(group_of(i), rounded_up(root_above(by_volume * squares[i])));
+        widen(group_of(i), rounded_up(root_above(by_volume * squares[i]) + misstated(i)));
       }
       return;
     }

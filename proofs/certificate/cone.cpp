@@ -28,7 +28,9 @@ std::vector<Block> blocks(const Eigen::MatrixXd& U) {
       if (U(i, j) == 0.0) continue;
       const auto link = static_cast<std::size_t>(i / 10);
       if (own == links) own = link;
-      std::replace(group.begin(), group.end(), group[link], group[own]);
+      // By value: what is replaced lies in the range.
+      const std::size_t from = group[link], to = group[own];
+      std::replace(group.begin(), group.end(), from, to);
     }
   }
   std::vector<Block> found(links);

@@ -200,11 +200,62 @@ bool inside(const Surface& surface, const Vector& x) {
   return true;
 }
 
-/// Of the solid inside a convex surface. Inside any other the minimum over all of space counts
-/// wherever it lies: nothing in the solid is lower.
-Lowest lowest_within(const Quadric& q, const Surface& surface, bool convex) {
+/// Of the solid inside a convex surface.
+Lowest lowest_within(const Quadric& q, const Surface& surface) {
   const auto middle = lowest_anywhere(q);
-  return middle && (!convex || inside(surface, middle->point)) ? *middle : lowest_on(q, surface);
+  return middle && inside(surface, middle->point) ? *middle : lowest_on(q, surface);
+}
+
+Rational determinant(const Vector& a, const Vector& b, const Vector& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+         a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// How often the surface winds around x, by the triangles that a ray from x crosses; empty if x is
+/// on one of them, or the ray meets an edge.
+std::optional<int> winding(const Surface& surface, const Vector& x, const Vector& ray) {
+  int turns = 0;
+  for (const auto& t : surface.triangles) {
+    std::array<Vector, 3> from_x;
+    for (std::size_t i = 0; i < 3; ++i) {
+      from_x[i] = surface.corners[t[i]];
+      for (std::size_t k = 0; k < 3; ++k) from_x[i][k] -= x[k];
+    }
+    const auto& [a, b, c] = from_x;
+    const std::array<Rational, 3> sides = {determinant(ray, a, b), determinant(ray, b, c),
+                                           determinant(ray, c, a)};
+    const auto all = [&](int sign) {
+      return std::all_of(sides.begin(), sides.end(),
+                         [&](const Rational& side) { return sgn(side) == sign; });
+    };
+    const bool some_left =
+        std::any_of(sides.begin(), sides.end(), [](const Rational& side) { return sgn(side) < 0; });
+    const bool some_right =
+        std::any_of(sides.begin(), sides.end(), [](const Rational& side) { return sgn(side) > 0; });
+    if (some_left && some_right) continue;  // the line passes by
+    if (!all(1) && !all(-1)) return std::nullopt;
+    const int volume = sgn(determinant(a, b, c));
+    if (volume == 0) return std::nullopt;
+    const int side = sgn(sides[0]);
+    if (volume == side) turns += side;  // ahead, not behind
+  }
+  return turns;
+}
+
+/// Of the solid inside any surface: that a file calls it convex proves nothing. Behind every face,
+/// or where the surface winds around it, the minimum over all of space is one in the solid. Where
+/// no ray tells, it counts: nothing in the solid is lower.
+Lowest lowest_within_any(const Quadric& q, const Surface& surface) {
+  const auto middle = lowest_anywhere(q);
+  if (!middle) return lowest_on(q, surface);
+  if (inside(surface, middle->point)) return *middle;
+  // Directions that meet few edges.
+  for (const auto& [u, v, w] : {std::array{1009, 2003, 3011}, std::array{-4001, 1523, 2111},
+                                std::array{2617, -3203, 1709}, std::array{1153, 2731, -4513}}) {
+    const std::optional<int> turns = winding(surface, middle->point, {u, v, w});
+    if (turns) return *turns != 0 ? *middle : lowest_on(q, surface);
+  }
+  return *middle;
 }
 
 struct LowestInShape {
@@ -219,13 +270,13 @@ struct LowestInShape {
     const Map map = map_of(s.frame);
     const Surface around =
         prism(exact(s.cell.upper.x()), exact(s.cell.lower.z()), exact(s.cell.upper.z()));
-    return moved(lowest_within(seen_through(q, map), around, true), map);
+    return moved(lowest_within(seen_through(q, map), around), map);
   }
   Lowest operator()(const Ellipsoid& s) const {
     const Map map = map_of(s.frame);
     return moved(lowest_in_ball(seen_through(q, map), exact(s.cell.upper.x())), map);
   }
-  Lowest operator()(const Polyhedron& s) const { return lowest_within(q, surface_of(s), s.convex); }
+  Lowest operator()(const Polyhedron& s) const { return lowest_within_any(q, surface_of(s)); }
   Lowest operator()(const Point& s) const {
     const Vector x = exact3(s.position);
     return {q.at(x), x};

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <functional>
@@ -218,7 +219,7 @@ TEST_F(Given, EffectsBeyondTheirRange) {
   expect_wrong("{effect: rotor_inertia, site: FR_knee, values: {I: -1}}", "I is -1; at least 0");
   scratch_file("wrong.yaml", "effects: []\n---\neffects: []\n");
   expect_refused(fmt::format("identify {} --log given.csv --effects wrong.yaml", robot),
-                 "wrong.yaml:3: a second document");
+                 "wrong.yaml:2: a second document");
 }
 
 TEST_F(Given, NotesBeyondAnyRobot) {
@@ -231,9 +232,88 @@ TEST_F(Given, NotesBeyondAnyRobot) {
   };
   expect_wrong("imu: {xyz: [1e308, 1e308, 0]}", "notes.yaml:1: imu xyz");
   expect_wrong("contacts: [{link: FR_foot, point: [0, 0, 1e200]}]", "notes.yaml:1: point");
-  expect_wrong("contacts: []", "an empty list");
   expect_wrong("noise: {tau: 1e-155}", "the sigma of tau");
   expect_wrong("expected_mass: {base: [4, 1e308]}", "the mass of base");
+}
+
+TEST_F(Given, SeveralContactsWithOneForce) {
+  ASSERT_EQ(shapeid("simulate --seconds 1 --exact --out forces.csv").status, 0);
+  scratch_file("twice.yaml",
+               "contacts: [{link: FR_foot}, {link: FL_foot}, {link: RR_foot}, {link: RL_foot}, "
+               "{link: FR_foot, point: [0.01, 0, 0]}]\n");
+  expect_refused(fmt::format("identify --robot {}quadruped.urdf --robot-yaml twice.yaml --log "
+                             "forces.csv --exact --contacts measured",
+                             robots),
+                 "FR_foot has several contacts");
+}
+
+/// Units are judged in logs with exact derivatives, too.
+TEST_F(Given, ExactLogsInOtherUnits) {
+  ASSERT_EQ(shapeid("simulate --seconds 2 --exact --out given.csv").status, 0);
+  change([&](const std::vector<std::string>& columns, LogRow& row) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      if (columns[c].starts_with("base.accel.")) row.values[c] /= 9.81;
+    }
+  });
+  SetUpTestSuite();  // the log as it was, for the others
+  expect_refused(fmt::format("identify {} --log changed.csv --exact", robot), "looks like g");
+}
+
+/// The expected mass scales a criterion: a bad guess must not make the tool reject its own answer.
+TEST_F(Given, AMassThatWasExpectedWrongly) {
+  ASSERT_EQ(shapeid(fmt::format(
+                        "identify {} --log given.csv --expected-mass 0.3 --divisions 2 --out light",
+                        robot))
+                .status,
+            0);
+  const CommandRun certified =
+      shapeid("certify light/problem.json light/answer.json --certificate light/certificate.json");
+  EXPECT_EQ(certified.status, 0) << certified.err;
+}
+
+TEST_F(Given, FactorsForJointsThatAreNotThere) {
+  std::string factors = "torque: {kind: motor, factor: {nosuch: 3";
+  for (const char* leg : {"FR", "FL", "RR", "RL"}) {
+    for (const char* joint : {"abad", "hip", "knee"})
+      factors += fmt::format(", {}_{}: 6", leg, joint);
+  }
+  scratch_file("factors.yaml", factors + "}}\n");
+  expect_refused(fmt::format("identify {} --log given.csv --mapping factors.yaml", robot),
+                 "nosuch");
+}
+
+/// Windows that are longer than the silence after which a line says that nothing comes.
+TEST_F(Given, LongWindowsAreNoSilence) {
+  const CommandRun run = shapeid(fmt::format("track {} given.csv --window 100", robot));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out.find("no samples"), std::string::npos);
+  EXPECT_GT(std::count(run.out.begin(), run.out.end(), '\n'), 3);
+}
+
+/// Drives that are off for the first second: no window of zeros may spoil what follows.
+TEST_F(Given, TrackingBeginsWithDrivesThatAreOff) {
+  const std::string arm =
+      "<robot name='arm'><link name='world'/><link name='bar'><inertial><origin xyz='0.1 0.02 "
+      "-0.3'/>"
+      "<mass value='1.5'/><inertia ixx='0.05' ixy='0.001' ixz='0.002' iyy='0.06' iyz='-0.003' "
+      "izz='0.02'/></inertial><collision><origin xyz='0.1 0 -0.3'/><geometry><box "
+      "size='0.2 0.1 0.5'/></geometry></collision></link><joint name='hinge' type='revolute'>"
+      "<parent link='world'/><child link='bar'/><axis xyz='0 1 0'/><limit lower='-3' upper='3' "
+      "effort='50' velocity='20'/></joint></robot>";
+  scratch_file("off.urdf", arm);
+  std::string log = "time,q.hinge,tau.hinge\n";
+  for (int i = 0; i < 2000; ++i) {
+    const double t = 0.002 * i, q = std::sin(3.0 * t), ddq = -9.0 * q;
+    const double gravity = 9.81 * 1.5 * (0.1 * std::cos(q) - 0.3 * std::sin(q));
+    const double tau = i < 600 ? 0.0 : 0.21 * ddq - gravity + 0.001 * std::sin(977.0 * t);
+    log += fmt::format("{},{},{}\n", t, q, tau);
+  }
+  scratch_file("off.csv", log);
+  const CommandRun run = shapeid("track --robot off.urdf off.csv --whole-body");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out.find("[0.0,null]"), std::string::npos);
+  EXPECT_EQ(run.out.find("NaN"), std::string::npos);
+  EXPECT_NE(run.out.find("\"answered\":true"), std::string::npos);
 }
 
 /// What is not whole when a user loses patience is not left behind.

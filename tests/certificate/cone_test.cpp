@@ -48,6 +48,30 @@ TEST(Cone, ExactCombinationsAreFound) {
   EXPECT_TRUE(separates(other.plane, p, outside));
 }
 
+/// Columns that couple links, of which the last brings two groups together.
+TEST(Cone, ColumnsMayCoupleLinksOneAfterTheOther) {
+  MassProblem p;
+  p.U = Eigen::MatrixXd::Zero(30, 4);
+  const auto couple = [&](Eigen::Index column, int one, int other) {
+    p.U.col(column).segment<10>(Eigen::Index{10} * one) << 1, 1, 0, 0, 0, 0, 0, 1, 0, 1;
+    p.U.col(column).segment<10>(Eigen::Index{10} * other) << 1, 0, static_cast<double>(column), 0,
+        1, 0, 0, 0, 0, 2;
+  };
+  couple(0, 1, 2);
+  couple(1, 1, 2);
+  couple(2, 0, 1);
+  couple(3, 0, 2);
+  const Eigen::VectorXd Phi = p.U * Eigen::Vector4d(0.5, 2.0, 1.0, 0.25);
+  const NearestBody nearest = nearest_body(p, Phi);
+  EXPECT_EQ(nearest.square_distance, 0);
+  EXPECT_FALSE(separates(nearest.plane, p, Phi));
+  Eigen::VectorXd outside = Phi;
+  outside[3] = -1.0;
+  const NearestBody other = nearest_body(p, outside);
+  EXPECT_GT(other.square_distance, 0);
+  EXPECT_TRUE(separates(other.plane, p, outside));
+}
+
 Vector ten(const Eigen::VectorXd& v) { return exact(v); }
 
 RC_GTEST_PROP(Existence, BodiesExistAndWithTooSmallATensorDoNot, ()) {

@@ -48,6 +48,46 @@ RC_GTEST_PROP(Quadric, NoPointOfTheShapeIsLower, ()) {
   }
 }
 
+/// An L-shaped prism that its file calls convex: the polynomial is lowest in the corner that is not
+/// behind every face.
+TEST(Quadric, WhatAFileCallsConvexNeedNotBe) {
+  const std::vector<std::array<double, 2>> outline = {{0, 0}, {3, 0}, {3, 1},
+                                                      {1, 1}, {1, 3}, {0, 3}};
+  std::vector<Eigen::Vector3d> corners;
+  for (const double z : {0.0, 1.0}) {
+    for (const auto& [x, y] : outline) corners.emplace_back(x, y, z);
+  }
+  std::vector<std::array<int, 3>> faces;
+  const std::vector<std::array<int, 3>> cap = {{0, 1, 3}, {1, 2, 3}, {0, 3, 5}, {3, 4, 5}};
+  for (const auto& [a, b, c] : cap) {
+    faces.push_back({a, c, b});
+    faces.push_back({a + 6, b + 6, c + 6});
+  }
+  for (int i = 0; i < 6; ++i) {
+    const int next = (i + 1) % 6;
+    faces.push_back({i, next, next + 6});
+    faces.push_back({i, next + 6, i + 6});
+  }
+  Shape shape = make_mesh(corners, faces, Eigen::Isometry3d::Identity());
+  auto& prism = std::get<Polyhedron>(shape);
+  ASSERT_FALSE(prism.convex);
+  prism.convex = true;
+  const auto lowest_about = [&](double x, double y, double z) {
+    // |p - c|^2 is, up to a constant, the cost of a point by its mass, first moments and trace.
+    Vector g(10);
+    g[0] = exact(x * x + y * y + z * z);
+    g[1] = exact(-2.0 * x);
+    g[2] = exact(-2.0 * y);
+    g[3] = exact(-2.0 * z);
+    g[4] = g[7] = g[9] = Rational(1, 2);
+    return lowest_in(cost_of_point(g), shape).value;
+  };
+  EXPECT_EQ(lowest_about(2.0, 0.5, 0.5), 0) << "inside, in front of the notch's face";
+  EXPECT_EQ(lowest_about(0.5, 0.5, 0.5), 0) << "inside, behind all";
+  EXPECT_EQ(lowest_about(2.0, 2.0, 0.5), 1) << "in the notch: the nearest point of the surface";
+  EXPECT_EQ(lowest_about(5.0, 0.5, 0.5), 4) << "outside";
+}
+
 /// For cuboids and polyhedra the value is taken at a point of the shape.
 RC_GTEST_PROP(Quadric, LowestIsReachedInCuboidsAndPolyhedra, ()) {
   const Vector g = exact(*test::vector(10, 1.0));

@@ -2,6 +2,8 @@
 // any torque.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "shapeid/diagnosis/rich_model.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
@@ -88,6 +90,29 @@ TEST(LightLoad, IsATenthOfWhatASmallJointOftenHas) {
   EXPECT_DOUBLE_EQ(light_load(log, 0), 0.005);
   EXPECT_DOUBLE_EQ(light_load(log, 1), 0.1);
   EXPECT_DOUBLE_EQ(light_load(log, 2), 0.1) << "of no torque nothing is known";
+}
+
+/// A wheel that turns far resolves its periods finely. (The grid once was never finer than a tenth
+/// of a period a radian.)
+TEST(StrongestRipple, IsFoundOverManyTurns) {
+  constexpr double turns = 100.0, N = 57.317;  // rad, 1/rad
+  std::vector<Sample> samples(2000);
+  Series left;
+  left.residual.setZero(3, std::ssize(samples));
+  left.predicted.setOnes(3, std::ssize(samples));
+  left.counted.setConstant(3, std::ssize(samples), true);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].time = 0.01 * static_cast<double>(i);
+    const double part = static_cast<double>(i) / static_cast<double>(samples.size());
+    // There and back at changing speed, so that readings are no comb.
+    const double q = 0.5 * turns * (1.0 - std::cos(7.3 * part)) + 0.3 * std::sin(311.0 * part);
+    samples[i].q = samples[i].dq = samples[i].ddq = samples[i].tau = Eigen::Vector3d(0.0, q, 0.0);
+    left.index.push_back(i);
+    left.residual(1, static_cast<Eigen::Index>(i)) = 0.2 + std::sin(N * q + 0.8);
+  }
+  const Recording log(std::move(samples), 100.0);
+  const double found = strongest_ripple(arm(), log, left, 1, 1, RippleOf::torque, 4.0, 200.0);
+  EXPECT_LT(std::abs(found - N), 0.5 / turns);
 }
 
 /// Parts of one log share its clock; blocks begin with the part.

@@ -151,6 +151,8 @@ TEST(FastIdentifier, RefusesSettingsThatMakeNoSense) {
   };
   refused("a window or stride", [](auto& s) { s.window = 0; });
   refused("a window or stride", [](auto& s) { s.stride = 0; });
+  refused("a window or stride", [](auto& s) { s.window = static_cast<std::size_t>(-1); });
+  refused("a window or stride", [](auto& s) { s.stride = static_cast<std::size_t>(-1); });
   refused("the expected mass is not positive", [](auto& s) { s.expected_mass = 0.0; });
   refused("alpha", [](auto& s) { s.alpha = 0.0; });
   refused("alpha", [](auto& s) { s.alpha = 1.5; });

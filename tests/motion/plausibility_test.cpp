@@ -87,8 +87,8 @@ TEST(Plausibility, UnitsAndSignsThatCannotBeAreNamed) {
        "x.csv, column time: the median step is 2e-10 s; give seconds, and at least five rows a "
        "second"},
       {[](Sample& s) { s.tau[1] = 1.5; },
-       "x.csv, column tau.j1: stays at 1.5 while the joints move; log the live signal, or allow "
-       "frozen channels"},
+       "x.csv, column tau.j1: stays at 1.5 while the joints move; log the live signal, or leave "
+       "the rows out"},
   };
   for (const Case& wrong : table) {
     EXPECT_EQ(reception(wrong.spoil, chain(3, Root::fixed)), wrong.message);
@@ -127,7 +127,7 @@ TEST(Plausibility, AFrozenImuIsRefused) {
   const auto frozen = [](Sample& s) { s.base_specific_force = {0.1, 0.2, 9.8}; };
   EXPECT_EQ(reception(frozen, chain(2, Root::floating)),
             "x.csv, column base.accel.x: stays at 0.1 while the joints move; log the live signal, "
-            "or allow frozen channels");
+            "or leave the rows out");
   MotionOptions trusting;
   trusting.refuse_frozen = false;
   EXPECT_EQ(reception(frozen, chain(2, Root::floating), trusting), "accepted");

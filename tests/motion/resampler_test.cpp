@@ -37,6 +37,28 @@ std::vector<GridRow> drained(Resampler& grid) {
   return out;
 }
 
+/// Rows that arrive in bursts: a slope through two of them would be their noise, divided by
+/// nothing.
+TEST(ResamplerSteps, RowsCloseTogetherDoNotAmplifyNoise) {
+  for (const double apart : {5e-2, 1e-3, 1e-6}) {
+    Resampler grid(rate, one(4.0 * step));
+    double most = 0.0;
+    for (int k = 0; k < 400; ++k) {
+      const double noise = k % 3 == 0 ? 1.0 : -1.0;
+      MeasuredRow row = row_at(k, one(noise));
+      grid.push(row);
+      if (k % 7 == 0) {  // twice, almost at once
+        row.time += apart * step;
+        row.values = one(-noise);
+        grid.push(row);
+      }
+      for (const GridRow& point : drained(grid)) most = std::max(most, std::abs(point.values[0]));
+    }
+    constexpr double of_a_cubic = 3.5;  // of values between -1 and 1 on steps not too uneven
+    EXPECT_LT(most, of_a_cubic) << apart;
+  }
+}
+
 // Two measurements on either side make the cubic: a point waits for the second row after it, and
 // for no other.
 TEST(ResamplerSteps, APointWaitsForTwoRowsAfterIt) {

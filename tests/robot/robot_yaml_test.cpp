@@ -151,20 +151,24 @@ TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
        ":3: point is not a list of 3 numbers; write them in brackets, with commas between them"},
       {"noise: {tau.ankle: 1}\n",
        ":1: tau.ankle is no channel of a log of hopper; write q, dq, ddq or tau, alone or with "
-       ".<joint>, base.gyro or base.accel, alone or with .x, or force.<link>.x"},
+       ".<joint>, base.gyro or base.accel, alone or with .x, force.<link>.x, base.force or "
+       "base.moment"},
       {"noise:\n  tau: 1\n  base.gyro.w: 1\n",
        ":3: base.gyro.w is no channel of a log of hopper; write q, dq, ddq or tau, alone or with "
-       ".<joint>, base.gyro or base.accel, alone or with .x, or force.<link>.x"},
+       ".<joint>, base.gyro or base.accel, alone or with .x, force.<link>.x, base.force or "
+       "base.moment"},
       {"noise: {tau: 0}\n", ":1: the sigma of tau is 0; it must be above zero"},
       {"noise:\n  tau: 1,5\n",
        ":2: the sigma of tau is not a number (\"1,5\": decimals take a point, not a comma); write "
        "a finite decimal number"},
       {"noise: {force.knee.x: 1}\n",
        ":1: force.knee.x is no channel of a log of hopper; write q, dq, ddq or tau, alone or with "
-       ".<joint>, base.gyro or base.accel, alone or with .x, or force.<link>.x"},
+       ".<joint>, base.gyro or base.accel, alone or with .x, force.<link>.x, base.force or "
+       "base.moment"},
       {"noise: {temperature: 1}\n",
        ":1: temperature is no channel of a log of hopper; write q, dq, ddq or tau, alone or with "
-       ".<joint>, base.gyro or base.accel, alone or with .x, or force.<link>.x"},
+       ".<joint>, base.gyro or base.accel, alone or with .x, force.<link>.x, base.force or "
+       "base.moment"},
       {"rotors: {mount: {inertia: 1, gear: 1}}\n",
        ":1: hopper has no moving joint mount; name a joint"},
       {"rotors: {knee: {inertia: 1}}\n",
@@ -175,9 +179,11 @@ TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
        ":1: the mass of leg is not a list of 2 numbers; write them in brackets, with commas "
        "between them"},
       {"expected_mass: {leg: [3, 2]}\n",
-       ":1: the mass of leg lies from 3 to 2; write [lower, upper] in kg, 0 <= lower < upper"},
+       ":1: the mass of leg lies from 3 to 2; write [lower, upper] in kg, 0 <= lower < upper <= "
+       "1e6"},
       {"expected_mass: {leg: [-1, 2]}\n",
-       ":1: the mass of leg lies from -1 to 2; write [lower, upper] in kg, 0 <= lower < upper"},
+       ":1: the mass of leg lies from -1 to 2; write [lower, upper] in kg, 0 <= lower < upper <= "
+       "1e6"},
       {"expected_mass: {hip: [1, 2]}\n", ":1: hopper has no link hip; name a link"},
       {"expected_mass:\n  trunk: [1, 2]\n  plate: [1, 2]\n",
        ":3: plate is one rigid body with a link named before; give the mass of the whole once"},

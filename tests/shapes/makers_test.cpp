@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "shapeid/models/shape.hpp"
+#include "shapeid/models/shape_size.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid {
@@ -75,6 +76,22 @@ TEST(Makers, RefuseMeshesThatAreInsideOut) {
   Faces reversed = tetrahedron;
   for (auto& face : reversed) std::swap(face[0], face[1]);
   EXPECT_NE(refusal(corner, reversed).find("inside out"), std::string::npos);
+}
+
+/// Half of a mirrored part: the whole has a volume, and no body has its inertia.
+TEST(Makers, ShellsThatFaceInwardsAreNoBody) {
+  Vertices both = corner;
+  Faces faces = tetrahedron;
+  for (const Eigen::Vector3d& v : corner) both.push_back(0.5 * v + Eigen::Vector3d(0.0, 9.0, 0.0));
+  const int first = static_cast<int>(corner.size());
+  for (const auto& [a, b, c] : tetrahedron) faces.push_back({b + first, a + first, c + first});
+  const Violation why = why_no_size(make_mesh(both, faces, here));
+  ASSERT_TRUE(why);
+  EXPECT_NE(why->find("is no body"), std::string::npos) << *why;
+  for (std::size_t f = tetrahedron.size(); f < faces.size(); ++f) {
+    std::swap(faces[f][0], faces[f][1]);
+  }
+  EXPECT_FALSE(why_no_size(make_mesh(both, faces, here)));
 }
 
 TEST(Makers, RefuseMeshesWithoutVolume) {

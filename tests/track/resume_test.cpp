@@ -165,6 +165,16 @@ TEST(TrackResume, StreamsGoOnEitherWay) {
   }
 }
 
+/// A line of the log without its columns contact.*.
+std::string without_contacts(const std::string& header, const std::string& line) {
+  std::istringstream names(header), values(line);
+  std::string name, value, kept;
+  while (std::getline(names, name, ',') && std::getline(values, value, ',')) {
+    if (!name.starts_with("contact.")) kept += (kept.empty() ? "" : ",") + value;
+  }
+  return kept;
+}
+
 TEST(TrackResume, RefusesWhatDoesNotBelongTogether) {
   scratch_file("whole.csv", joined(trot_log()));
   std::filesystem::remove(scratch() + "/state.json");
@@ -176,6 +186,16 @@ TEST(TrackResume, RefusesWhatDoesNotBelongTogether) {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   };
   expect_refused("--checkpoint state.json --resume --alpha 0.4 whole.csv", "other options");
+  // Without flags contacts are derived, by the threshold and the given inertias.
+  Lines flagless;
+  for (const std::string& line : trot_log()) {
+    flagless.push_back(without_contacts(trot_log().front(), line));
+  }
+  scratch_file("flagless.csv", joined(flagless));
+  ASSERT_EQ(shapeid(track("--checkpoint derived.json flagless.csv")).status, 0);
+  ASSERT_EQ(shapeid(track("--checkpoint derived.json --resume flagless.csv")).status, 0);
+  expect_refused("--checkpoint derived.json --resume --contact-threshold 0.3 flagless.csv",
+                 "other options");
   scratch_file("short.csv", joined({trot_log()[0], trot_log()[1]}));
   expect_refused("--checkpoint state.json --resume short.csv", "bytes");
   scratch_file("broken.json", read_file(scratch() + "/state.json").substr(0, 5000));
