@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -87,12 +86,8 @@ namespace {
 
 /// The same log twice would say that the answer is twice as sure.
 void refuse_repeated(const std::vector<std::string>& logs) {
-  for (std::size_t k = 1; k < logs.size(); ++k) {
-    for (std::size_t i = 0; i < k; ++i) {
-      std::error_code unknown;  // a log that cannot be opened is said when it is read
-      if (!std::filesystem::equivalent(logs[k], logs[i], unknown)) continue;
-      throw InputError({logs[k]}, "is given twice", "each log once");
-    }
+  if (const auto twice = same_file(logs)) {
+    throw InputError({logs[twice->second]}, "is given twice", "each log once");
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "shapeid/app/batch.hpp"
 #include "shapeid/app/in_parallel.hpp"
+#include "shapeid/app/json_text.hpp"
 #include "shapeid/app/merge_order.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/reference/triangle.hpp"
@@ -46,11 +47,14 @@ Eigen::MatrixXd unpacked(const std::string& bytes) {
 }
 
 std::string packed(const BatchLog& log) {
-  return json{{"refused", log.refused}, {"rows", log.rows},
-              {"samples", log.samples}, {"gaps", log.gaps},
-              {"rate", log.rate},       {"contacts_derived", log.contacts_derived},
-              {"notes", log.notes}}
-      .dump(-1, ' ', false, json::error_handler_t::replace);  // names of files are any bytes
+  return json_text({{"refused", log.refused},
+                    {"rows", log.rows},
+                    {"samples", log.samples},
+                    {"gaps", log.gaps},
+                    {"rate", log.rate},
+                    {"contacts_derived", log.contacts_derived},
+                    {"notes", log.notes}},
+                   -1);
 }
 
 BatchLog unpacked_log(const std::string& path, const std::string& bytes) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "shapeid/app/certificate_text.hpp"
+#include "shapeid/app/json_text.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
@@ -51,7 +52,7 @@ void certify(const Options& options) {
     const nlohmann::json document = {{"accepted", certified.reasons.empty()},
                                      {"reasons", certified.reasons},
                                      {"proof", proof_json(certified.proof)}};
-    fmt::print("{}\n", document.dump(2));
+    fmt::print("{}\n", json_text(document, 2));
   } else {
     fmt::print("{}", certified_text(certified));
   }

@@ -13,6 +13,7 @@
 #include "shapeid/app/bundled.hpp"
 #include "shapeid/app/html.hpp"
 #include "shapeid/app/identification.hpp"
+#include "shapeid/app/json_text.hpp"
 #include "shapeid/app/plots.hpp"
 #include "shapeid/app/recording.hpp"
 #include "shapeid/app/verbs.hpp"
@@ -200,7 +201,7 @@ void run_demo(Demo& demo) {
   write_file(report, demo.page.html());
   demo.document["report"] = report;
   if (demo.json) {
-    fmt::print("{}\n", demo.document.dump(2));
+    fmt::print("{}\n", json_text(demo.document, 2));
   } else {
     fmt::print("\nopen {}\n", report);
   }

@@ -7,6 +7,7 @@
 #include "shapeid/app/diagnosis_report.hpp"
 #include "shapeid/app/diagnosis_result.hpp"
 #include "shapeid/app/identification.hpp"
+#include "shapeid/app/json_text.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/diagnosis/effects.hpp"
@@ -41,7 +42,7 @@ void write_files(const Options& options, const RobotInputs& robot, DiagnosisRun&
   if (options.diagnose.curves) model.curves = run.curves;
   write("effects.yaml", diagnosis::write_effects_yaml(r, {model.effects, model.curves}));
   write("predict_torque.hpp", diagnosis::torque_header(r, model));
-  write("result.json", diagnosis_json(run, r, options.diagnose).dump(2) + "\n");
+  write("result.json", json_text(diagnosis_json(run, r, options.diagnose), 2) + "\n");
   write("report.html", diagnosis_report(run, r, options.diagnose));
 }
 
@@ -50,7 +51,7 @@ void diagnose(Options& options) {
   DiagnosisRun run = run_diagnosis(robot, options.diagnose);
   if (!options.delivery.folder.empty()) write_files(options, robot, run);
   if (options.delivery.json) {
-    fmt::print("{}\n", diagnosis_json(run, robot.robot, options.diagnose).dump(2));
+    fmt::print("{}\n", json_text(diagnosis_json(run, robot.robot, options.diagnose), 2));
   } else {
     fmt::print("{}", diagnosis_text(run, robot.robot));
   }

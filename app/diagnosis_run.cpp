@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/diagnosis/checks.hpp"
 #include "shapeid/diagnosis/contact_flags.hpp"
@@ -163,17 +163,14 @@ void refuse_same_logs(const DiagnoseOptions& options) {
   if (!options.reference.empty()) paths.push_back(options.reference);
   const std::size_t fitted = paths.size();
   paths.insert(paths.end(), options.test.begin(), options.test.end());
-  for (std::size_t k = 1; k < paths.size(); ++k) {
-    for (std::size_t i = 0; i < k; ++i) {
-      std::error_code unknown;  // a log that cannot be opened is said when it is read
-      if (!std::filesystem::equivalent(paths[k], paths[i], unknown)) continue;
-      if (i < fitted && k >= fitted) {
-        throw InputError({paths[k]}, "is fitted, too",
-                         "a test on data that are used for nothing else");
-      }
-      throw InputError({paths[k]}, "is given twice", "each log once");
-    }
+  const auto twice = same_file(paths);
+  if (!twice) return;
+  const auto& [first, second] = *twice;
+  if (first < fitted && second >= fitted) {
+    throw InputError({paths[second]}, "is fitted, too",
+                     "a test on data that are used for nothing else");
   }
+  throw InputError({paths[second]}, "is given twice", "each log once");
 }
 
 /// The log at three times the cutoff, from which the filter's own error is computed; none if there

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shapeid/app/certificate_text.hpp"
+#include "shapeid/app/json_text.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
@@ -171,9 +172,7 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
 void deliver(const Delivery& delivery, const nlohmann::json& document, const std::string& text,
              const Result& result, const Judgement& judged, const RobotInputs& robot,
              const MotionInputs& inputs) {
-  // Names of files are any bytes.
-  const std::string json =
-      document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const std::string json = json_text(document, 2) + "\n";
   fmt::print("{}", delivery.json ? json : text);
   if (delivery.folder.empty()) return;
   std::error_code failed;

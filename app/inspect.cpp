@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "shapeid/app/inputs.hpp"
+#include "shapeid/app/json_text.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/urdf.hpp"
@@ -76,7 +77,7 @@ void inspect_robot(const Options& options) {
   UrdfOptions reading;
   reading.reject_impossible = false;
   const UrdfFile file = read_urdf(options.file, reading);
-  fmt::print("{}", options.json ? robot_json(file).dump(2) + "\n" : robot_text(file));
+  fmt::print("{}", options.json ? json_text(robot_json(file), 2) + "\n" : robot_text(file));
   const auto fatal = std::count_if(file.findings.begin(), file.findings.end(),
                                    [](const InertiaFinding& f) { return f.fatal; });
   if (fatal > 0) {
@@ -126,7 +127,7 @@ void inspect_columns(const Options& options) {
       }
       list.push_back(entry);
     }
-    fmt::print("{}\n", json{{"log", options.file}, {"rows", rows}, {"columns", list}}.dump(2));
+    fmt::print("{}\n", json_text({{"log", options.file}, {"rows", rows}, {"columns", list}}, 2));
     return;
   }
   fmt::print("log {}: {} rows, {} columns\n", options.file, rows, columns.size());
@@ -171,11 +172,11 @@ void inspect_motion(Options& options) {
                          {"extra_columns", report.extra},
                          {"notes", report.notes}};
   if (options.json) {
-    fmt::print("{}\n", document.dump(2));
+    fmt::print("{}\n", json_text(document, 2));
     return;
   }
   for (const auto& item : document.items())
-    fmt::print("{:<26} {}\n", item.key(), item.value().dump());
+    fmt::print("{:<26} {}\n", item.key(), json_text(item.value(), -1));
 }
 
 void inspect(Options& options) {

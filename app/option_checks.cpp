@@ -98,6 +98,19 @@ bool is_written(const CLI::Option& option) {
 
 }  // namespace
 
+std::optional<std::pair<std::size_t, std::size_t>> same_file(
+    const std::vector<std::string>& paths) {
+  for (std::size_t second = 1; second < paths.size(); ++second) {
+    for (std::size_t first = 0; first < second; ++first) {
+      std::error_code unknown;
+      if (std::filesystem::equivalent(paths[second], paths[first], unknown)) {
+        return std::pair(first, second);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 void check_given(const CLI::App& verb) {
   const std::vector<const CLI::Option*> options = verb.get_options();
   for (const CLI::Option* option : options) {

@@ -2,6 +2,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace shapeid::app {
 
@@ -15,6 +20,11 @@ namespace shapeid::app {
 [[nodiscard]] CLI::Validator mass_of_a_robot();
 /// Samples a second of logs.
 [[nodiscard]] CLI::Validator rate_of_a_log();
+
+/// Places of two paths that name one file, the second as far in front as can be. A file that cannot
+/// be opened is said when it is read.
+[[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> same_file(
+    const std::vector<std::string>& paths);
 
 /// What was given to a verb, before it begins. Throws InputError for an empty value, for a number
 /// that is none, and for a file to write that is read.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "shapeid/app/bundled.hpp"
+#include "shapeid/app/json_text.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/recording.hpp"
 #include "shapeid/app/verbs.hpp"
@@ -64,7 +65,7 @@ void simulate_log(Options& options) {
   if (options.json) {
     const nlohmann::json document = {
         {"log", options.out}, {"samples", report.samples}, {"distance", report.distance}};
-    fmt::print("{}\n", document.dump());
+    fmt::print("{}\n", json_text(document, -1));
   } else {
     fmt::print("wrote {}: {} samples, walked {:.2f} m\n", options.out, report.samples,
                report.distance);

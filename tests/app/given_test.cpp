@@ -316,6 +316,21 @@ TEST_F(Given, TrackingBeginsWithDrivesThatAreOff) {
   EXPECT_NE(run.out.find("\"answered\":true"), std::string::npos);
 }
 
+/// A name is any bytes; JSON is not.
+TEST_F(Given, LogsWithNamesThatAreNoText) {
+  const std::string name = "given\xfe.csv";
+  std::filesystem::copy_file(scratch() + "/given.csv", scratch() + "/" + name,
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(shapeid("inspect --json '" + name + "'").status, 0);
+  EXPECT_EQ(shapeid(fmt::format("identify {} --log '{}' --divisions 0 --json", robot, name)).status,
+            0);
+  const CommandRun batch =
+      shapeid(fmt::format("batch {} --log given.csv '{}' '{}' --skip-refused --divisions 0 --json",
+                          robot, name, "none\xfe.csv"));
+  EXPECT_EQ(batch.status, 0) << batch.err;
+  EXPECT_EQ(shapeid("simulate --seconds 0.2 --json --out 'new\xfe.csv'").status, 0);
+}
+
 /// What is not whole when a user loses patience is not left behind.
 TEST_F(Given, AnInterruptLeavesNoHalfOfAFile) {
   const pid_t child = fork();
