@@ -19,9 +19,9 @@ struct Unnoticed {
 /// is not found leaves no residual: the link's own inertia has taken it. So each hypothesis of the
 /// catalogue that is not in the model is fitted along, alone. Of its number theta, estimated with
 /// an error s, E[theta^2] = theta^2 + s^2, and an inertia that moves by b per unit of theta was
-/// wrong by b theta. What cannot be told from inertias at all may have its usual
-/// size, or, if it has no range in which it is believed, one that moves no inertial number further
-/// than by LoopSettings::size.
+/// wrong by b theta. What cannot be told from inertias at all may have its usual size, or, if it
+/// has no range in which it is believed, one that moves no inertial number further than by
+/// LoopSettings::size.
 /// `settings` and `loop` are those of the model; `log` carries the loop's correction.
 [[nodiscard]] Unnoticed unnoticed(const Robot& robot, const Recording& log,
                                   const Recording* reference, const LoopSettings& settings,

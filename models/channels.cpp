@@ -256,8 +256,8 @@ double RowMeaning::time(const LogRow& row) const {
   if (std::isnan(time)) {
     throw InputError({path_, row.line, plan_.time.from}, "is empty", "give every row its time");
   }
-  constexpr double latest =
-      1e12;  // s: thirty thousand years; beyond, doubles tell no samples apart
+  // s: thirty thousand years. Beyond, doubles tell no samples apart.
+  constexpr double latest = 1e12;
   if (!(std::abs(time) < latest)) {
     throw InputError({path_, row.line, plan_.time.from}, fmt::format("is {:g} s", time),
                      "give seconds; nanoseconds take scale: 1e-9");

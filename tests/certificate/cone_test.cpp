@@ -59,8 +59,8 @@ TEST(Cone, ColumnsMayCoupleLinksOneAfterTheOther) {
   };
   couple(0, 1, 2);
   couple(1, 1, 2);
-  couple(2, 0, 1);
-  couple(3, 0, 2);
+  couple(2, 1, 2);
+  couple(3, 0, 1);  // nothing after it: a link that was left behind would stay so
   const Eigen::VectorXd Phi = p.U * Eigen::Vector4d(0.5, 2.0, 1.0, 0.25);
   const NearestBody nearest = nearest_body(p, Phi);
   EXPECT_EQ(nearest.square_distance, 0);

@@ -168,6 +168,26 @@ TEST(Loop, AGainThatCameSinceIsFoundAsThat) {
   expect_value(result.found[0], {0.2});
 }
 
+/// Of what was not there yet the reference log knows nothing: it would make its number look twice
+/// as sure.
+TEST(Loop, WhatCameSinceHasNoColumnInTheReference) {
+  const Robot robot = arm();
+  const Recording log = record({}), reference = record({{}, 20.0, 0.02, 2});
+  const LoopSettings settings = arm_settings();
+  LoopState state(robot, log, &reference, settings);
+  state.fit_masses();
+  Found gain{effect("torque_gain", 1, {0.2}), "torque_gain@joint2", Eigen::VectorXd::Zero(1)};
+  gain.since_reference = true;
+  state.result.found.push_back(gain);
+  state.collect_effects();
+  const BlockFits fits = state.tallied({gain.effect});
+  const Tally& tally = fits.tally();
+  ASSERT_GT(fits.first_block(), 0U);
+  for (const Block& block : tally.blocks) {
+    EXPECT_EQ(block.sums.col(tally.first[0]).isZero(0.0), block.reference);
+  }
+}
+
 /// Rigid links alone, beside what was found: not with the delay that was found, but without.
 TEST(Loop, RigidLinksAreComparedWithoutWhatWasFound) {
   const LoopResult result = loop_of({{effect("torque_delay", 0, {0.012})}});

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/fast/division.hpp"
 #include "shapeid/fast/identifier.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/urdf.hpp"
@@ -132,6 +133,24 @@ RC_GTEST_PROP(FastIdentifier, DeclinedSamplesLeaveNoTrace, ()) {
     RC_ASSERT(disturbed.feed(sample) == clean.feed(sample));
     RC_ASSERT(disturbed.Phi() == clean.Phi());
     RC_ASSERT(disturbed.filtered() == clean.filtered());
+  }
+}
+
+/// Also a cold start that is declined leaves the masses that were found last.
+TEST(FastDivision, ADeclinedStartLeavesTheMasses) {
+  const Robot robot = read_urdf(SHAPEID_SOURCE_DIR "/models/robots/quadruped.urdf").robot;
+  DivisionOptions options;
+  options.expected_mass = 1.0;
+  fast::Division division(test::base_model(robot), options);
+  Eigen::MatrixXd R = Eigen::MatrixXd::Identity(11, 11);
+  R(0, 10) = 3.0;  // a mass, and nothing else
+  ASSERT_EQ(division.start(R), fast::Outcome::solved);
+  const Eigen::VectorXd masses = division.undivided_masses();
+  ASSERT_GT(masses.sum(), 0.0);
+  R(3, 4) = std::numeric_limits<double>::quiet_NaN();
+  for (const auto from : {fast::Division::Start::no_masses, fast::Division::Start::last_masses}) {
+    EXPECT_EQ(division.start(R, from), fast::Outcome::not_finite);
+    EXPECT_EQ(division.undivided_masses(), masses);
   }
 }
 
