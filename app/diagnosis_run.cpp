@@ -145,9 +145,10 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
   errors.unfiltered_zero = rms_of(zero.residual.bottomRows(n) - rough, counted);
   errors.unfiltered_given = rms_of(run.before.residual.bottomRows(n) - rough, counted);
   errors.unfiltered_found = rms_of(run.after.residual.bottomRows(n) - rough, counted);
-  const double band = band_of_two_passes * options.inputs.cutoff / (0.5 * run.motion.rate);
-  errors.noise_floor =
-      rms_of(rough, counted) * (band > 0.0 && band < 1.0 ? std::sqrt(band / (1.0 - band)) : 1.0);
+  errors.noise_floor = rms_of(rough, counted);
+  if (options.inputs.cutoff > 0.0 && !options.inputs.exact) {
+    errors.noise_floor *= noise_left_over_taken(options.inputs.cutoff, run.motion.rate);
+  }
   return errors;
 }
 

@@ -80,7 +80,10 @@ Eigen::VectorXd with_mass_rewarded(const MassProblem& p, const MassSolution& sol
   rewarded.F.conservativeResize(rows + 1);
   rewarded.F[rows] = p.mass_bound;
   rewarded.W.conservativeResize(rows + 1);
-  rewarded.W[rows] = -more * lowest / p.mass_bound;
+  // The row pulls by its weight times what is missing to the bound; of a mass near the bound, as if
+  // a tenth were.
+  const double missing = std::max(p.mass_bound - solution.m.sum(), 0.1 * p.mass_bound);
+  rewarded.W[rows] = -more * lowest / missing;
   return reference::solve_masses(rewarded, solution.m).Phi;
 }
 

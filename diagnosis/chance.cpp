@@ -22,19 +22,6 @@ double least_z(double probability, double parameters) {
   return upper;
 }
 
-double limit_for(double least_t, Eigen::Index blocks) {
-  const double freedom = static_cast<double>(std::max<Eigen::Index>(blocks - 1, 1));
-  const double probability = std::erfc(least_t / std::sqrt(2.0));
-  // P(|t| > x) = I_y(freedom / 2, 1 / 2) with y = freedom / (freedom + x^2)
-  double lower = 0.0, upper = 1e9;
-  for (int i = 0; i < halvings; ++i) {
-    const double x = 0.5 * (lower + upper);
-    const double tail = Eigen::numext::betainc(0.5 * freedom, 0.5, freedom / (freedom + x * x));
-    (tail > probability ? lower : upper) = x;
-  }
-  return upper;
-}
-
 double least_squares_sum(double probability, Eigen::Index numbers) {
   const double half = 0.5 * static_cast<double>(numbers);
   double lower = 0.0, upper = 1000.0 + 4.0 * half;

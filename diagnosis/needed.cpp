@@ -8,6 +8,7 @@
 #include "shapeid/diagnosis/chance.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/unnoticed.hpp"
+#include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "shapeid/diagnosis/chance.hpp"
 #include "shapeid/diagnosis/fits_around.hpp"
+#include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
 namespace {

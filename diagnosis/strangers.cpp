@@ -10,6 +10,7 @@
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/fits_around.hpp"
 #include "shapeid/diagnosis/gears.hpp"
+#include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
 namespace {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "shapeid/diagnosis/chance.hpp"
+#include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
 namespace {

@@ -10,8 +10,8 @@
 namespace shapeid::fast {
 namespace {
 
-/// Columns of X whose part that is new is smaller than this share of their length count as
-/// dependent: a hundred roundings of ten-term sums.
+/// Columns of X, divided by their sizes, whose part that is new is smaller than this share of the
+/// first pivot count as dependent: a hundred roundings of ten-term sums.
 constexpr double smallest_pivot = 1e-13;
 
 /// Slopes along a direction in which the passive shapes spread by less than this share are taken

@@ -17,8 +17,8 @@ constexpr float barred = 1e30F;
 /// And what no price reaches, unless products overflowed.
 constexpr float no_price = 2.0F, impossible = 4.0F;
 
-/// What rounding to single precision may do to a price: thirteen roundings (ten products, the two
-/// operands, the scale) of terms whose sizes add up to one.
+/// A price further from zero than this has the sign that it shows: its sum carries eight roundings
+/// of terms whose sizes add up to one (operands, product, additions); the rest is for the scale.
 constexpr float uncertain = 13.0F / (1 << 24);
 
 /// Kept away from zero, so that a shape which no row feels has the price zero and not NaN.

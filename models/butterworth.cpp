@@ -73,6 +73,19 @@ Eigen::Index Butterworth::samples_to_decay(double fraction) const {
   return std::max(Eigen::Index{1}, static_cast<Eigen::Index>(samples));
 }
 
+double noise_left_over_taken(double cutoff, double rate) {
+  const Butterworth filter(log_filter_order, cutoff, rate);
+  // Sums over the band, as fine as the filter's edge asks for.
+  const double step = std::min(0.5 * rate / 1000.0, 0.01 * cutoff);
+  double left = 0.0, taken = 0.0;
+  for (double f = 0.5 * step; f < 0.5 * rate; f += step) {
+    const double gain = std::pow(filter.gain(f), 2);  // of both passes
+    left += gain * gain;
+    taken += (1.0 - gain) * (1.0 - gain);
+  }
+  return std::sqrt(left / taken);
+}
+
 FilterState::FilterState(const Butterworth& design, Eigen::Index channels)
     : sections_(design.sections()),
       first_(Eigen::MatrixXd::Zero(channels, static_cast<Eigen::Index>(sections_.size()))),

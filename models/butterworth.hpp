@@ -37,6 +37,13 @@ class Butterworth {
   std::vector<Section> sections_;
 };
 
+/// Of each of the passes that go over a log.
+inline constexpr int log_filter_order = 2;
+
+/// Of white noise, the root mean square that two passes over a log leave, over that of what they
+/// take away; `cutoff` and `rate` in Hz, as for Butterworth.
+[[nodiscard]] double noise_left_over_taken(double cutoff, double rate);
+
 /// Two passes of second order leave of white noise the power in this share of the cutoff's band:
 /// the integral of 1 / (1 + x^4)^2 from zero on, 3 pi / (8 sqrt 2).
 inline constexpr double band_of_two_passes = 0.833;

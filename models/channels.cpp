@@ -53,7 +53,8 @@ class Finder {
   [[nodiscard]] bool has(const std::string& ours) const {
     return rule(ours) != nullptr || columns_.contains(ours);
   }
-  [[nodiscard]] bool has_any(const std::vector<std::string>& names) const {
+  [[nodiscard]] bool has_any(const std::vector<std::string>& names) {
+    asked_.insert(names.begin(), names.end());
     return std::any_of(names.begin(), names.end(),
                        [&](const std::string& name) { return has(name); });
   }
@@ -69,6 +70,7 @@ class Finder {
   }
 
   Channel find(const std::string& ours) {
+    asked_.insert(ours);
     const ColumnRule* const r = rule(ours);
     if (r == nullptr) {
       return {ours, ours, column(ours, "add it, or name its source in a mapping file")};
@@ -87,6 +89,18 @@ class Finder {
     const int start = static_cast<int>(channels.size());
     for (const std::string& name : names) channels.push_back(find(name));
     return start;
+  }
+
+  /// Throws if the mapping makes a column that nobody asked for, however it was meant.
+  void check_targets(const Robot& robot) const {
+    if (!mapping_) return;
+    for (const auto& [ours, rule] : mapping_->columns) {
+      if (asked_.contains(ours)) continue;
+      throw InputError(fmt::format("the mapping makes {} of {}, which means nothing for {}", ours,
+                                   rule.from, robot.name),
+                       "make time, base.gyro, base.accel, q, dq, ddq or tau of its joints, contact "
+                       "or force of its contacts");
+    }
   }
 
   [[nodiscard]] int groups() const { return static_cast<int>(groups_.size()); }
@@ -108,7 +122,7 @@ class Finder {
   std::string path_;
   const std::optional<Mapping>& mapping_;
   std::map<std::string, std::size_t> columns_;
-  std::set<std::string> used_;
+  std::set<std::string> used_, asked_;
   std::map<std::string, int> groups_;
 };
 
@@ -145,7 +159,7 @@ void declare_torque(const std::optional<Mapping>& mapping, const std::string& pa
   }
 }
 
-void check_root(const Finder& finder, const std::string& path, const Robot& robot) {
+void check_root(Finder& finder, const std::string& path, const Robot& robot) {
   std::vector<std::string> base = with_axes("base.gyro");
   for (const std::string& name : with_axes("base.accel")) base.push_back(name);
   const bool floating = finder.has_any(base);
@@ -223,6 +237,7 @@ ChannelPlan plan_channels(const LogTable& log, const Robot& robot,
   plan.tau = finder.append(per_joint("tau"), true, plan.channels);
   plan.force = finder.append(force, false, plan.channels);
   finder.append(contact, false, plan.contacts);
+  finder.check_targets(robot);
   declare_torque(mapping, log.path(), robot, plan);
 
   if (mapping) {

@@ -10,7 +10,6 @@
 namespace shapeid {
 namespace {
 
-constexpr int order = 2;                // of the filter
 constexpr double gap = 5.0;             // steps, as in MotionOptions
 constexpr double margin_periods = 0.5;  // of the cutoff, as in MotionOptions::contact_margin
 
@@ -50,7 +49,7 @@ void SampleStream::learn_rate() {
 
 void SampleStream::prepare() {
   grid_.emplace(rate_, longest_step_);
-  segments_.emplace(plan_, robot_, imu_, Butterworth(order, options_.cutoff, rate_),
+  segments_.emplace(plan_, robot_, imu_, Butterworth(log_filter_order, options_.cutoff, rate_),
                     SegmentSamples::Options{Smoothing::causal, rate_, false});
 }
 
@@ -74,7 +73,7 @@ void SampleStream::take(const MeasuredRow& row) {
 std::optional<Sample> SampleStream::next() { return margin_.next(); }
 
 double SampleStream::group_delay() const {
-  return Butterworth(order, options_.cutoff, rate_).group_delay(0.0);
+  return Butterworth(log_filter_order, options_.cutoff, rate_).group_delay(0.0);
 }
 
 }  // namespace shapeid

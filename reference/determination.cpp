@@ -1,12 +1,28 @@
 #include "shapeid/reference/determination.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 
+#include "shapeid/models/student.hpp"
 #include "shapeid/reference/triangle.hpp"
 
 namespace shapeid::reference {
+namespace {
+
+/// Of what all blocks know of a direction, squared: with less than this left without a block, the
+/// block alone determines it. Leaving it out would make the error a thousand times larger.
+constexpr double least_without = 1e-6;
+
+/// With noise alike in all directions: the largest part of a parameter's variance that may lie in
+/// directions which single blocks determine. The rest then stands for the whole.
+constexpr double largest_unjudged = 0.5;
+
+/// The level at which errors are widened for few blocks: at two of them.
+constexpr double widened_at = 2.0;
+
+}  // namespace
 
 Determination determine(const std::vector<RowBlock>& blocks, const Eigen::VectorXd& natural_size) {
   const Eigen::Index n = natural_size.size();
@@ -25,27 +41,42 @@ Determination determine(const std::vector<RowBlock>& blocks, const Eigen::Vector
   result.rank = static_cast<int>(svd.rank());
   if (result.rank == 0) return result;
 
-  const Eigen::MatrixXd V1 = svd.matrixV().leftCols(result.rank);
-  const Eigen::VectorXd s = svd.singularValues().head(result.rank);
+  // Coordinates x = S V1^T Phi, in which Y^T Y is one: a parameter is a row of `of_x` times x.
+  const Eigen::MatrixXd of_x = svd.matrixV().leftCols(result.rank) *
+                               svd.singularValues().head(result.rank).cwiseInverse().asDiagonal();
   const Eigen::VectorXd Phi = svd.solve(all.col(n));  // in natural units
-  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(result.rank, result.rank);
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(n), unjudged = Eigen::VectorXd::Zero(n);
   for (const RowBlock& block : blocks) {
     const Eigen::MatrixXd Yk = block.rows.leftCols(n) * scale;
-    const Eigen::VectorXd g = V1.transpose() * (Yk.transpose() * (Yk * Phi - block.rows.col(n)));
-    meat += g * g.transpose();
+    const Eigen::MatrixXd Xk = Yk * of_x;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> known(Xk.transpose() * Xk);
+    const Eigen::MatrixXd along = of_x * known.eigenvectors();
+    const Eigen::VectorXd g =
+        known.eigenvectors().transpose() * (Xk.transpose() * (Yk * Phi - block.rows.col(n)));
+    Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
+    for (Eigen::Index i = 0; i < result.rank; ++i) {
+      const double without = 1.0 - known.eigenvalues()[i];
+      if (without > least_without) {
+        d += g[i] / without * along.col(i);
+      } else {
+        unjudged += along.col(i).cwiseAbs2();
+      }
+    }
+    variance += d.cwiseAbs2();
   }
   const auto count = static_cast<double>(blocks.size());
-  if (blocks.size() > 1) meat *= count / (count - 1.0);
-  const Eigen::MatrixXd bread = V1 * s.cwiseAbs2().cwiseInverse().asDiagonal();
-  const Eigen::VectorXd variance = (bread * meat * bread.transpose()).diagonal();
+  variance *= (count - 1.0) / count;
+  unjudged = unjudged.cwiseQuotient(of_x.rowwise().squaredNorm());
+  const double wider = limit_for(widened_at, static_cast<Eigen::Index>(blocks.size())) / widened_at;
 
   for (Eigen::Index i = 0; i < n; ++i) {
     // The share of parameter i that lies outside of the row space cannot be seen at all.
     const double hidden = svd.matrixV().row(i).tail(n - result.rank).norm();
     if (hidden > std::sqrt(std::numeric_limits<double>::epsilon())) continue;
-    const double share = std::sqrt(std::max(variance[i], 0.0));
+    if (!(unjudged[i] <= largest_unjudged)) continue;
+    const double share = std::sqrt(variance[i] / (1.0 - unjudged[i]));
     result.standard_error[i] = share * natural_size[i];
-    result.determined[static_cast<std::size_t>(i)] = blocks.size() > 1 && share < largest_share;
+    result.determined[static_cast<std::size_t>(i)] = wider * share < largest_share;
   }
   return result;
 }

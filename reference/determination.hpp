@@ -15,9 +15,11 @@ struct RowBlock {
 /// Per parameter of the free links (10 each).
 struct Determination {
   /// Standard error of plain least squares, without shapes or bounds, in the parameter's unit.
-  /// Infinite where the data say nothing. Allows for autocorrelation within a block.
+  /// Infinite where the data say nothing, and where a single block says most of it, so that no
+  /// spread tells how well. Allows for autocorrelation within a block.
   Eigen::VectorXd standard_error;
-  /// The error is below `largest_share` of the size that the shapes could give the parameter.
+  /// The error, widened for few blocks, is below `largest_share` of the size that the shapes could
+  /// give the parameter.
   std::vector<bool> determined;
   int rank = 0;  ///< directions of parameter space that the rows reach
 };
@@ -25,8 +27,11 @@ struct Determination {
 /// A parameter whose error exceeds half of its own natural size is not known even to its sign.
 inline constexpr double largest_share = 0.5;
 
-/// Cluster-robust ("sandwich") covariance of least squares, one cluster a block:
-/// (Y^T Y)^+ (sum_k g_k g_k^T) (Y^T Y)^+ with g_k = Y_k^T (Y_k Phi - F_k) (Liang, Zeger 1986).
+/// The spread of answers that each miss one block (jackknife), of plain least squares by
+/// Phi = (Y^T Y)^+ Y^T F: variance (K - 1) / K sum_k d_k^2 with
+/// d_k = (Y^T Y - Y_k^T Y_k)^-1 Y_k^T (Y_k Phi - F_k) (Bell, McCaffrey 2002; within 1 / K of that
+/// around the answers' mean). The sandwich of the residuals as they are (Liang, Zeger 1986) is
+/// blind to what a block alone determines: there its residual is nothing.
 /// `natural_size`: for each parameter the size it could have, in its unit; positive. It scales the
 /// columns, so that rank and shares do not depend on units.
 [[nodiscard]] Determination determine(const std::vector<RowBlock>& blocks,

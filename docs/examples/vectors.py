@@ -126,6 +126,8 @@ def convert(given):
 def existence(given):
     """Eliminates the largest pivot first, in fractions: no pivot may be negative."""
     m, h, second = read_body("shapeid", exact(given["parameters"]))
+    if m == 0:
+        return {"exists": not any(exact(given["parameters"]))}
     left = [list(row) + [x] for row, x in zip(second, h)] + [list(h) + [m]]
     while left:
         n = len(left)

@@ -5,8 +5,8 @@
 
 namespace shapeid::certificate {
 
-/// Of the pseudo-inertia: positive definite (a body with volume), semidefinite (on the edge: a
-/// plate, a rod, a point, nothing), or neither (no such body exists).
+/// Of the pseudo-inertia: positive definite (a body with volume), semidefinite with mass or zero
+/// (on the edge: a plate, a rod, a point, nothing), or neither (no such body exists).
 enum class Existence { definite, semidefinite, impossible };
 
 /// `parameters`: m, m rx, m ry, m rz, Ixx, Ixy, Ixz, Iyy, Iyz, Izz about the frame's origin.

@@ -42,31 +42,66 @@ Data data(std::uint64_t seed, int block_count, int rows, Eigen::Index n, double 
   return result;
 }
 
-// The sandwich written out with the rows themselves and plain inverses.
-TEST(Determination, IsTheSandwichOfTheWholeRows) {
-  const Eigen::Index n = 4;
-  const Data d = data(3, 6, 40, n, 0.3);
+/// Plain least squares by its normal equations, of all blocks but one.
+VectorXd without_block(const Data& d, std::size_t skipped) {
+  const Eigen::Index n = d.rows.front().cols() - 1;
   MatrixXd YtY = MatrixXd::Zero(n, n);
   VectorXd YtF = VectorXd::Zero(n);
-  for (const MatrixXd& r : d.rows) {
-    YtY += r.leftCols(n).transpose() * r.leftCols(n);
-    YtF += r.leftCols(n).transpose() * r.col(n);
+  for (std::size_t k = 0; k < d.rows.size(); ++k) {
+    if (k == skipped) continue;
+    YtY += d.rows[k].leftCols(n).transpose() * d.rows[k].leftCols(n);
+    YtF += d.rows[k].leftCols(n).transpose() * d.rows[k].col(n);
   }
-  const VectorXd Phi = YtY.inverse() * YtF;
-  MatrixXd meat = MatrixXd::Zero(n, n);
-  for (const MatrixXd& r : d.rows) {
-    const VectorXd g = r.leftCols(n).transpose() * (r.leftCols(n) * Phi - r.col(n));
-    meat += g * g.transpose();
-  }
-  const MatrixXd covariance = 6.0 / 5.0 * YtY.inverse() * meat * YtY.inverse();
+  return YtY.inverse() * YtF;
+}
 
-  const Determination found = determine(d.blocks(), VectorXd::Ones(n));
-  EXPECT_EQ(found.rank, 4);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    // Well conditioned (cond about 1.5): half of the digits are more than enough to tell them apart
-    // from any other formula.
-    EXPECT_NEAR(found.standard_error[i] / std::sqrt(covariance(i, i)), 1.0, 1e-8);
-    EXPECT_TRUE(found.determined[static_cast<std::size_t>(i)]);
+// Each block left out in turn, all rows solved again.
+TEST(Determination, IsTheJackknifeOfTheWholeRows) {
+  const Eigen::Index n = 4;
+  for (const int blocks : {2, 3, 6}) {
+    const Data d = data(3, blocks, 40, n, 0.3);
+    const VectorXd Phi = without_block(d, d.rows.size());
+    VectorXd variance = VectorXd::Zero(n);
+    for (std::size_t k = 0; k < d.rows.size(); ++k) {
+      variance += (without_block(d, k) - Phi).cwiseAbs2();
+    }
+    variance *= (blocks - 1.0) / blocks;
+
+    const Determination found = determine(d.blocks(), VectorXd::Ones(n));
+    EXPECT_EQ(found.rank, 4);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      // Well conditioned (cond about 1.5): half of the digits are more than enough to tell them
+      // apart from any other formula.
+      EXPECT_NEAR(found.standard_error[i] / std::sqrt(variance[i]), 1.0, 1e-8);
+      EXPECT_TRUE(found.determined[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+// Column 1 is felt in the first block alone: its error there is nothing, whatever the noise.
+TEST(Determination, WhatOneBlockAloneTellsHasNoSpread) {
+  Data d = data(13, 3, 40, 3, 0.3);
+  d.rows[1].col(1).setZero();
+  d.rows[2].col(1).setZero();
+  const Determination found = determine(d.blocks(), VectorXd::Ones(3));
+  EXPECT_EQ(found.rank, 3);
+  EXPECT_TRUE(std::isinf(found.standard_error[1]));
+  EXPECT_EQ(found.determined, (std::vector<bool>{true, false, true}));
+}
+
+// An error of a third of the size is enough by many blocks, and not by the spread of two.
+TEST(Determination, TwoBlocksMustAgreeMoreClosely) {
+  for (const bool few : {false, true}) {
+    // Blocks that say 1 + error and 1 - error: the standard error is error / sqrt(blocks - 1).
+    const int blocks = few ? 2 : 50;
+    const double error = std::sqrt(blocks - 1.0) / 3.0;
+    Data d;
+    for (int k = 0; k < blocks; ++k) {
+      d.rows.push_back(Eigen::RowVector2d(1.0, 1.0 + (k % 2 == 0 ? error : -error)));
+    }
+    const Determination found = determine(d.blocks(), VectorXd::Ones(1));
+    EXPECT_NEAR(found.standard_error[0], 1.0 / 3.0, 1e-8);
+    EXPECT_EQ(found.determined[0], !few);
   }
 }
 
@@ -102,6 +137,7 @@ TEST(Determination, NoiseBeyondTheNaturalSizeDeterminesNothing) {
 
 TEST(Determination, OneBlockHasNoSpread) {
   const Determination found = determine(data(11, 1, 50, 2, 0.1).blocks(), VectorXd::Ones(2));
+  EXPECT_TRUE(std::isinf(found.standard_error[0]) && std::isinf(found.standard_error[1]));
   EXPECT_EQ(found.determined, (std::vector<bool>{false, false}));
 }
 

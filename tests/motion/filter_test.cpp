@@ -11,6 +11,7 @@
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/segment_filter.hpp"
 #include "shapeid/tests/support/generators.hpp"
+#include "shapeid/tests/support/load_problem.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid {
@@ -209,6 +210,30 @@ TEST(SegmentFilter, ImpulseResponseOfTwoPassesIsShort) {
     if (periods >= 0.5) {
       EXPECT_LT(std::abs(response[at]), 0.05 * peak);
     }
+  }
+}
+
+// White noise through the filter itself.
+TEST(SegmentFilter, LeavesOfWhiteNoiseWhatItSays) {
+  for (const double cutoff : {20.0, 80.0}) {
+    const double rate = 250.0;
+    constexpr int samples = 40000;
+    SegmentFilter filter(Smoothing::zero_phase, Butterworth(log_filter_order, cutoff, rate), 1);
+    test::Draw draw(17);
+    std::vector<double> noise;
+    for (int k = 0; k < samples; ++k) {
+      noise.push_back(draw.normal());
+      filter.push(Eigen::VectorXd::Constant(1, noise.back()));
+    }
+    filter.finish();
+    double left = 0.0, taken = 0.0;
+    for (const double raw : noise) {
+      const double smooth = (*filter.next())[0];
+      left += smooth * smooth;
+      taken += (raw - smooth) * (raw - smooth);
+    }
+    // The root of the mean of some 5000 independent squares scatters by a percent: three of them.
+    EXPECT_NEAR(std::sqrt(left / taken) / noise_left_over_taken(cutoff, rate), 1.0, 0.03);
   }
 }
 

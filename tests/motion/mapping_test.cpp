@@ -57,6 +57,22 @@ TEST(Mapping, GearsAndCurrentsScaleTheTorque) {
   }
 }
 
+// A name that nothing asks for is a slip of the pen, not an extra signal.
+TEST(Mapping, MakesNothingThatTheRobotDoesNotKnow) {
+  const Scratch scratch;
+  const auto log = scratch.file("a.csv", "time,q.j0,tau.j0,speed\n0,0,0,3\n");
+  for (const std::string target : {"dq.j7", "velocity.j0", "force.foot.x", "base.gyrodot.x"}) {
+    const Mapping mapping =
+        read_mapping_yaml(scratch.file("m.yaml", "columns: {" + target + ": speed}\n"));
+    const std::string said =
+        message_of([&] { MeasuredRows(log, chain(1, Root::fixed), mapping); }, log);
+    EXPECT_EQ(said.find("the mapping makes " + target + " of speed, which means nothing"), 0u)
+        << said;
+  }
+  const Mapping right = read_mapping_yaml(scratch.file("m.yaml", "columns: {dq.j0: speed}\n"));
+  EXPECT_GE(MeasuredRows(log, chain(1, Root::fixed), right).plan().dq, 0);
+}
+
 TEST(Mapping, JointsAreFoundByNameInTheRobotsOrder) {
   const Scratch scratch;
   const auto log = scratch.file("a.csv", "tau.j1,q.j1,time,tau.j0,q.j0,q.gripper\n4,3,0,2,1,9\n");

@@ -113,8 +113,10 @@ json existence_cases(test::Draw& draw) {
     add(light, false, "CentreOutside");
   }
   InertialParameters massless;
-  massless.values[1] = 0.01;
+  add(massless, true, "Massless");  // nothing at all
   massless.values.tail<6>() << 1.0, 0.0, 0.0, 1.0, 0.0, 1.0;
+  add(massless, false, "Massless");
+  massless.values[1] = 0.01;
   add(massless, false, "Massless");
   return cases;
 }
