@@ -19,8 +19,9 @@ Effect torque_delay() {
   e.equation = "tau(t) is predicted from the motion at t - d";
   e.site = SiteKind::whole;
   e.parameters = {{"d", "s", false, 0.002, largest_delay}};
-  e.confused_with = {"viscous_friction (d > 0 looks like it on an inertia, d < 0 like a negative one)",
-                     "imu_delay", "unequal filtering of torque and joints"};
+  e.confused_with = {
+      "viscous_friction (d > 0 looks like it on an inertia, d < 0 like a negative one)",
+      "imu_delay", "unequal filtering of torque and joints"};
   e.separate_by = "tap the robot: the same knock must come at the same time in all channels";
   e.under_contact = "seen in stance and swing";
   e.source = "docs/derivations/filtering.md";
