@@ -72,9 +72,9 @@ std::string errors_picture(const DiagnosisRun& run, const Robot& robot) {
       "set style fill solid 0.85 noborder\nset xtics rotate by -35\nset yrange [0:*]\n"
       "set ylabel 'residual (N m, rms)'\n$d << EOD\n";
   for (int j = 0; j < robot.joint_count(); ++j) {
-    script +=
-        fmt::format("\"{}\" {:.5g} {:.5g} {:.5g}\n", robot.joint(j).name, run.errors.zero[base + j],
-                    run.errors.given[base + j], run.errors.found[base + j]);
+    script += fmt::format("{} {:.5g} {:.5g} {:.5g}\n", gnuplot_entry(robot.joint(j).name),
+                          run.errors.zero[base + j], run.errors.given[base + j],
+                          run.errors.found[base + j]);
   }
   script += fmt::format(
       "EOD\nplot $d using 2:xtic(1) lc rgb '{}' title 'predicting zero', $d using 3 lc rgb '{}' "
@@ -153,9 +153,9 @@ std::string autocorrelation_picture(const DiagnosisRun& run, const Robot& robot)
       return std::array{static_cast<double>(i) * after.step, before.value[k], after.value[k]};
     });
     script += fmt::format(
-        "set title '{}'\nplot {} with filledcurves y1={} fs solid 0.2 noborder lc rgb '#444444', "
+        "set title {}\nplot {} with filledcurves y1={} fs solid 0.2 noborder lc rgb '#444444', "
         "$d using 1:2 with lines lc rgb '{}', $d using 1:3 with lines lw 1.5 lc rgb '{}'\n",
-        robot.joint(j).name, after.band, -after.band, orange, blue);
+        gnuplot_string(robot.joint(j).name), after.band, -after.band, orange, blue);
   }
   return gnuplot(script + "unset multiplot\n");
 }
@@ -169,7 +169,7 @@ std::string ranking_picture(const DiagnosisRun& run) {
   for (Eigen::Index i = 0; i < count; ++i) {
     const diagnosis::Ranked& r = run.loop.first_ranking[static_cast<std::size_t>(i)];
     const double error = r.t > 0.0 ? 100.0 * std::abs(r.gain / r.t) : 0.0;
-    script += fmt::format("{} {:.4g} {:.4g} \"{}\"\n", i, 100.0 * r.gain, error, r.id);
+    script += fmt::format("{} {:.4g} {:.4g} {}\n", i, 100.0 * r.gain, error, gnuplot_entry(r.id));
   }
   script += fmt::format(
       "EOD\nplot $d using (0):1:(0):2:($1-0.35):($1+0.35):ytic(4) with boxxyerrorbars lc rgb '{}', "
@@ -233,9 +233,10 @@ std::string structure_picture(const diagnosis::Structure& structure) {
   const std::string over = structure.law.empty()
                                ? fmt::format("residual of {} (N m)", structure.joint)
                                : fmt::format("number of {}", structure.law);
-  return gnuplot(script + fmt::format("set xlabel '{}'\nset ylabel '{}'\n"
+  return gnuplot(script + fmt::format("set xlabel {}\nset ylabel {}\n"
                                       "plot $d with linespoints pt 7 ps 0.5 lc rgb '{}'\n",
-                                      structure.variable, over, blue));
+                                      gnuplot_string(structure.variable), gnuplot_string(over),
+                                      blue));
 }
 
 }  // namespace shapeid::app

@@ -1,6 +1,7 @@
 #include "shapeid/app/diagnosis_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 #include "shapeid/app/result.hpp"
 #include "shapeid/diagnosis/hypotheses.hpp"
 #include "shapeid/diagnosis/slowness.hpp"
+#include "shapeid/models/student.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -74,7 +76,8 @@ Table parameters_table(const DiagnosisRun& run, const Robot& robot, std::size_t 
   constexpr std::array<const char*, 10> names = {
       "m (kg)",       "m rx (kg m)",  "m ry (kg m)",  "m rz (kg m)",  "Ixx (kg m^2)",
       "Ixy (kg m^2)", "Ixz (kg m^2)", "Iyy (kg m^2)", "Iyz (kg m^2)", "Izz (kg m^2)"};
-  constexpr double of_95_percent = 1.96;
+  constexpr Eigen::Index tenths = 10;  // of the log, that were left out for the errors
+  const double of_95_percent = limit_for(1.96, tenths);
   const int link = run.settings.shapes.free_links[sought];
   Table table = {{"parameter", "given", "found", "95 % interval", "with what was not noticed",
                   "determined by"}};
@@ -83,18 +86,22 @@ Table parameters_table(const DiagnosisRun& run, const Robot& robot, std::size_t 
   for (Eigen::Index p = 0; p < 10; ++p) {
     const Eigen::Index at = Eigen::Index{10} * link + p;
     const double value = run.consistent.model.Phi[at];
-    const auto interval = [&](double error) {
+    const bool determined =
+        run.consistent.data.determined[10 * sought + static_cast<std::size_t>(p)];
+    const auto interval = [&](double error) -> std::string {
+      if (!determined) return "-";
+      // To a hundredth of its width, so that its ends differ.
       const double half = of_95_percent * error;
-      return fmt::format("{:.3g} to {:.3g}", value - half, value + half);
+      const int digits = half > 0.0 ? static_cast<int>(std::ceil(2.0 - std::log10(half))) : 3;
+      return fmt::format("{0:.{2}f} to {1:.{2}f}", value - half, value + half,
+                         std::clamp(digits, 0, 12));
     };
     const std::string& effect = run.unnoticed.effect[static_cast<std::size_t>(at)];
     table.push_back(
         {names[static_cast<std::size_t>(p)], short_number(given.inertia.values[p]),
          short_number(value), interval(run.consistent.Phi_error[at]),
          effect.empty() ? "the same" : interval(run.unnoticed.error[at]) + " (" + effect + ")",
-         run.consistent.data.determined[10 * sought + static_cast<std::size_t>(p)]
-             ? "data"
-             : "given inertia and bodies"});
+         determined ? "data" : "given inertia and bodies"});
     if (run.causes_alone) {
       table.back().push_back(short_number(run.causes_alone->model.Phi[at]));
     }
@@ -154,12 +161,18 @@ void add_undetermined(Page& page, const DiagnosisRun& run, const Robot& robot) {
 std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
                              const DiagnoseOptions& options) {
   Page page("What the model of " + robot.name + " lacks");
+  std::vector<std::string> logs = {options.inputs.log};
+  logs.insert(logs.end(), options.also.begin(), options.also.end());
+  const std::string filter =
+      options.inputs.exact || options.inputs.cutoff == 0.0
+          ? "No channel was filtered."
+          : fmt::format("Every channel went through the same zero-phase filter of {:g} Hz.",
+                        options.inputs.cutoff);
   page.paragraph(fmt::format(
-      "Log {}, tested on {} ({} samples used for nothing else). Every channel "
-      "went through the same zero-phase filter of {:g} Hz. {} hypotheses in {} "
+      "Log {}, tested on {} ({} samples used for nothing else). {} {} hypotheses in {} "
       "blocks; screening {:.1f} s, refits {:.1f} s.",
-      options.inputs.log, run.errors.where, run.errors.samples, options.inputs.cutoff,
-      run.loop.hypotheses, run.loop.blocks, run.loop.screening_seconds, run.loop.refit_seconds));
+      fmt::join(logs, ", "), run.errors.where, run.errors.samples, filter, run.loop.hypotheses,
+      run.loop.blocks, run.loop.screening_seconds, run.loop.refit_seconds));
   page.heading("Error before and after");
   page.paragraph(
       "Predicted minus logged torque, root mean square, N m (base rows: N and N m). "

@@ -40,14 +40,13 @@ BodyModel body_model(const DiagnoseOptions& options, const Robot& robot) {
   return known;
 }
 
-double expected_mass(const DiagnoseOptions& options, const Robot& robot, const BodyModel& model) {
+double expected_mass(const DiagnoseOptions& options, const RobotInputs& inputs,
+                     const BodyModel& model) {
   if (options.expected_mass > 0.0) return options.expected_mass;
-  double mass = 0.0;
-  for (const int link : model.free_links) {
-    mass += robot.links[static_cast<std::size_t>(link)].inertia.mass();
-  }
+  const double mass = shapeid::expected_mass(inputs.robot, inputs.notes, model.free_links);
   if (!(mass > 0.0) && !model.free_links.empty()) {
-    throw InputError("the free links have no mass in the URDF", "give --expected-mass");
+    throw InputError("the free links have no mass in the URDF",
+                     "give --expected-mass, or expected_mass in robot.yaml");
   }
   return mass;
 }
@@ -58,15 +57,17 @@ diagnosis::LoopSettings settings_for(const RobotInputs& inputs, const DiagnoseOp
   diagnosis::LoopSettings settings;
   settings.rows = {log.contacts, options.path};
   settings.shapes = body_model(options, robot);
-  settings.expected_mass = expected_mass(options, robot, settings.shapes);
+  settings.expected_mass = expected_mass(options, inputs, settings.shapes);
   settings.weight = weight(inputs);
   settings.rule = options.rule;
   settings.log_starts = log.starts;
   settings.size = Eigen::VectorXd::Ones(Eigen::Index{10} * robot.link_count());
   const auto& links = settings.shapes.free_links;
   if (!links.empty()) {
-    const double share = settings.expected_mass / static_cast<double>(links.size());
-    const Eigen::VectorXd sizes = reference::natural_sizes(settings.shapes, share);
+    const auto count = static_cast<Eigen::Index>(links.size());
+    const Eigen::VectorXd sizes = reference::sizes_of_links(
+        settings.shapes,
+        Eigen::VectorXd::Constant(count, settings.expected_mass) / static_cast<double>(count));
     for (std::size_t i = 0; i < links.size(); ++i) {
       settings.size.segment<10>(Eigen::Index{10} * links[i]) =
           sizes.segment<10>(10 * static_cast<Eigen::Index>(i));
@@ -257,11 +258,11 @@ void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
   const int base = robot.base_dof();
   for (int j = 0; j < robot.joint_count(); ++j) {
     const double given = run.errors.given[base + j], found = run.errors.found[base + j];
-    if (found > given) {
+    const std::string now = fmt::format("{:.3g}", found), before = fmt::format("{:.3g}", given);
+    if (found > given && now != before) {
       run.notes.push_back(
-          fmt::format("{} is predicted worse than by the given model: {:.3g} "
-                      "instead of {:.3g} N m",
-                      robot.joint(j).name, found, given));
+          fmt::format("{} is predicted worse than by the given model: {} instead of {} N m",
+                      robot.joint(j).name, now, before));
     }
   }
 }
@@ -310,6 +311,9 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                    {},
                    log.motion,
                    robot.robot.notes};
+  if (run.test.usable(run.settings.stride).empty()) {
+    throw Refusal("no-data", "nothing is left to test on; give --test, or a longer log");
+  }
   diagnosis::check_clocks(robot.robot, log.recording, run.settings);
   std::optional<RecordedLog> rough =
       less_smooth(robot, options, fitted_logs(options), log, fitted_part);
@@ -339,9 +343,6 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
       diagnosis::beside_causes_alone(robot.robot, log.recording, reference, run.settings, run.loop);
   run.notes.insert(run.notes.end(), robot.warnings.begin(), robot.warnings.end());
   run.notes.insert(run.notes.end(), log.motion.notes.begin(), log.motion.notes.end());
-  if (run.test.samples().empty()) {
-    throw Refusal("no-data", "nothing is left to test on; give --test, or a longer log");
-  }
   const diagnosis::RichModel given{stacked_parameters(robot.robot), {}};
   run.before =
       diagnosis::series(robot.robot, run.settings.rows, given, run.test, run.settings.stride);

@@ -3,14 +3,42 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <sys/wait.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
 
+#include "shapeid/models/contract.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
 
 namespace shapeid::app {
+namespace {
+
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+// Between single quotes nothing has a meaning but the quote, which is doubled.
+std::string gnuplot_string(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : on_one_line(text))
+    quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
+// Entries have double quotes, which nothing escapes.
+std::string gnuplot_entry(const std::string& text) {
+  std::string entry = on_one_line(text);
+  std::replace(entry.begin(), entry.end(), '"', '\'');
+  return "\"" + entry + "\"";
+}
 
 std::string gnuplot(const std::string& script) {
   const auto file =
@@ -27,10 +55,11 @@ std::string gnuplot(const std::string& script) {
     status = ::pclose(pipe);
   }
   std::filesystem::remove(file);
-  if (status != 0) {
-    throw InputError("gnuplot did not draw",
-                     "install Debian's gnuplot-nox, or leave out the report");
+  constexpr int not_found = 127;  // of the shell
+  if (WIFEXITED(status) && WEXITSTATUS(status) == not_found) {
+    throw InputError("gnuplot is missing", "install Debian's gnuplot-nox, or leave out the report");
   }
+  if (status != 0) throw Defect("gnuplot refused to draw what it was given");
   // gnuplot's own declaration and document type have no place inside an HTML page.
   const auto start = output.find("<svg");
   return start == std::string::npos ? output : output.substr(start);

@@ -142,6 +142,10 @@ reference::IdentifySettings settings_for(const LogSamples& log, const RobotInput
 Result run_identification(const RobotInputs& robot, const BodyModel& model,
                           const MotionInputs& inputs, const RunOptions& options,
                           const std::function<void(const reference::DivisionRun&)>& watch) {
+  if (!options.test_log.empty() && same_file({inputs.log, options.test_log})) {
+    throw InputError({options.test_log}, "is fitted, too",
+                     "a test on data that are used for nothing else");
+  }
   std::optional<EffectsRun> effects;
   if (!options.effects.empty()) effects.emplace(robot, inputs, options);
   LogSamples log(inputs.log, robot, inputs);

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "shapeid/app/division_history.hpp"
 #include "shapeid/models/problem_json.hpp"
+#include "shapeid/models/student.hpp"
 #include "shapeid/models/version.hpp"
 
 namespace shapeid::app {
@@ -31,24 +33,34 @@ const Link& link_at(const Robot& robot, int index) {
   return robot.links[static_cast<std::size_t>(index)];
 }
 
+/// What the data say of ten parameters by themselves; not finite where they say nothing.
+Eigen::VectorXd data_values(const reference::Determination& data, Eigen::Index at) {
+  const auto known = data.standard_error.segment<10>(at).array().isFinite();
+  return known.select(data.value.segment<10>(at), std::numeric_limits<double>::infinity());
+}
+
 json links_json(const Result& result, const Robot& robot) {
   json links = json::array();
   const auto& free_links = result.found.run.model.free_links;
   for (std::size_t i = 0; i < free_links.size(); ++i) {
     const Link& link = link_at(robot, free_links[i]);
     const auto at = 10 * static_cast<Eigen::Index>(i);
-    json determined = json::array();
+    const Eigen::VectorXd Phi = result.found.Phi.segment<10>(Eigen::Index{10} * free_links[i]);
+    json determined = json::array(), against_data = json::array();
     for (Eigen::Index p = at; p < at + 10; ++p) {
       determined.push_back(
           static_cast<bool>(result.found.data.determined[static_cast<std::size_t>(p)]));
+      against_data.push_back(!result.found.data.agrees(p, Phi[p - at]));
     }
     links.push_back(
         {{"name", link.name},
-         {"parameters", numbers(result.found.Phi.segment<10>(Eigen::Index{10} * free_links[i]))},
+         {"parameters", numbers(Phi)},
          {"given", numbers(link.inertia.values)},
          {"standard_error", numbers(result.found.standard_error.segment<10>(at))},
+         {"data_value", numbers(data_values(result.found.data, at))},
          {"data_standard_error", numbers(result.found.data.standard_error.segment<10>(at))},
-         {"determined", determined}});
+         {"determined", determined},
+         {"against_data", against_data}});
   }
   return links;
 }
@@ -76,6 +88,12 @@ double fitted_seconds(const Result& result) {
 
 std::string shown(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : "none"; }
 
+/// What a number comes from.
+const char* determined_by(const reference::Determination& data, Eigen::Index at, double number) {
+  if (!data.determined[static_cast<std::size_t>(at)]) return "shapes and bounds";
+  return data.agrees(at, number) ? "data" : "shapes, against the data";
+}
+
 std::string links_text(const Result& result, const Robot& robot) {
   std::string text;
   const auto& free_links = result.found.run.model.free_links;
@@ -86,13 +104,13 @@ std::string links_text(const Result& result, const Robot& robot) {
     for (Eigen::Index p = 0; p < 10; ++p) {
       const Eigen::Index at = 10 * static_cast<Eigen::Index>(i) + p;
       const auto k = static_cast<std::size_t>(p);
-      text += fmt::format(
-          "  {:<6}{:>12.5g}{:>12.5g}{:>12}{:>14}  {:<7} {}\n", parameter_names[k],
-          link.inertia.values[p], result.found.Phi[Eigen::Index{10} * free_links[i] + p],
-          shown(result.found.standard_error[at]), shown(result.found.data.standard_error[at]),
-          parameter_units[k],
-          result.found.data.determined[static_cast<std::size_t>(at)] ? "data"
-                                                                     : "shapes and bounds");
+      text += fmt::format("  {:<6}{:>12.5g}{:>12.5g}{:>12}{:>14}  {:<7} {}\n", parameter_names[k],
+                          link.inertia.values[p],
+                          result.found.Phi[Eigen::Index{10} * free_links[i] + p],
+                          shown(result.found.standard_error[at]),
+                          shown(result.found.data.standard_error[at]), parameter_units[k],
+                          determined_by(result.found.data, at,
+                                        result.found.Phi[Eigen::Index{10} * free_links[i] + p]));
     }
   }
   return text;
@@ -172,11 +190,15 @@ void choose_written_links(Result& result, const Robot& robot, double least_mass)
 
 json result_json(const Result& result, const std::optional<double>& floor, const Robot& robot) {
   const reference::DivisionRun& run = result.found.run;
+  const auto of_any = [&](const Eigen::VectorXd& rms) {
+    return result.heldout.samples > 0 ? numbers(rms) : json::array();
+  };
   return {{"format", "shapeid-result-1"},
           {"software", fmt::format("shapeid {}", version)},
           {"robot", result.robot_file},
           {"log", result.log_file},
           {"samples", result.found.samples},
+          {"blocks", result.found.blocks},
           {"seconds", fitted_seconds(result)},
           {"rate", result.motion.rate},
           {"gaps", result.motion.gaps},
@@ -197,9 +219,9 @@ json result_json(const Result& result, const std::optional<double>& floor, const
            {{"samples", result.heldout.samples},
             {"where", result.heldout.where},
             {"rows", row_names(robot)},
-            {"rms_zero", numbers(result.heldout.zero)},
-            {"rms_before", numbers(result.heldout.given)},
-            {"rms_after", numbers(result.heldout.found)}}},
+            {"rms_zero", of_any(result.heldout.zero)},
+            {"rms_before", of_any(result.heldout.given)},
+            {"rms_after", of_any(result.heldout.found)}}},
           {"notes", result.notes}};
 }
 
@@ -220,6 +242,12 @@ std::string result_text(const Result& result, const std::optional<double>& floor
   text += links_text(result, robot);
   text += comparison_text(result.heldout, robot);
   for (const std::string& note : result.notes) text += fmt::format("note: {}\n", note);
+  constexpr double of_95_percent = 1.96;
+  text += fmt::format(
+      "note: standard errors are by leaving out each of {0} blocks; 95 % lie within "
+      "{1:.3g} of them\n",
+      result.found.blocks,
+      limit_for(of_95_percent, static_cast<Eigen::Index>(result.found.blocks)));
   text += "note: standard errors do not contain the shrinkage that noise in the motion causes\n";
   return text;
 }

@@ -186,6 +186,7 @@ class Solver {
     size << reference::natural_sizes(settings_.shapes, settings_.expected_mass),
         sums_.effect_sizes();
     reference::Determination all = reference::determine(sums_.blocks(size), size);
+    all.value.conservativeResize(sums_.masses());
     all.standard_error.conservativeResize(sums_.masses());
     all.determined.resize(static_cast<std::size_t>(sums_.masses()));
     return all;

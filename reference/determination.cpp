@@ -34,6 +34,7 @@ Determination determine(const std::vector<RowBlock>& blocks, const Eigen::Vector
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Y, Eigen::ComputeThinU | Eigen::ComputeFullV);
 
   Determination result;
+  result.value = Eigen::VectorXd::Zero(n);
   result.standard_error = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
   result.determined.assign(static_cast<std::size_t>(n), false);
   // Eigen's default rank threshold: singular values below size x eps x the largest are noise of
@@ -45,6 +46,7 @@ Determination determine(const std::vector<RowBlock>& blocks, const Eigen::Vector
   const Eigen::MatrixXd of_x = svd.matrixV().leftCols(result.rank) *
                                svd.singularValues().head(result.rank).cwiseInverse().asDiagonal();
   const Eigen::VectorXd Phi = svd.solve(all.col(n));  // in natural units
+  result.value = Phi.cwiseProduct(natural_size);
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(n), unjudged = Eigen::VectorXd::Zero(n);
   for (const RowBlock& block : blocks) {
     const Eigen::MatrixXd Yk = block.rows.leftCols(n) * scale;
@@ -67,7 +69,7 @@ Determination determine(const std::vector<RowBlock>& blocks, const Eigen::Vector
   const auto count = static_cast<double>(blocks.size());
   variance *= (count - 1.0) / count;
   unjudged = unjudged.cwiseQuotient(of_x.rowwise().squaredNorm());
-  const double wider = limit_for(widened_at, static_cast<Eigen::Index>(blocks.size())) / widened_at;
+  result.wider = limit_for(widened_at, static_cast<Eigen::Index>(blocks.size())) / widened_at;
 
   for (Eigen::Index i = 0; i < n; ++i) {
     // The share of parameter i that lies outside of the row space cannot be seen at all.
@@ -76,7 +78,7 @@ Determination determine(const std::vector<RowBlock>& blocks, const Eigen::Vector
     if (!(unjudged[i] <= largest_unjudged)) continue;
     const double share = std::sqrt(variance[i] / (1.0 - unjudged[i]));
     result.standard_error[i] = share * natural_size[i];
-    result.determined[static_cast<std::size_t>(i)] = wider * share < largest_share;
+    result.determined[static_cast<std::size_t>(i)] = result.wider * share < largest_share;
   }
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <vector>
 
 namespace shapeid::reference {
@@ -14,6 +15,9 @@ struct RowBlock {
 
 /// Per parameter of the free links (10 each).
 struct Determination {
+  /// Plain least squares, without shapes or bounds, in the parameter's unit; where the data say
+  /// nothing, that of the shortest Phi in natural sizes.
+  Eigen::VectorXd value;
   /// Standard error of plain least squares, without shapes or bounds, in the parameter's unit.
   /// Infinite where the data say nothing, and where a single block says most of it, so that no
   /// spread tells how well. Allows for autocorrelation within a block.
@@ -21,7 +25,13 @@ struct Determination {
   /// The error, widened for few blocks, is below `largest_share` of the size that the shapes could
   /// give the parameter.
   std::vector<bool> determined;
-  int rank = 0;  ///< directions of parameter space that the rows reach
+  int rank = 0;        ///< directions of parameter space that the rows reach
+  double wider = 1.0;  ///< what errors are multiplied by for few blocks, at two of them
+
+  /// Whether a number of this parameter lies within three of its widened errors from `value`.
+  [[nodiscard]] bool agrees(Eigen::Index parameter, double number) const {
+    return std::abs(number - value[parameter]) <= 3.0 * wider * standard_error[parameter];
+  }
 };
 
 /// A parameter whose error exceeds half of its own natural size is not known even to its sign.

@@ -38,7 +38,16 @@ class Blocks {
       filter_->finish();
       add_filtered();
     }
-    if (window_.samples() > 0) close();
+    if (window_.samples() > 0) {
+      // A stub says little, and its answer alone would scatter: it goes to the block before.
+      const bool is_stub = last_ - start_ < 0.5 * seconds_ && !blocks_.empty();
+      close();
+      if (is_stub && blocks_.size() > 1) {
+        const Eigen::MatrixXd rows = std::move(blocks_.back().rows);
+        blocks_.pop_back();
+        blocks_.back().rows = triangle(stacked(blocks_.back().rows, rows));
+      }
+    }
     return std::move(blocks_);
   }
 
@@ -53,6 +62,7 @@ class Blocks {
   void close_before(double time) {
     if (window_.samples() > 0 && time - start_ >= seconds_) close();
     if (window_.samples() == 0) start_ = time;
+    last_ = time;
   }
 
   void close() {
@@ -71,7 +81,7 @@ class Blocks {
   Window window_;
   std::optional<RowFilter> filter_;
   RowsOf rows_;
-  double seconds_, start_ = 0.0;
+  double seconds_, start_ = 0.0, last_ = 0.0;
   std::vector<RowBlock> blocks_;
 };
 
@@ -99,22 +109,35 @@ Eigen::VectorXd jackknife(const std::vector<RowBlock>& blocks, const DivisionRun
     set_rows(problem, rows_without(blocks, static_cast<std::size_t>(k)));
     Phi.col(k) = solve_masses(problem, run.solution.m).Phi;
   }
-  const Eigen::VectorXd mean = Phi.rowwise().mean();
+  // Around the answer, not around the mean of the others: these may all stand at a bound.
   const double factor = static_cast<double>(count - 1) / static_cast<double>(count);
-  return (factor * (Phi.colwise() - mean).rowwise().squaredNorm()).cwiseSqrt();
+  return (factor * (Phi.colwise() - run.solution.Phi).rowwise().squaredNorm()).cwiseSqrt();
 }
 
 }  // namespace
 
 Eigen::VectorXd natural_sizes(const BodyModel& model, double expected_mass) {
+  const Eigen::VectorXd V = shape_volumes(model);
+  const auto links = static_cast<Eigen::Index>(model.free_links.size());
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(links);
+  for (std::size_t j = 0; j < model.shapes.size(); ++j) {
+    const auto link =
+        std::lower_bound(model.free_links.begin(), model.free_links.end(), model.shapes[j].link);
+    masses[link - model.free_links.begin()] += V[static_cast<Eigen::Index>(j)];
+  }
+  return sizes_of_links(model, expected_mass / V.sum() * masses);
+}
+
+Eigen::VectorXd sizes_of_links(const BodyModel& model, const Eigen::VectorXd& masses) {
   const Eigen::VectorXd largest = shape_columns(model).cwiseAbs().rowwise().maxCoeff();
   // A parameter that every shape leaves at zero by symmetry still needs a positive size to be
   // measured against: that of the largest of its group on the same link.
-  Eigen::VectorXd size = expected_mass * largest;
+  Eigen::VectorXd size = largest;
   for (Eigen::Index link = 0; link < size.size(); link += 10) {
+    size.segment<10>(link) *= masses[link / 10];
     for (const auto& [first, count] : {std::pair{1, 3}, std::pair{4, 6}}) {
       auto group = size.segment(link + first, count);
-      const double fallback = group.maxCoeff() > 0.0 ? group.maxCoeff() : expected_mass;
+      const double fallback = group.maxCoeff() > 0.0 ? group.maxCoeff() : masses[link / 10];
       group = (group.array() > 0.1 * fallback).select(group, 0.1 * fallback);
     }
   }
@@ -154,8 +177,17 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
   Identification result;
   result.samples = rows.samples;
   result.data = determine(rows.blocks, natural_sizes(model, settings.expected_mass));
-  if (std::none_of(result.data.determined.begin(), result.data.determined.end(),
-                   [](bool known) { return known; })) {
+  result.blocks = rows.blocks.size();
+  const auto& known = result.data.determined;
+  if (std::none_of(known.begin(), known.end(), [](bool is_known) { return is_known; })) {
+    constexpr double few = 1.5;  // four blocks or fewer
+    const bool judged = result.data.standard_error.array().isFinite().any();
+    if (result.data.rank > 0 && (!judged || result.data.wider > few)) {
+      throw Refusal("too-short",
+                    fmt::format("{} blocks of time, or logs, have too little spread to judge any "
+                                "parameter by; log a longer motion, and logs of like length",
+                                rows.blocks.size()));
+    }
     throw Refusal("not-excited",
                   "the motion determines no parameter of the free links; use a log in which they "
                   "move, turn or are loaded");

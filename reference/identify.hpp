@@ -41,6 +41,7 @@ struct Identification {
   /// leaving out each block once (jackknife). Bias from noise in Y is not in them.
   Eigen::VectorXd standard_error;
   std::size_t samples = 0;
+  std::size_t blocks = 0;  ///< of time, or logs, that were left out for the errors
 };
 
 /// Samples one by one; empty at the end.
@@ -60,23 +61,27 @@ struct CompressedRows {
 [[nodiscard]] Eigen::MatrixXd merged(const std::vector<RowBlock>& blocks);
 
 /// Identifies the free links of `model` from at least two blocks, whose spread is what errors are
-/// judged by. Throws Refusal "not-excited" if the rows determine no parameter at all.
+/// judged by. Throws Refusal "not-excited" if the rows determine no parameter at all, "too-short"
+/// if the blocks are so few or so unlike that nothing tells.
 [[nodiscard]] Identification identify(const BodyModel& model, const CompressedRows& rows,
                                       const IdentifySettings& settings,
                                       const std::function<void(const DivisionRun&)>& watch = {});
 
 /// Identifies the free links of `model`. Memory does not grow with the stream: blocks are
 /// triangles, and neighbours merge when there are more than most_blocks of them. Throws Refusal
-/// "no-data" for an empty stream, "too-short" for a single block (no spread to judge by),
-/// "not-excited" if the rows determine no parameter at all.
+/// "no-data" for an empty stream, "too-short" for a single block (no spread to judge by) or
+/// too few, "not-excited" if the rows determine no parameter at all.
 [[nodiscard]] Identification identify(const Robot& robot, const BodyModel& model,
                                       const SampleStream& next, const IdentifySettings& settings,
                                       const std::function<void(const DivisionRun&)>& watch = {});
 
 inline constexpr std::size_t most_blocks = 64;
 
-/// For each parameter of the free links the largest size that mass M0 within the shapes can give
-/// it.
+/// For each parameter of the free links the largest size that the link's mass (kg, one a free link)
+/// can give it within the shapes.
+[[nodiscard]] Eigen::VectorXd sizes_of_links(const BodyModel& model, const Eigen::VectorXd& masses);
+
+/// The same with M0 shared among the links as the volume of their shapes.
 [[nodiscard]] Eigen::VectorXd natural_sizes(const BodyModel& model, double expected_mass);
 
 }  // namespace shapeid::reference

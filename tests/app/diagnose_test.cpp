@@ -88,6 +88,53 @@ TEST(Diagnose, FindsAKneesFrictionAndItsFilesAreOfUse) {
   }
 }
 
+/// Names are what a URDF says, and go into scripts of a plotting program.
+TEST(Diagnose, DrawsJointsOfAnyName) {
+  const std::string name = "left'hip'; system('touch drawn_by_name'); x='\"y\"";
+  const std::string in_xml = "left'hip'; system('touch drawn_by_name'); x='&quot;y&quot;";
+  const std::string in_csv = "left'hip'; system('touch drawn_by_name'); x='\"\"y\"\"";
+  ASSERT_EQ(shapeid("simulate --seconds 10 --out named.csv").status, 0);
+  const auto renamed = [](std::string text, const std::string& to) {
+    const std::string from = "FR_hip";
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+      text.replace(at, from.size(), to);
+    }
+    return text;
+  };
+  const std::string log = read_file(scratch() + "/named.csv");
+  const std::size_t line = log.find('\n');
+  std::string header;
+  for (std::size_t from = 0; from < line;) {
+    const std::size_t end = std::min(log.find(',', from), line);
+    const std::string column = log.substr(from, end - from);
+    header += header.empty() ? "" : ",";
+    header +=
+        column.find("FR_hip") == std::string::npos ? column : '"' + renamed(column, in_csv) + '"';
+    from = end + 1;
+  }
+  scratch_file("named.csv", header + log.substr(line));
+  scratch_file("named.urdf", renamed(read_file(robots + "quadruped.urdf"), in_xml));
+  const CommandRun run = shapeid(
+      fmt::format("diagnose --robot named.urdf --robot-yaml {}quadruped.robot.yaml --log named.csv "
+                  "--json --out named",
+                  robots));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto& rows = nlohmann::json::parse(run.out)["heldout"]["rows"];
+  EXPECT_NE(std::find(rows.begin(), rows.end(), name), rows.end()) << rows.dump();
+  EXPECT_TRUE(std::filesystem::exists(scratch() + "/named/report.html"));
+  EXPECT_FALSE(std::filesystem::exists(scratch() + "/drawn_by_name"));
+}
+
+TEST(Diagnose, NeedsUsableSamplesToTestOn) {
+  ASSERT_EQ(shapeid("simulate --seconds 8 --out long.csv").status, 0);
+  ASSERT_EQ(shapeid("simulate --seconds 0.2 --seed 3 --out short.csv").status, 0);
+  const CommandRun run =
+      shapeid(fmt::format("diagnose {} --log long.csv --test short.csv --out short", files));
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("refused (no-data): nothing is left to test on"), std::string::npos)
+      << run.err;
+}
+
 /// A knee that is pulled by the hip of another leg has no name. As a curve it predicts, here and
 /// where `identify` takes it as known.
 TEST(Diagnose, WritesWhatHasNoNameAsCurves) {

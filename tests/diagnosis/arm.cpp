@@ -94,7 +94,8 @@ diagnosis::LoopSettings arm_settings() {
   settings.shapes = diagnosis::generous_regions(robot, {1, 2, 3});
   settings.expected_mass = 6.0;
   settings.size = Eigen::VectorXd::Ones(40);
-  settings.size.tail(30) = reference::natural_sizes(settings.shapes, 2.0);
+  settings.size.tail(30) =
+      reference::sizes_of_links(settings.shapes, Eigen::Vector3d::Constant(2.0));
   settings.stride = 2;
   return settings;
 }

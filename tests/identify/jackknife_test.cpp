@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "shapeid/models/error.hpp"
 #include "shapeid/reference/identify.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -21,7 +22,7 @@ TEST(Jackknife, OfAMeanIsItsStandardError) {
   model.free_links = {0};
   model.shapes.push_back({0, make_cuboid({0.1, 0.2, 0.3}, Eigen::Isometry3d::Identity()), "0"});
   for (const std::vector<double>& readings :
-       {std::vector{2.0, 2.3}, std::vector{1.9, 2.4, 2.2, 1.6, 2.1}}) {
+       {std::vector{2.0, 2.1}, std::vector{1.9, 2.4, 2.2, 1.6, 2.1}}) {
     CompressedRows rows;
     for (const double reading : readings) {
       Eigen::MatrixXd block = Eigen::MatrixXd::Zero(11, 11);
@@ -46,6 +47,72 @@ TEST(Jackknife, OfAMeanIsItsStandardError) {
     const InertialParameters unit = unit_parameters(model.shapes[0].shape);
     EXPECT_LT(scaled((found.standard_error - error * unit.values.cwiseAbs()).norm(), mean, 11),
               few_hundred_eps);
+  }
+}
+
+BodyModel of_cuboids(const std::vector<Eigen::Vector3d>& sides) {
+  BodyModel model;
+  model.known = Eigen::VectorXd::Zero(10 * std::ssize(sides));
+  for (std::size_t l = 0; l < sides.size(); ++l) {
+    const int link = static_cast<int>(l);
+    model.free_links.push_back(link);
+    model.shapes.push_back(
+        {link, make_cuboid(sides[l], Eigen::Isometry3d::Identity()), std::to_string(l)});
+  }
+  return model;
+}
+
+// Without its first block the mass is held at zero: errors are distances from the estimate, as that
+// of a mean that no bound holds would not show.
+TEST(Jackknife, IsAroundTheAnswer) {
+  const BodyModel model = of_cuboids({{0.1, 0.2, 0.3}});
+  CompressedRows rows;
+  for (const double reading : {0.9, -0.2, 0.0}) {
+    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(11, 11);
+    block(0, 0) = 1.0;
+    block(0, 10) = reading;
+    rows.blocks.push_back({block});
+  }
+  IdentifySettings settings;
+  settings.expected_mass = 2.0;
+  settings.lambda = 0.0;
+  settings.division.most_divisions = 0;
+  const Identification found = identify(model, rows, settings);
+  const double answer = 0.7 / 3.0;
+  // Without each: 0 (held there, -0.1), 0.45, 0.35.
+  const double squares = answer * answer + std::pow(0.45 - answer, 2) + std::pow(0.35 - answer, 2);
+  EXPECT_LT(scaled(std::abs(found.standard_error[0] - std::sqrt(2.0 / 3.0 * squares)), 1.0, 11),
+            few_hundred_eps);
+}
+
+// By hand: two cuboids of 6 and 12 litres share 9 kg as 3 and 6. Every second moment of a cuboid is
+// m (b^2 + c^2) / 12; first moments and products, zero by symmetry, count as a tenth of the
+// largest of their group, first moments as a tenth of the mass.
+TEST(NaturalSizes, AreWhatALinksShareOfTheMassMakes) {
+  const BodyModel model = of_cuboids({{0.1, 0.2, 0.3}, {0.4, 0.1, 0.3}});
+  const Eigen::VectorXd sizes = natural_sizes(model, 9.0);
+  Eigen::VectorXd expected(20);
+  expected << 3.0, 0.3, 0.3, 0.3, 0.0325, 0.00325, 0.00325, 0.025, 0.00325, 0.0125,  //
+      6.0, 0.6, 0.6, 0.6, 0.05, 0.0125, 0.0125, 0.125, 0.0125, 0.085;
+  EXPECT_LT(scaled((sizes - expected).norm(), expected.norm(), 20), few_hundred_eps) << sizes;
+}
+
+TEST(Identify, OneBlockThatTellsAllIsTooShort) {
+  const BodyModel model = of_cuboids({{0.1, 0.2, 0.3}});
+  CompressedRows rows;
+  for (const double weight : {1.0, 0.0}) {
+    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(11, 11);
+    block(0, 0) = weight;
+    block(0, 10) = 2.0 * weight;
+    rows.blocks.push_back({block});
+  }
+  IdentifySettings settings;
+  settings.expected_mass = 2.0;
+  try {
+    static_cast<void>(identify(model, rows, settings));
+    FAIL() << "accepted";
+  } catch (const Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), "too-short");
   }
 }
 
