@@ -116,10 +116,11 @@ TEST(Diagnose, DrawsJointsOfAnyName) {
   scratch_file("named.urdf", renamed(read_file(robots + "quadruped.urdf"), in_xml));
   const CommandRun run = shapeid(
       fmt::format("diagnose --robot named.urdf --robot-yaml {}quadruped.robot.yaml --log named.csv "
-                  "--json --out named",
+                  "--trust --json --out named",
                   robots));
   ASSERT_EQ(run.status, 0) << run.err;
-  const auto& rows = nlohmann::json::parse(run.out)["heldout"]["rows"];
+  const auto result = nlohmann::json::parse(run.out);
+  const auto& rows = result["heldout"]["rows"];
   EXPECT_NE(std::find(rows.begin(), rows.end(), name), rows.end()) << rows.dump();
   EXPECT_TRUE(std::filesystem::exists(scratch() + "/named/report.html"));
   EXPECT_FALSE(std::filesystem::exists(scratch() + "/drawn_by_name"));
