@@ -115,6 +115,7 @@ class Source {
 };
 
 void track(Options& options) {
+  if (!options.checkpoint.empty()) check_replaceable(options.checkpoint);
   std::optional<Checkpoint> checkpoint;
   if (options.resume && std::filesystem::exists(options.checkpoint)) {
     checkpoint = read_checkpoint(options.checkpoint);

@@ -87,6 +87,7 @@ void TrackRun::watch_clock(MeasuredRow row) {
     guard_.flush();
     while (const std::optional<GuardedRow> held = guard_.next()) take(*held);
     stream_.restart();
+    while (const std::optional<Sample> sample = stream_.next()) take(*sample);
     line_time_.reset();
   }
   row_time_ = time;
@@ -259,7 +260,7 @@ json TrackRun::contacts_json() const {
 std::string TrackRun::scale() const {
   const Robot& robot = robot_.robot;
   if (settings_.estimates.identifier.contacts == ContactTreatment::measured) return "forces";
-  const bool all_in_air = events_.airborne == events_.taken + events_.not_finite;
+  const bool all_in_air = events_.airborne == events_.taken + events_.still + events_.not_finite;
   const bool joint_carries = model_.free_links.back() > 0;
   if (robot.root == Root::fixed || joint_carries || !all_in_air) return "joint rows";
   for (int i = 0; i < robot.link_count(); ++i) {

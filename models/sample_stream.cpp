@@ -54,12 +54,20 @@ void SampleStream::prepare() {
 }
 
 void SampleStream::restart() {
-  if (grid_) grid_.emplace(rate_, longest_step_);
+  if (!grid_) return;
+  segments_->finish();
+  settle();
+  margin_.finish();
+  grid_.emplace(rate_, longest_step_);
 }
 
 void SampleStream::take(const MeasuredRow& row) {
   grid_->push(row);
   while (const std::optional<GridRow> point = grid_->next()) segments_->push(*point);
+  settle();
+}
+
+void SampleStream::settle() {
   while (std::optional<FlaggedSample> sample = segments_->next()) {
     if (plan_.contacts.empty() && !robot_.contacts.empty()) {
       const std::optional<std::vector<bool>> derived = options_.derive_contacts(sample->sample);

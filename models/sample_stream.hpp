@@ -35,7 +35,8 @@ class SampleStream {
 
   /// Rows in the order of time. Throws InputError for a clock or a cutoff that cannot be.
   void push(const MeasuredRow& row);
-  /// The next row does not continue the last one: filters start anew.
+  /// The next row does not continue the last one: filters start anew, and samples that were held
+  /// back for what comes after them are handed out.
   void restart();
   [[nodiscard]] std::optional<Sample> next();
 
@@ -63,6 +64,7 @@ class SampleStream {
   void learn_rate();
   void prepare();
   void take(const MeasuredRow& row);
+  void settle();
 
   std::string path_;
   const ChannelPlan& plan_;
