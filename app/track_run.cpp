@@ -97,8 +97,10 @@ void TrackRun::watch_clock(MeasuredRow row) {
   if (!estimates_) return;
   constexpr double windows = 1.5;  // a window that is late has had time to come
   const double window = static_cast<double>(settings_.estimates.identifier.window) / stream_.rate();
-  if (time - *line_time_ > std::max(longest_silence, windows * window)) {
-    print(Why::no_samples, time);
+  // By the clock of the samples, not of the rows: what is still on its way may end a window.
+  const double passed = guard_.oldest_held() - stream_.latency();
+  if (passed - *line_time_ > std::max(longest_silence, windows * window)) {
+    print(Why::no_samples, passed);
   }
 }
 
@@ -200,7 +202,7 @@ void TrackRun::print(Why why, double time) {
   }
   due_.push_back(std::move(line));
   ++lines_;
-  line_time_ = row_time_;
+  line_time_ = time;
   events_ = TrackEvents(meaning_.plan().channels.size(), robot_.robot.contacts.size());
 }
 

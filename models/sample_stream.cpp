@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "shapeid/models/differences.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/plausibility.hpp"
 #include "shapeid/models/row_steps.hpp"
@@ -79,6 +80,13 @@ void SampleStream::settle() {
 }
 
 std::optional<Sample> SampleStream::next() { return margin_.next(); }
+
+double SampleStream::latency() const {
+  // The grid waits for a channel's next value; the sample is the middle of the rows that are
+  // differentiated, and its point of the grid may be a step behind the row.
+  const double rows = static_cast<double>(difference_reach) + 1.0;
+  return longest_step_.maxCoeff() + rows / rate_ + margin_periods / options_.cutoff;
+}
 
 double SampleStream::group_delay() const {
   return Butterworth(log_filter_order, options_.cutoff, rate_).group_delay(0.0);

@@ -44,6 +44,9 @@ class SampleStream {
   [[nodiscard]] double rate() const { return rate_; }
   /// s, at low frequency, of every channel; only once the rate is known.
   [[nodiscard]] double group_delay() const;
+  /// s: no sample comes that is older than the newest row pushed by more; only once the rate is
+  /// known.
+  [[nodiscard]] double latency() const;
   /// Stretches of time without gaps, so far.
   [[nodiscard]] std::size_t segments() const { return segments_ ? segments_->segments() : 0; }
 

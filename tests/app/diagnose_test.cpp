@@ -220,9 +220,12 @@ TEST(Diagnose, LoggedAndDerivedContactsAreNotMixed) {
 TEST(Diagnose, NotesOfFurtherLogsNameThem) {
   ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out fast.csv").status, 0);
+  ASSERT_EQ(shapeid("simulate --seconds 4 --seed 3 --out test.csv").status, 0);
   leave_out("fast.csv", "slopeless.csv", "dq.");
   const CommandRun run =
-      shapeid(fmt::format("diagnose {} --trust --json --log run.csv --also slopeless.csv", files));
+      shapeid(fmt::format("diagnose {} --trust --json --log run.csv --also slopeless.csv "
+                          "--test test.csv",
+                          files));
   ASSERT_EQ(run.status, 0) << run.err;
   const auto result = nlohmann::json::parse(run.out);
   const auto& notes = result["notes"];

@@ -109,8 +109,7 @@ TEST_F(Given, ValuesThatAreEmptyAndOptionsThatWouldDoNothing) {
   expect_refused("simulate --out a.txt", "no name of a log");
   expect_refused("inspect given.csv --mapping none.yaml", "requires --robot");
   expect_refused(fmt::format("inspect {0}quadruped.urdf --robot none", robots), "a robot itself");
-  expect_refused(fmt::format("diagnose {} --log given.csv --row-cutoff 5", robot),
-                 "not expected: --row-cutoff");
+  expect_refused(fmt::format("diagnose {} --log given.csv --row-cutoff 5", robot), "--row-cutoff");
   expect_refused("identfy", "there is no verb \"identfy\"");
 }
 
@@ -149,8 +148,6 @@ TEST_F(Given, FilesThatAreReadAreNotWrittenOver) {
                                "own/identified.robot.yaml{}",
                                own, how),
                    "own/identified.robot.yaml: is no checkpoint");
-    expect_refused(fmt::format("track --robot {} own/log.csv --checkpoint own{}", own, how),
-                   "own: is no checkpoint");
   }
   EXPECT_EQ(read_small_file(scratch() + "/own/identified.robot.yaml", 1 << 20), notes);
   // One of an earlier run is replaced, of whichever version.
@@ -208,7 +205,6 @@ TEST_F(Given, SlowLogsCanBeInspected) {
   expect_refused(inspect, "choose a cutoff");
   const CommandRun seen = shapeid(inspect + "--cutoff 5");
   EXPECT_EQ(seen.status, 0) << seen.err;
-  EXPECT_NE(seen.out.find("rate                       25"), std::string::npos) << seen.out;
   expect_refused("inspect slow.csv --cutoff 5", "--cutoff requires --robot");
 }
 

@@ -123,11 +123,13 @@ TEST(TrackEvents, TimesOfLinesIncreaseAcrossABreak) {
     Lines log = simulated("long", "--seconds 6 --rate 500");
     log.erase(log.begin() + static_cast<std::ptrdiff_t>(first),
               log.begin() + static_cast<std::ptrdiff_t>(first) + 1500);
-    const std::vector<json> lines = tracked(log);
-    EXPECT_EQ(total(lines, "rows", "gaps"), 1U);
-    for (std::size_t k = 1; k < lines.size(); ++k) {
-      EXPECT_LT(lines[k - 1].at("time").get<double>(), lines[k].at("time").get<double>())
-          << "line " << k << " after row " << first;
+    for (const char* options : {"", "--cutoff 6", "--window 3"}) {
+      const std::vector<json> lines = tracked(log, options);
+      EXPECT_EQ(total(lines, "rows", "gaps"), 1U);
+      for (std::size_t k = 1; k < lines.size(); ++k) {
+        EXPECT_LT(lines[k - 1].at("time").get<double>(), lines[k].at("time").get<double>())
+            << "line " << k << ", a break after row " << first << " " << options;
+      }
     }
   }
 }
