@@ -143,12 +143,10 @@ TEST_F(Given, FilesThatAreReadAreNotWrittenOver) {
   EXPECT_EQ(read_small_file(scratch() + "/" + own, 1 << 20), before);
   // What is beside the robot is read without being named.
   const std::string notes = read_small_file(scratch() + "/own/identified.robot.yaml", 1 << 20);
-  for (const char* how : {"", " --resume"}) {
-    expect_refused(fmt::format("track --robot {} own/log.csv --checkpoint "
-                               "own/identified.robot.yaml{}",
-                               own, how),
-                   "own/identified.robot.yaml: is no checkpoint");
-  }
+  const std::string beside =
+      fmt::format("track --robot {} own/log.csv --checkpoint own/identified.robot.yaml", own);
+  expect_refused(beside, "own/identified.robot.yaml: is no checkpoint");
+  expect_refused(beside + " --resume", "own/identified.robot.yaml: is not JSON");
   EXPECT_EQ(read_small_file(scratch() + "/own/identified.robot.yaml", 1 << 20), notes);
   // One of an earlier run is replaced, of whichever version.
   scratch_file("own/state.json", "{\"format\": \"shapeid-checkpoint-1\"}\n");
