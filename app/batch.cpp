@@ -66,6 +66,7 @@ void BatchOptions::add_to(CLI::App& verb) {
   verb.add_option("--log", logs, "logs, CSV or CSV.gz; the order counts, to the last bit")
       ->required();
   inputs.add_smoothing_to(verb);
+  inputs.add_row_cutoff_to(verb);
   add_solver_options(verb, settings);
   sought.add_to(verb);
   verb.add_option("--min-mass", least_mass, "kg: a link found lighter keeps its given inertia")
@@ -95,6 +96,7 @@ void refuse_repeated(const std::vector<std::string>& logs) {
 
 void batch(const BatchOptions& options, Peers& peers) {
   refuse_repeated(options.logs);
+  check_solver(options.settings);
   const RobotInputs robot = read_robot_with_any(options.inputs, options.logs);
   const BodyModel model = sought_bodies(options.sought, robot.robot);
   BatchOptions with_mass = options;

@@ -2,15 +2,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/number.hpp"
 #include "shapeid/models/orders.hpp"
 
 namespace shapeid::app {
@@ -23,12 +23,8 @@ struct Options {
 };
 
 double number(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    throw InputError("'" + text + "' is not a finite number", "write decimals, such as -0.25");
-  }
-  return value;
+  if (const std::optional<double> value = parse_number(text)) return *value;
+  throw InputError("a parameter " + why_no_number(text), "write decimals, such as -0.25");
 }
 
 void convert(const Options& options) {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <map>
-#include <regex>
 
 #include "shapeid/app/result.hpp"
 #include "shapeid/diagnosis/hypotheses.hpp"
@@ -215,34 +214,16 @@ std::string structures_text(const DiagnosisRun& run) {
   return text;
 }
 
-/// Friction of a joint for <dynamics>: b and c of what was found.
-std::map<std::string, std::pair<double, double>> joint_friction(const DiagnosisRun& run,
-                                                                const Robot& robot) {
-  std::map<std::string, std::pair<double, double>> friction;
+/// Friction of joints for <dynamics>: b and c of what was found.
+std::map<std::string, JointFriction> joint_friction(const DiagnosisRun& run, const Robot& robot) {
+  std::map<std::string, JointFriction> friction;
   for (const AppliedEffect& a : run.consistent.model.effects) {
-    if (a.effect->id == "viscous_friction") friction[robot.joint(a.site).name].first = a.value[0];
-    if (a.effect->id == "coulomb_friction") friction[robot.joint(a.site).name].second = a.value[0];
+    const bool viscous = a.effect->id == "viscous_friction";
+    if (!viscous && a.effect->id != "coulomb_friction") continue;
+    JointFriction& of_joint = friction[robot.joint(a.site).name];
+    (viscous ? of_joint.damping : of_joint.friction) = a.value[0];
   }
   return friction;
-}
-
-/// `text` with the <dynamics> of one joint replaced or added; all else as it was.
-std::string with_dynamics(const std::string& text, const std::string& joint, double damping,
-                          double friction) {
-  std::string name;
-  for (const char c : joint)
-    name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? std::string(1, c)
-                                                             : std::string("\\") + c;
-  const std::regex opening("<joint[^>]*name\\s*=\\s*[\"']" + name + "[\"'][^>]*>");
-  std::smatch match;
-  if (!std::regex_search(text, match, opening)) return text;
-  const auto from = static_cast<std::size_t>(match.position() + match.length());
-  const std::size_t end = text.find("</joint>", from);
-  if (end == std::string::npos) return text;
-  std::string body =
-      std::regex_replace(text.substr(from, end - from), std::regex("\\s*<dynamics[^>]*/>"), "");
-  body += fmt::format("<dynamics damping=\"{}\" friction=\"{}\"/>", damping, friction);
-  return text.substr(0, from) + body + text.substr(end);
 }
 
 }  // namespace
@@ -389,11 +370,7 @@ std::string diagnosed_urdf(DiagnosisRun& run, const Robot& robot, const std::str
       written.push_back({link, inertia});
     }
   }
-  std::string text = write_urdf(original, robot, written);
-  for (const auto& [joint, friction] : joint_friction(run, robot)) {
-    text = with_dynamics(text, joint, friction.first, friction.second);
-  }
-  return text;
+  return with_friction(write_urdf(original, robot, written), original, joint_friction(run, robot));
 }
 
 }  // namespace shapeid::app

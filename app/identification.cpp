@@ -123,12 +123,15 @@ class EffectsRun {
 
 }  // namespace
 
-reference::IdentifySettings settings_for(const LogSamples& log, const RobotInputs& robot,
-                                         const MotionInputs& inputs,
-                                         reference::IdentifySettings settings) {
+void check_solver(const reference::IdentifySettings& settings) {
   if (settings.division.k1 == 0.0 && settings.division.k2 == 0.0) {
     throw InputError("--k1 and --k2 are both 0", "one above 0: they say which shape is divided");
   }
+}
+
+reference::IdentifySettings settings_for(const LogSamples& log, const RobotInputs& robot,
+                                         const MotionInputs& inputs,
+                                         reference::IdentifySettings settings) {
   settings.contacts = log.contacts();
   if (settings.weight.size() == 0) settings.weight = weight(robot);
   if (inputs.row_cutoff > 0.0) {
@@ -146,6 +149,7 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
     throw InputError({options.test_log}, "is fitted, too",
                      "a test on data that are used for nothing else");
   }
+  check_solver(options.settings);
   std::optional<EffectsRun> effects;
   if (!options.effects.empty()) effects.emplace(robot, inputs, options);
   LogSamples log(inputs.log, robot, inputs);

@@ -24,6 +24,9 @@ struct RunOptions {
     const RunOptions& options,
     const std::function<void(const reference::DivisionRun&)>& watch = {});
 
+/// Throws InputError for settings that no log can be identified with.
+void check_solver(const reference::IdentifySettings& settings);
+
 /// The settings with what robot and log say: contacts, weight, the rate of a row filter.
 [[nodiscard]] reference::IdentifySettings settings_for(const LogSamples& log,
                                                        const RobotInputs& robot,

@@ -88,6 +88,7 @@ void add_identify(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("identify", "masses, parameters and a URDF from a log");
   options->inputs.add_to(*verb);
+  options->inputs.add_row_cutoff_to(*verb);
   add_solver_options(*verb, options->run);
   add_hold_out_option(*verb, options->inputs);
   options->sought.add_to(*verb);

@@ -42,6 +42,15 @@ std::string robot_yaml_beside(const std::string& urdf) {
   return {};
 }
 
+void check_measured(const Robot& robot) {
+  std::set<std::string> names;
+  for (const Contact& contact : robot.contacts) {
+    if (names.insert(contact.name).second) continue;
+    throw InputError(fmt::format("--contacts measured, but {} has several contacts", contact.name),
+                     "one contact for a measured force, at the place where it acts");
+  }
+}
+
 }  // namespace
 
 void MotionInputs::add_robot_to(CLI::App& verb) {
@@ -73,15 +82,18 @@ void MotionInputs::add_smoothing_to(CLI::App& verb) {
                       "Hz, of the zero-phase filter over every channel; 0 does not smooth")
           ->check(zero_or_above())
           ->capture_default_str();
-  verb.add_option("--row-cutoff", row_cutoff,
-                  "Hz: filter the rows of the equations as well; then --cutoff can be high, which "
-                  "distorts less (docs/recovery.md)")
-      ->check(above_zero());
   auto* grid = verb.add_option("--rate", rate, "Hz, of the regular grid (default: the log's)")
                    ->check(rate_of_a_log());
   verb.add_flag("--exact", exact, "take dq, ddq and base.gyrodot from the log (simulations)")
       ->excludes(grid)
       ->excludes(smoothing);
+}
+
+void MotionInputs::add_row_cutoff_to(CLI::App& verb) {
+  verb.add_option("--row-cutoff", row_cutoff,
+                  "Hz: filter the rows of the equations as well; then --cutoff can be high, which "
+                  "distorts less (docs/recovery.md)")
+      ->check(above_zero());
 }
 
 ContactTreatment contact_treatment(const MotionInputs& inputs, const Robot& robot) {
@@ -134,6 +146,7 @@ RobotInputs read_robot(const MotionInputs& inputs, const LogTable& log) {
         inputs.robot));
   }
   if (!result.notes.contacts_given) add_default_contacts(result.robot, log, result.mapping);
+  if (inputs.contacts == "measured") check_measured(result.robot);
   return result;
 }
 
@@ -200,13 +213,6 @@ LogSamples::LogSamples(const std::string& path, const RobotInputs& robot,
   if (contacts_ == reference::ContactTreatment::measured && !reader_.report().forces_logged) {
     throw InputError({path}, "--contacts measured, but there are no force.* columns",
                      "log force.<link>.x, .y, .z for every contact, or choose another treatment");
-  }
-  if (contacts_ != ContactTreatment::measured) return;
-  std::set<std::string> names;
-  for (const Contact& contact : robot.robot.contacts) {
-    if (names.insert(contact.name).second) continue;
-    throw InputError(fmt::format("--contacts measured, but {} has several contacts", contact.name),
-                     "one contact for a measured force, at the place where it acts");
   }
 }
 

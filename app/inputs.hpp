@@ -32,6 +32,8 @@ struct MotionInputs {
   /// All but the log and how it is smoothed.
   void add_robot_to(CLI::App& verb);
   void add_smoothing_to(CLI::App& verb);
+  /// For verbs that identify by rows of the equations.
+  void add_row_cutoff_to(CLI::App& verb);
 };
 
 /// A robot with what its files say, ready for logs.
@@ -42,7 +44,8 @@ struct RobotInputs {
   std::vector<std::string> warnings;  ///< impossible inertias that were accepted
 };
 
-/// Reads URDF, robot.yaml and mapping.yaml. The root is floating if the log has an IMU.
+/// Reads URDF, robot.yaml and mapping.yaml. The root is floating if the log has an IMU. Throws
+/// InputError also for contacts that cannot be treated as asked for.
 [[nodiscard]] RobotInputs read_robot(const MotionInputs& inputs);
 /// The same for a log whose header is read already, as a stream's must be.
 [[nodiscard]] RobotInputs read_robot(const MotionInputs& inputs, const LogTable& log);

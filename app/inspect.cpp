@@ -134,8 +134,12 @@ void inspect_columns(const Options& options) {
   fmt::print("  {:<32}{:>12}{:>12}{:>12}{:>9}\n", "column", "lower", "mean", "upper", "empty");
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Range& r = ranges[i];
+    if (r.count == 0) {
+      fmt::print("  {:<32}{:>36}{:>9}\n", columns[i], "no number", r.empty);
+      continue;
+    }
     fmt::print("  {:<32}{:>12.5g}{:>12.5g}{:>12.5g}{:>9}\n", columns[i], r.lower,
-               r.sum / static_cast<double>(std::max<std::size_t>(r.count, 1)), r.upper, r.empty);
+               r.sum / static_cast<double>(r.count), r.upper, r.empty);
   }
 }
 
@@ -205,6 +209,10 @@ void add_inspect(CLI::App& app) {
   verb->add_option("--mapping", options->inputs.mapping, "mapping.yaml of the log")->needs(robot);
   verb->add_option("--robot-yaml", options->inputs.robot_yaml, "robot.yaml (default: beside)")
       ->needs(robot);
+  options->inputs.add_smoothing_to(*verb);
+  for (const char* option : {"--cutoff", "--rate", "--exact"}) {
+    verb->get_option(option)->needs(robot);
+  }
   verb->add_flag("--json", options->json, "print JSON");
   verb->callback([options] { inspect(*options); });
 }

@@ -20,7 +20,7 @@ struct Options {
   RunOptions run;
   std::vector<std::string> area;
   Delivery delivery;
-  double expected_mass = 1.0;
+  double expected_mass = 0.0;
 };
 
 double bound(const std::string& text) {
@@ -44,10 +44,18 @@ BodyModel region(const Options& options, const Robot& robot) {
   return load_region(robot, site->link, lower, upper, site->pose);
 }
 
+/// As asked for, else the middle of what robot.yaml says of loads, else a kilogram.
+double mass_of_load(const Options& options, const RobotNotes& notes) {
+  if (options.expected_mass > 0.0) return options.expected_mass;
+  const auto range = notes.expected_mass.find("load");
+  if (range == notes.expected_mass.end()) return 1.0;
+  return 0.5 * (range->second.lower + range->second.upper);
+}
+
 void load(Options& options) {
   const RobotInputs robot = read_robot(options.inputs);
   const BodyModel model = region(options, robot.robot);
-  options.run.settings.expected_mass = options.expected_mass;
+  options.run.settings.expected_mass = mass_of_load(options, robot.notes);
   const Result result = run_identification(robot, model, options.inputs, options.run);
   const Judgement judged = judge(result);
   const std::optional<double>& floor = judged.certified.proof.floor;
@@ -64,6 +72,7 @@ void add_load(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("load", "an unknown load on a link: its mass and its place");
   options->inputs.add_to(*verb);
+  options->inputs.add_row_cutoff_to(*verb);
   add_solver_options(*verb, options->run);
   add_hold_out_option(*verb, options->inputs);
   verb->add_option("--area", options->area,
@@ -71,9 +80,9 @@ void add_load(CLI::App& app) {
       ->required()
       ->expected(7);
   verb->add_option("--expected-mass", options->expected_mass,
-                   "kg, roughly: it scales the criterion")
-      ->check(mass_of_a_robot())
-      ->capture_default_str();
+                   "kg, roughly: it scales the criterion (default: the middle of \"load\" in "
+                   "robot.yaml, else 1)")
+      ->check(mass_of_a_robot());
   add_delivery_options(*verb, options->delivery);
   verb->callback([options] { load(*options); });
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
@@ -74,22 +73,26 @@ void check_value(const CLI::Option& option, const std::string& value) {
   }
 }
 
-/// What verbs write into the folder that --out names.
-constexpr std::array written_into_folders = {
-    "result.json",     "problem.json", "answer.json", "certificate.json",
-    "identified.urdf", "effects.yaml", "report.html", "predict_torque.hpp"};
+/// What a verb writes into the folder that --out names.
+std::vector<std::string> written_into_folder(const CLI::App& verb) {
+  if (verb.get_name() == "diagnose") {
+    return {"identified.urdf", "effects.yaml", "predict_torque.hpp", "result.json", "report.html"};
+  }
+  return {"result.json", "problem.json", "answer.json", "certificate.json", "identified.urdf"};
+}
 
-/// Whether `path`, written to, would change what `input` names: the file, or one of its own in the
+/// Whether `path`, written to, would change what `input` names: the file, or one of `names` in the
 /// folder.
-bool writes_over(const std::filesystem::path& path, const std::filesystem::path& input) {
+bool writes_over(const std::filesystem::path& path, const std::vector<std::string>& names,
+                 const std::filesystem::path& input) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(input, none)) return false;
   if (!std::filesystem::is_directory(path, none)) {
     return std::filesystem::equivalent(path, input, none);
   }
-  return std::any_of(
-      written_into_folders.begin(), written_into_folders.end(),
-      [&](const char* name) { return std::filesystem::equivalent(path / name, input, none); });
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return std::filesystem::equivalent(path / name, input, none);
+  });
 }
 
 bool is_written(const CLI::Option& option) {
@@ -117,12 +120,13 @@ void check_given(const CLI::App& verb) {
     if (option->get_type_size() == 0) continue;  // flags
     for (const std::string& value : option->results()) check_value(*option, value);
   }
+  const std::vector<std::string> names = written_into_folder(verb);
   for (const CLI::Option* out : options) {
     if (!is_written(*out) || out->count() == 0) continue;
     for (const CLI::Option* in : options) {
       if (is_written(*in)) continue;
       for (const std::string& input : in->results()) {
-        if (!writes_over(out->results().front(), input)) continue;
+        if (!writes_over(out->results().front(), names, input)) continue;
         throw InputError({input}, "is read, and would be written over by " + out->get_name(),
                          "another place for what is written");
       }

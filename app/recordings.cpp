@@ -73,6 +73,14 @@ RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotIn
       throw InputError({paths[k]}, "has other columns than " + paths.front(),
                        "logs with the same columns");
     }
+    if (more.motion.contacts_derived != all.motion.contacts_derived &&
+        all.contacts == ContactTreatment::project) {
+      throw InputError({paths[k]},
+                       fmt::format("has {}contact.* columns, and {} has {}",
+                                   more.motion.contacts_derived ? "no " : "", paths.front(),
+                                   all.motion.contacts_derived ? "none" : "some"),
+                       "logs that all have contacts, or none; or --contacts measured or none");
+    }
     if (!more.recording.samples().empty() && !samples.empty()) all.starts.push_back(samples.size());
     const double shift = shifts.empty() ? all.ends + pause - more.begins : shifts[k];
     all.ends = more.ends + shift;
@@ -84,6 +92,9 @@ RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotIn
     all.motion.rows += more.motion.rows;
     all.motion.samples += more.motion.samples;
     all.motion.gaps += more.motion.gaps + 1;
+    for (const std::string& note : more.motion.notes) {
+      all.motion.notes.push_back(paths[k] + ": " + note);
+    }
   }
   all.recording = recording_of(std::move(samples), all.motion, inputs, all.begins);
   return all;

@@ -53,6 +53,17 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
                    fmt::format("{}", fmt::join(names, ", ")));
 }
 
+/// CLI11 takes -0.5 for a number and -.5 for an option.
+std::vector<std::string> with_leading_digits(int argc, char** argv) {
+  std::vector<std::string> words(argv, argv + argc);
+  for (std::string& word : words) {
+    const bool is_number =
+        word.size() > 2 && word.starts_with("-.") && word[2] >= '0' && word[2] <= '9';
+    if (is_number) word.insert(1, "0");
+  }
+  return words;
+}
+
 }  // namespace
 
 int run_command(CLI::App& app, int argc, char** argv) {
@@ -66,7 +77,10 @@ int run_command(CLI::App& app, int argc, char** argv) {
   }
   try {
     check_verb(app, argc, argv);
-    app.parse(argc, argv);
+    const std::vector<std::string> words = with_leading_digits(argc, argv);
+    std::vector<const char*> pointers;
+    for (const std::string& word : words) pointers.push_back(word.c_str());
+    app.parse(argc, pointers.data());
     return finish_output();
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0) return complain(e.what(), bad_input);

@@ -118,6 +118,8 @@ void track(Options& options) {
   std::optional<Checkpoint> checkpoint;
   if (options.resume && std::filesystem::exists(options.checkpoint)) {
     checkpoint = read_checkpoint(options.checkpoint);
+  } else if (!options.checkpoint.empty()) {
+    check_replaceable(options.checkpoint);
   }
   Source source(options, checkpoint);
   LogTable table(options.inputs.log, source.position().header, 1);

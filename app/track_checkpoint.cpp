@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <filesystem>
+#include <system_error>
 
 #include "shapeid/app/track_archive.hpp"
 #include "shapeid/models/error.hpp"
@@ -17,6 +19,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* format = "shapeid-checkpoint-4";
+constexpr const char* any_format = "shapeid-checkpoint-";
 constexpr const char* what_is_right = "give a checkpoint that --checkpoint wrote";
 
 /// Bytes: an hour of windows of a whole robot fits; beyond it something else was named.
@@ -45,6 +48,19 @@ json robot_json(const Robot& robot) {
 
 InputError not_whole(const std::string& path, const json::exception& e) {
   return {Place{path}, fmt::format("is no whole checkpoint ({})", e.what()), what_is_right};
+}
+
+bool is_checkpoint(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) return false;
+  const std::string text = read_small_file(path, largest_checkpoint);
+  try {
+    const json document = parse_json(text, {path, "docs/formats/track.md"});
+    const auto says = document.find("format");
+    return says != document.end() && says->is_string() &&
+           says->get_ref<const std::string&>().starts_with(any_format);
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 /// Tells a damaged file from a whole one. Whoever means to deceive can compute it as well.
@@ -100,6 +116,13 @@ void write_checkpoint(const std::string& path, TrackRun& run, const LogPosition&
                          {"state", state},
                          {"digest", damage_digest(log, state)}};
   write_file(path, document.dump() + "\n");
+}
+
+void check_replaceable(const std::string& path) {
+  std::error_code unknown;  // what cannot be looked at cannot be written either, which is said then
+  if (!std::filesystem::exists(path, unknown) || is_checkpoint(path)) return;
+  throw InputError({path}, "is no checkpoint, and would be written over by --checkpoint",
+                   "a new file, or a checkpoint of an earlier run");
 }
 
 Checkpoint read_checkpoint(const std::string& path) {

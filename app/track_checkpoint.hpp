@@ -31,6 +31,10 @@ struct Checkpoint {
   LogPosition position;
 };
 
+/// Throws InputError if something is at `path` that is no checkpoint of any version, and would be
+/// written over.
+void check_replaceable(const std::string& path);
+
 /// Throws InputError for a file that is no checkpoint, or of another version.
 [[nodiscard]] Checkpoint read_checkpoint(const std::string& path);
 

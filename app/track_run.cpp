@@ -87,6 +87,7 @@ void TrackRun::watch_clock(MeasuredRow row) {
     guard_.flush();
     while (const std::optional<GuardedRow> held = guard_.next()) take(*held);
     stream_.restart();
+    while (const std::optional<Sample> sample = stream_.next()) take(*sample);
     line_time_.reset();
   }
   row_time_ = time;
@@ -96,8 +97,10 @@ void TrackRun::watch_clock(MeasuredRow row) {
   if (!estimates_) return;
   constexpr double windows = 1.5;  // a window that is late has had time to come
   const double window = static_cast<double>(settings_.estimates.identifier.window) / stream_.rate();
-  if (time - *line_time_ > std::max(longest_silence, windows * window)) {
-    print(Why::no_samples, time);
+  // By the clock of the samples, not of the rows: what is still on its way may end a window.
+  const double passed = guard_.oldest_held() - stream_.latency();
+  if (passed - *line_time_ > std::max(longest_silence, windows * window)) {
+    print(Why::no_samples, passed);
   }
 }
 
@@ -199,7 +202,7 @@ void TrackRun::print(Why why, double time) {
   }
   due_.push_back(std::move(line));
   ++lines_;
-  line_time_ = row_time_;
+  line_time_ = time;
   events_ = TrackEvents(meaning_.plan().channels.size(), robot_.robot.contacts.size());
 }
 
@@ -259,7 +262,7 @@ json TrackRun::contacts_json() const {
 std::string TrackRun::scale() const {
   const Robot& robot = robot_.robot;
   if (settings_.estimates.identifier.contacts == ContactTreatment::measured) return "forces";
-  const bool all_in_air = events_.airborne == events_.taken + events_.not_finite;
+  const bool all_in_air = events_.airborne == events_.taken + events_.still + events_.not_finite;
   const bool joint_carries = model_.free_links.back() > 0;
   if (robot.root == Root::fixed || joint_carries || !all_in_air) return "joint rows";
   for (int i = 0; i < robot.link_count(); ++i) {

@@ -83,7 +83,7 @@ class TrackRun {
   TrackEvents events_;
   std::optional<double> row_time_;     ///< s, of the last row
   std::optional<double> row_step_;     ///< s, between the last two
-  std::optional<double> line_time_;    ///< s, of the last line, by the clock of the rows
+  std::optional<double> line_time_;    ///< s, of the last line, or of the first row after a break
   std::optional<double> sample_time_;  ///< s, of the last sample
   std::size_t calm_ = 0;               ///< samples in a row in which nothing moves
   std::size_t held_back_ = 0;          ///< still samples since the last line

@@ -62,6 +62,8 @@ class RowGuard {
   /// No row follows the last one directly: hand on what is held.
   void flush();
   [[nodiscard]] std::optional<GuardedRow> next();
+  /// s: time of the oldest row that is held back. Only after a push.
+  [[nodiscard]] double oldest_held() const { return held_.front().row.time; }
 
   /// All that is remembered, for a checkpoint.
   template <class Archive>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "shapeid/models/differences.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/plausibility.hpp"
 #include "shapeid/models/row_steps.hpp"
@@ -54,12 +55,20 @@ void SampleStream::prepare() {
 }
 
 void SampleStream::restart() {
-  if (grid_) grid_.emplace(rate_, longest_step_);
+  if (!grid_) return;
+  segments_->finish();
+  settle();
+  margin_.finish();
+  grid_.emplace(rate_, longest_step_);
 }
 
 void SampleStream::take(const MeasuredRow& row) {
   grid_->push(row);
   while (const std::optional<GridRow> point = grid_->next()) segments_->push(*point);
+  settle();
+}
+
+void SampleStream::settle() {
   while (std::optional<FlaggedSample> sample = segments_->next()) {
     if (plan_.contacts.empty() && !robot_.contacts.empty()) {
       const std::optional<std::vector<bool>> derived = options_.derive_contacts(sample->sample);
@@ -71,6 +80,13 @@ void SampleStream::take(const MeasuredRow& row) {
 }
 
 std::optional<Sample> SampleStream::next() { return margin_.next(); }
+
+double SampleStream::latency() const {
+  // The grid waits for a channel's next value; the sample is the middle of the rows that are
+  // differentiated, and its point of the grid may be a step behind the row.
+  const double rows = static_cast<double>(difference_reach) + 1.0;
+  return longest_step_.maxCoeff() + rows / rate_ + margin_periods / options_.cutoff;
+}
 
 double SampleStream::group_delay() const {
   return Butterworth(log_filter_order, options_.cutoff, rate_).group_delay(0.0);

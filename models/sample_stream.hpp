@@ -35,7 +35,8 @@ class SampleStream {
 
   /// Rows in the order of time. Throws InputError for a clock or a cutoff that cannot be.
   void push(const MeasuredRow& row);
-  /// The next row does not continue the last one: filters start anew.
+  /// The next row does not continue the last one: filters start anew, and samples that were held
+  /// back for what comes after them are handed out.
   void restart();
   [[nodiscard]] std::optional<Sample> next();
 
@@ -43,6 +44,9 @@ class SampleStream {
   [[nodiscard]] double rate() const { return rate_; }
   /// s, at low frequency, of every channel; only once the rate is known.
   [[nodiscard]] double group_delay() const;
+  /// s: no sample comes that is older than the newest row pushed by more; only once the rate is
+  /// known.
+  [[nodiscard]] double latency() const;
   /// Stretches of time without gaps, so far.
   [[nodiscard]] std::size_t segments() const { return segments_ ? segments_->segments() : 0; }
 
@@ -63,6 +67,7 @@ class SampleStream {
   void learn_rate();
   void prepare();
   void take(const MeasuredRow& row);
+  void settle();
 
   std::string path_;
   const ChannelPlan& plan_;

@@ -57,4 +57,14 @@ struct IdentifiedLink {
 [[nodiscard]] std::string write_urdf(const std::string& original_path, const Robot& robot,
                                      const std::vector<IdentifiedLink>& identified);
 
+/// What <dynamics> says of a joint: N m s/rad and N m (N s/m and N of a slider).
+struct JointFriction {
+  double damping = 0.0, friction = 0.0;
+};
+
+/// The text of a URDF with the <dynamics> of the named joints replaced or added, all else byte for
+/// byte as it was; `file` stands for it in messages. Throws Defect for a joint that is not there.
+[[nodiscard]] std::string with_friction(const std::string& text, const std::string& file,
+                                        const std::map<std::string, JointFriction>& friction);
+
 }  // namespace shapeid

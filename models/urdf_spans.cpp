@@ -45,12 +45,13 @@ bool is_closing(std::string_view text, std::size_t begin, std::size_t end) {
 
 }  // namespace
 
-std::vector<LinkSpan> find_links(std::string_view text) {
+std::vector<ElementSpan> find_elements(std::string_view text, std::string_view element,
+                                       std::string_view part) {
   constexpr int inside_robot = 1;
-  constexpr int inside_link = 2;
-  std::vector<LinkSpan> links;
+  constexpr int inside_element = 2;
+  std::vector<ElementSpan> found;
   int depth = 0;
-  bool in_link = false;
+  bool in_element = false, in_part = false;
   std::size_t at = text.find('<');
   while (at != std::string_view::npos) {
     std::size_t end = 0;
@@ -64,9 +65,10 @@ std::vector<LinkSpan> find_links(std::string_view text) {
     } else if (is_closing(text, begin, after_tag(text, at))) {
       end = after_tag(text, at);
       --depth;
-      if (depth == inside_robot) in_link = false;
-      if (in_link && depth == inside_link && starts_with(text, begin, "/inertial")) {
-        links.back().inertial->end = end;
+      if (depth == inside_robot) in_element = false;
+      if (in_part && depth == inside_element) {
+        found.back().parts.back().end = end;
+        in_part = false;
       }
     } else {
       end = after_tag(text, at);
@@ -74,18 +76,37 @@ std::vector<LinkSpan> find_links(std::string_view text) {
       const std::size_t name_end = std::min(text.find_first_of(" \t\r\n\v\f/>", name_begin), end);
       const std::string_view name = text.substr(name_begin, name_end - name_begin);
       const bool self_closed = text[end - 2] == '/';
-      if (depth == inside_robot && name == "link") {
-        links.push_back({{at, end}, self_closed, std::nullopt});
-        in_link = !self_closed;
+      if (depth == inside_robot && name == element) {
+        found.push_back({{at, end}, self_closed, {}});
+        in_element = !self_closed;
       }
-      if (in_link && depth == inside_link && name == "inertial") {
-        links.back().inertial = Span{at, end};
+      if (in_element && depth == inside_element && name == part) {
+        found.back().parts.push_back({at, end});
+        in_part = !self_closed;
       }
       if (!self_closed) ++depth;
     }
     at = text.find('<', end);
   }
-  return links;
+  return found;
+}
+
+std::string edited(std::string text, std::vector<Edit> edits) {
+  // From the end to the beginning, so that earlier places stay where they are.
+  std::sort(edits.begin(), edits.end(),
+            [](const Edit& a, const Edit& b) { return a.where.begin > b.where.begin; });
+  for (const Edit& edit : edits) {
+    text.replace(edit.where.begin, edit.where.end - edit.where.begin, edit.text);
+  }
+  return text;
+}
+
+std::string indent_before(std::string_view text, std::size_t at) {
+  const std::size_t newline = text.rfind('\n', at);
+  const std::size_t begin = newline == std::string_view::npos ? 0 : newline + 1;
+  const std::string_view before = text.substr(begin, at - begin);
+  const bool blank = before.find_first_not_of(" \t") == std::string_view::npos;
+  return blank ? std::string(before) : std::string();
 }
 
 }  // namespace shapeid::urdf

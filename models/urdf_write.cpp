@@ -12,13 +12,9 @@ namespace shapeid {
 namespace {
 
 using urdf::Document;
-using urdf::LinkSpan;
-
-/// A replacement of a part of the text.
-struct Edit {
-  urdf::Span where;
-  std::string text;
-};
+using urdf::Edit;
+using urdf::ElementSpan;
+using urdf::indent_before;
 
 /// The link's numbers as the reader will take them: mass, centre, tensor about the centre.
 struct Written {
@@ -54,18 +50,10 @@ std::string inertial_text(const Written& w, const std::string& indent) {
       indent, c.x(), c.y(), c.z(), w.mass, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2));
 }
 
-/// Blanks between the beginning of the line and `at`, if there is nothing else.
-std::string indent_before(std::string_view text, std::size_t at) {
-  const std::size_t newline = text.rfind('\n', at);
-  const std::size_t begin = newline == std::string_view::npos ? 0 : newline + 1;
-  const std::string_view before = text.substr(begin, at - begin);
-  const bool blank = before.find_first_not_of(" \t") == std::string_view::npos;
-  return blank ? std::string(before) : std::string();
-}
-
-Edit replace_inertial(std::string_view text, const LinkSpan& link, const Written& w) {
-  if (link.inertial) {
-    return {*link.inertial, inertial_text(w, indent_before(text, link.inertial->begin))};
+Edit replace_inertial(std::string_view text, const ElementSpan& link, const Written& w) {
+  if (!link.parts.empty()) {
+    const urdf::Span& inertial = link.parts.front();
+    return {inertial, inertial_text(w, indent_before(text, inertial.begin))};
   }
   const std::string indent = indent_before(text, link.start_tag.begin);
   const std::string inner = "\n" + indent + "  " + inertial_text(w, indent + "  ");
@@ -92,21 +80,21 @@ const Member& bearer(const Link& link) {
   return found == link.members.end() ? link.members.front() : *found;
 }
 
-std::vector<Edit> edits_for(std::string_view text, const std::vector<LinkSpan>& spans,
+std::vector<Edit> edits_for(std::string_view text, const std::vector<ElementSpan>& spans,
                             const Document& document, const Link& link,
                             const InertialParameters& inertia) {
   const Member& bearing = bearer(link);
   std::vector<Edit> edits;
   for (const Member& member : link.members) {
-    const LinkSpan& span = spans.at(document_index(document, member.name));
+    const ElementSpan& span = spans.at(document_index(document, member.name));
     if (&member == &bearing && inertia.mass() > 0.0) {
       edits.push_back(
           replace_inertial(text, span, as_written(moved(inertia, member.pose.inverse()))));
-    } else if (span.inertial) {
-      edits.push_back({*span.inertial, &member == &bearing
-                                           ? "<!-- no mass was found here -->"
-                                           : "<!-- its inertia is part of the link that it is "
-                                             "fixed to -->"});
+    } else if (!span.parts.empty()) {
+      edits.push_back({span.parts.front(), &member == &bearing
+                                               ? "<!-- no mass was found here -->"
+                                               : "<!-- its inertia is part of the link that it is "
+                                                 "fixed to -->"});
     }
   }
   return edits;
@@ -143,7 +131,7 @@ std::string write_urdf(const std::string& original_path, const Robot& robot,
                        const std::vector<IdentifiedLink>& identified) {
   std::string text = read_small_file(original_path, urdf::largest_file);
   const Document document = urdf::read_document(text, original_path);
-  const std::vector<LinkSpan> spans = urdf::find_links(text);
+  const std::vector<ElementSpan> spans = urdf::find_elements(text, "link", "inertial");
   std::vector<Edit> edits;
   for (const IdentifiedLink& one : identified) {
     const Link& link = robot.links.at(static_cast<std::size_t>(one.link));
@@ -154,12 +142,7 @@ std::string write_urdf(const std::string& original_path, const Robot& robot,
       edits.push_back(std::move(edit));
     }
   }
-  // From the end to the beginning, so that earlier places stay where they are.
-  std::sort(edits.begin(), edits.end(),
-            [](const Edit& a, const Edit& b) { return a.where.begin > b.where.begin; });
-  for (const Edit& edit : edits) {
-    text.replace(edit.where.begin, edit.where.end - edit.where.begin, edit.text);
-  }
+  text = urdf::edited(std::move(text), std::move(edits));
   verify(text, original_path, robot, identified);
   return text;
 }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "shapeid/models/log.hpp"
 #include "shapeid/models/log_writer.hpp"
@@ -226,6 +227,59 @@ TEST(Diagnose, LogsOfDifferentRatesAreNotMixed) {
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.err.find("slow.csv: has 250 samples a second, run.csv has 500"), std::string::npos)
       << run.err;
+}
+
+/// The log without the columns of these names.
+void leave_out(const std::string& from, const std::string& to, const std::string& prefix) {
+  LogReader log(scratch() + "/" + from);
+  std::vector<std::size_t> kept;
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < log.columns().size(); ++c) {
+    if (log.columns()[c].starts_with(prefix)) continue;
+    kept.push_back(c);
+    names.push_back(log.columns()[c]);
+  }
+  LogWriter out(scratch() + "/" + to, names);
+  while (std::optional<LogRow> row = log.next()) {
+    std::vector<double> values;
+    for (const std::size_t c : kept) values.push_back(row->values[c]);
+    out.write(values);
+  }
+  out.close();
+}
+
+TEST(Diagnose, LoggedAndDerivedContactsAreNotMixed) {
+  ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
+  ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out flagged.csv").status, 0);
+  leave_out("flagged.csv", "derived.csv", "contact.");
+  const std::string words = fmt::format("diagnose {} --trust --json --log ", files);
+  const CommandRun first = shapeid(words + "run.csv --also derived.csv");
+  EXPECT_EQ(first.status, 2);
+  EXPECT_NE(first.err.find("derived.csv: has no contact.* columns, and run.csv has some"),
+            std::string::npos)
+      << first.err;
+  const CommandRun second = shapeid(words + "derived.csv --also run.csv");
+  EXPECT_EQ(second.status, 2);
+  EXPECT_NE(second.err.find("run.csv: has contact.* columns, and derived.csv has none"),
+            std::string::npos)
+      << second.err;
+}
+
+TEST(Diagnose, NotesOfFurtherLogsNameThem) {
+  ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
+  ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out fast.csv").status, 0);
+  ASSERT_EQ(shapeid("simulate --seconds 4 --seed 3 --out test.csv").status, 0);
+  leave_out("fast.csv", "slopeless.csv", "dq.");
+  const CommandRun run =
+      shapeid(fmt::format("diagnose {} --trust --json --log run.csv --also slopeless.csv "
+                          "--test test.csv",
+                          files));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto result = nlohmann::json::parse(run.out);
+  const auto& notes = result["notes"];
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const auto& note) {
+    return note.template get<std::string>().starts_with("slopeless.csv: no dq.* columns");
+  })) << notes.dump(2);
 }
 
 TEST(Diagnose, RefusesAPathThatIsNone) {

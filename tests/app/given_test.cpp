@@ -109,6 +109,7 @@ TEST_F(Given, ValuesThatAreEmptyAndOptionsThatWouldDoNothing) {
   expect_refused("simulate --out a.txt", "no name of a log");
   expect_refused("inspect given.csv --mapping none.yaml", "requires --robot");
   expect_refused(fmt::format("inspect {0}quadruped.urdf --robot none", robots), "a robot itself");
+  expect_refused(fmt::format("diagnose {} --log given.csv --row-cutoff 5", robot), "--row-cutoff");
   expect_refused("identfy", "there is no verb \"identfy\"");
 }
 
@@ -140,10 +141,99 @@ TEST_F(Given, FilesThatAreReadAreNotWrittenOver) {
   expect_refused(fmt::format("track --robot {0} own/log.csv --checkpoint {0}", own),
                  "would be written over by --checkpoint");
   EXPECT_EQ(read_small_file(scratch() + "/" + own, 1 << 20), before);
+  // What is beside the robot is read without being named.
+  const std::string notes = read_small_file(scratch() + "/own/identified.robot.yaml", 1 << 20);
+  const std::string beside =
+      fmt::format("track --robot {} own/log.csv --checkpoint own/identified.robot.yaml", own);
+  expect_refused(beside, "own/identified.robot.yaml: is no checkpoint");
+  expect_refused(beside + " --resume", "own/identified.robot.yaml: is not JSON");
+  EXPECT_EQ(read_small_file(scratch() + "/own/identified.robot.yaml", 1 << 20), notes);
+  // One of an earlier run is replaced, of whichever version.
+  scratch_file("own/state.json", "{\"format\": \"shapeid-checkpoint-1\"}\n");
+  const std::string tracked =
+      fmt::format("track --robot {} own/log.csv --checkpoint own/state.json", own);
+  EXPECT_EQ(shapeid(tracked).status, 0);
+  EXPECT_EQ(shapeid(tracked).status, 0);
+  // identify writes no effects.
+  scratch_file("own/effects.yaml", "effects: []\n");
+  EXPECT_EQ(shapeid(fmt::format("identify {} --log own/log.csv --divisions 0 --effects "
+                                "own/effects.yaml --out own",
+                                robot))
+                .status,
+            0);
   // A folder with other files of the user's in it is a place like any other.
   EXPECT_EQ(
       shapeid(fmt::format("identify {} --log own/log.csv --divisions 0 --out own", robot)).status,
       0);
+}
+
+/// Numbers as people and programs write them, where CLI11 would see an option.
+TEST_F(Given, NumbersWithoutALeadingDigitOrWithAPlus) {
+  const CommandRun plain =
+      shapeid("convert --from pinocchio --to drake 2 -0.2 0.4 0.6 1 0.1 1.2 -0.2 0.3 1.4");
+  const CommandRun terse =
+      shapeid("convert --from pinocchio --to drake +2 -.2 +0.4 .6 1 +.1 1.2 -.2 .3 1.4");
+  EXPECT_EQ(terse.status, 0) << terse.err;
+  EXPECT_EQ(terse.out, plain.out);
+  expect_refused("convert --from pinocchio --to drake +-2 0 0 0 1 0 1 0 0 1", "+-2");
+}
+
+/// An option that no log can make right is no log's fault.
+TEST_F(Given, ABatchOfWrongOptionsBlamesNoLog) {
+  ASSERT_EQ(shapeid("simulate --seconds 2 --seed 2 --out other.csv").status, 0);
+  const std::string batch = fmt::format("batch {} --log given.csv other.csv ", robot);
+  expect_refused(batch + "--k1 0 --k2 0", "both 0");
+  scratch_file("twice.yaml", "contacts: [{link: FR_foot}, {link: FR_foot, point: [0.01, 0, 0]}]\n");
+  expect_refused(fmt::format("batch --robot {}quadruped.urdf --robot-yaml twice.yaml --log "
+                             "given.csv other.csv --contacts measured",
+                             robots),
+                 "FR_foot has several contacts");
+}
+
+/// A log that is slower than the usual filter is looked at with another.
+TEST_F(Given, SlowLogsCanBeInspected) {
+  LogReader log(scratch() + "/given.csv");
+  LogWriter out(scratch() + "/slow.csv", log.columns());
+  constexpr int every = 20;  // of 500 Hz
+  for (int i = 0; std::optional<LogRow> row = log.next(); ++i) {
+    if (i % every == 0) out.write(row->values);
+  }
+  out.close();
+  const std::string inspect = fmt::format("inspect slow.csv {} ", robot);
+  expect_refused(inspect, "choose a cutoff");
+  const CommandRun seen = shapeid(inspect + "--cutoff 5");
+  EXPECT_EQ(seen.status, 0) << seen.err;
+  expect_refused("inspect slow.csv --cutoff 5", "--cutoff requires --robot");
+}
+
+TEST_F(Given, ColumnsWithoutANumberAreSaidToHaveNone) {
+  scratch_file("empty.csv", "time,a,b\n0,,1\n1,,2\n");
+  const CommandRun seen = shapeid("inspect empty.csv");
+  EXPECT_EQ(seen.status, 0) << seen.err;
+  EXPECT_EQ(seen.out.find("inf"), std::string::npos) << seen.out;
+  EXPECT_NE(seen.out.find("no number        2\n"), std::string::npos) << seen.out;
+}
+
+/// What robot.yaml expects of a load scales the criterion, unless the command says otherwise.
+TEST_F(Given, TheMassOfALoadThatIsExpected) {
+  const std::string load = fmt::format(
+      "load --robot {}quadruped.urdf --robot-yaml notes.yaml --log given.csv --area base -.2 .2 "
+      "-.1 .1 .06 .1 --divisions 0 --json",
+      robots);
+  const std::string notes = read_small_file(robots + "quadruped.robot.yaml", 1 << 20);
+  const auto found = [&](const std::string& expected, const std::string& option) {
+    const std::size_t at = notes.find("  load: [0.0, 3.0]\n");
+    EXPECT_NE(at, std::string::npos);
+    std::string changed = notes;
+    scratch_file("notes.yaml", changed.replace(at, changed.find('\n', at) + 1 - at, expected));
+    const CommandRun run = shapeid(load + option);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out;
+  };
+  const std::string usual = found("", ""), heavy = found("  load: [2, 6]\n", "");
+  EXPECT_EQ(heavy, found("", " --expected-mass 4"));
+  EXPECT_EQ(usual, found("  load: [2, 6]\n", " --expected-mass 1"));
+  EXPECT_NE(heavy, usual);
 }
 
 TEST_F(Given, ReadingsThatNoRobotHas) {

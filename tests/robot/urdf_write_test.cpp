@@ -154,5 +154,55 @@ TEST(UrdfWrite, AnotherRobotsFileIsADefect) {
   EXPECT_THROW(static_cast<void>(write_urdf(other, read_urdf(path).robot, {{0, body}})), Defect);
 }
 
+// Joints stand in transmissions, comments and simulator settings, too: none of those is a joint of
+// the robot. Both forms of <dynamics>, one too many, and none at all.
+constexpr const char* jointed = R"(<robot name="j">
+  <!-- <joint name="a"><dynamics damping="9"/></joint> -->
+  <transmission name="t"><joint name="a"><dynamics damping="9"/></joint></transmission>
+  <link name="r"/><link name="s"/><link name="t"/><link name="u"/>
+  <gazebo><joint name="b"/></gazebo>
+  <joint name="a" type="revolute"><!-- <dynamics/> -->
+    <parent link="r"/><child link="s"/>
+  </joint>
+  <joint type="revolute" name="b"><parent link="s"/><child link="t"/>
+    <dynamics damping="0.1"></dynamics>
+    <dynamicsx damping="9"/><dynamics damping="0.2"/>
+  </joint>
+  <joint name='c' type="revolute"><parent link="t"/><dynamics friction="3"/><child link="u"/></joint>
+</robot>
+)";
+constexpr const char* jointed_with_friction = R"(<robot name="j">
+  <!-- <joint name="a"><dynamics damping="9"/></joint> -->
+  <transmission name="t"><joint name="a"><dynamics damping="9"/></joint></transmission>
+  <link name="r"/><link name="s"/><link name="t"/><link name="u"/>
+  <gazebo><joint name="b"/></gazebo>
+  <joint name="a" type="revolute">
+    <dynamics damping="0.5" friction="0.25"/><!-- <dynamics/> -->
+    <parent link="r"/><child link="s"/>
+  </joint>
+  <joint type="revolute" name="b"><parent link="s"/><child link="t"/>
+    <dynamics damping="2" friction="0"/>
+    <dynamicsx damping="9"/>
+  </joint>
+  <joint name='c' type="revolute"><parent link="t"/><dynamics damping="0" friction="1"/><child link="u"/></joint>
+</robot>
+)";
+
+TEST(UrdfWrite, FrictionGoesToTheJointsOfTheRobot) {
+  EXPECT_EQ(with_friction(jointed, "j.urdf", {{"a", {0.5, 0.25}}, {"b", {2, 0}}, {"c", {0, 1}}}),
+            jointed_with_friction);
+  EXPECT_EQ(with_friction(jointed, "j.urdf", {}), jointed);
+}
+
+TEST(UrdfWrite, FrictionOfAJointThatIsNotThereIsADefect) {
+  EXPECT_THROW(static_cast<void>(with_friction(jointed, "j.urdf", {{"d", {1, 1}}})), Defect);
+}
+
+TEST(UrdfWrite, AJointThatClosesItselfIsRefused) {
+  const std::string text =
+      R"(<robot name="j"><link name="r"/><joint name="a" type="fixed"/></robot>)";
+  EXPECT_THROW(static_cast<void>(with_friction(text, "j.urdf", {{"a", {1, 1}}})), InputError);
+}
+
 }  // namespace
 }  // namespace shapeid

@@ -117,6 +117,23 @@ TEST(TrackEvents, DroppedAndRepeatedRows) {
   EXPECT_LT(std::abs(tracked_mass(lines.back()) - true_mass), near);
 }
 
+// The window that the break interrupts is told before what came after it.
+TEST(TrackEvents, TimesOfLinesIncreaseAcrossABreak) {
+  for (const std::size_t first : {700U, 703U, 707U}) {
+    Lines log = simulated("long", "--seconds 6 --rate 500");
+    log.erase(log.begin() + static_cast<std::ptrdiff_t>(first),
+              log.begin() + static_cast<std::ptrdiff_t>(first) + 1500);
+    for (const char* options : {"", "--cutoff 6", "--window 3"}) {
+      const std::vector<json> lines = tracked(log, options);
+      EXPECT_EQ(total(lines, "rows", "gaps"), 1U);
+      for (std::size_t k = 1; k < lines.size(); ++k) {
+        EXPECT_LT(lines[k - 1].at("time").get<double>(), lines[k].at("time").get<double>())
+            << "line " << k << ", a break after row " << first << " " << options;
+      }
+    }
+  }
+}
+
 TEST(TrackEvents, AClockThatJumpsStartsFiltersAnew) {
   for (const double jump : {-1.5, 3600.0}) {
     Lines log = trot_log();
@@ -223,6 +240,32 @@ TEST(TrackEvents, InTheAirTheScaleComesFromKnownLinks) {
   EXPECT_GE(from("known links"), 10);
   EXPECT_GE(from("joint rows"), 100);
   EXPECT_GE(total(lines, "contacts", "airborne"), 140U);
+}
+
+// A pause up there touches nothing either.
+TEST(TrackEvents, APauseInTheAirGivesNoScale) {
+  constexpr std::size_t from = 1000, pause = 304;  // rows; no whole number of windows stands still
+  Lines log = trot_log();
+  const std::string posture = log[from];
+  log.insert(log.begin() + from, pause, posture);
+  const double start = value(log, "time", from - 2);
+  std::size_t row = 0;
+  change(log, "time", from - 1, log.size(),
+         [&](double) { return start + 0.002 * static_cast<double>(++row); });
+  for (const char* axis : {"x", "y", "z"}) {
+    change(log, fmt::format("base.gyro.{}", axis), from - 1, from - 1 + pause,
+           [&](double) { return 0.001 * std::sin(static_cast<double>(++row)); });
+  }
+  for (const char* foot : {"FR", "FL", "RR", "RL"}) {
+    change(log, fmt::format("contact.{}_foot", foot), from - 100, log.size(),
+           [](double) { return 0.0; });
+  }
+  const std::vector<json> lines = tracked(log);
+  const auto after = std::find_if(lines.begin(), lines.end(), [](const json& line) {
+    return line.at("answered") == true && line.at("samples").at("still") > 0;
+  });
+  ASSERT_NE(after, lines.end());
+  EXPECT_EQ(after->at("scale"), "known links");
 }
 
 TEST(TrackEvents, AFootThatSlipsIsNamed) {
