@@ -65,7 +65,7 @@ TEST(Mapping, MakesNothingThatTheRobotDoesNotKnow) {
     const Mapping mapping =
         read_mapping_yaml(scratch.file("m.yaml", "columns: {" + target + ": speed}\n"));
     const std::string said =
-        message_of([&] { MeasuredRows(log, chain(1, Root::fixed), mapping); }, log);
+        message_of<InputError>([&] { MeasuredRows(log, chain(1, Root::fixed), mapping); }, log);
     EXPECT_EQ(said.find("the mapping makes " + target + " of speed, which means nothing"), 0u)
         << said;
   }
