@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
+#include <type_traits>
 
 #include "shapeid/models/error.hpp"
 
@@ -36,6 +38,15 @@ bool taken(const Read& read) {
     check_message(error.what());
     return false;
   }
+}
+
+/// What `read` returns, or nothing where it refused. What is done with it stands outside, so that a
+/// refusal of what we wrote ourselves ends the program.
+template <typename Read>
+auto accepted(const Read& read) {
+  std::optional<std::invoke_result_t<Read>> result;
+  taken([&] { result.emplace(read()); });
+  return result;
 }
 
 }  // namespace shapeid::fuzz

@@ -12,6 +12,7 @@
 #include "shapeid/proofs/certificate/certify.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 #include "shapeid/tests/support/qp_generators.hpp"
+#include "shapeid/tests/support/scaled.hpp"
 
 using namespace shapeid;
 
@@ -50,7 +51,7 @@ double worst_compressed_slope(const MassProblem& p, const Eigen::VectorXd& m) {
   double worst = 0.0;
   for (Eigen::Index j = 0; j < m.size(); ++j) {
     if (terms[j] == 0.0) continue;  // a shape that no row feels
-    worst = std::max(worst, (m[j] > 0.0 ? std::abs(slopes[j]) : -slopes[j]) / terms[j]);
+    test::keep_worst(worst, (m[j] > 0.0 ? std::abs(slopes[j]) : -slopes[j]) / terms[j]);
   }
   return worst;
 }

@@ -4,8 +4,12 @@
 
 #include <Eigen/Geometry>
 
+#include <gmpxx.h>
+
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "shapeid/proofs/certificate/exact_solve.hpp"
 #include "shapeid/proofs/certificate/linear.hpp"
@@ -48,6 +52,25 @@ RC_GTEST_PROP(Rational, RootsAreAboveAndNear, ()) {
   RC_ASSERT(shorter * shorter <= x);
 }
 
+/// By elimination in fractions.
+Eigen::Index rank(const Eigen::MatrixXd& A) {
+  std::vector<std::vector<mpq_class>> rows;
+  for (const auto& row : A.rowwise()) rows.emplace_back(row.begin(), row.end());
+  std::size_t found = 0;
+  for (std::size_t column = 0; column < static_cast<std::size_t>(A.cols()); ++column) {
+    std::size_t pivot = found;
+    while (pivot < rows.size() && rows[pivot][column] == 0) ++pivot;
+    if (pivot == rows.size()) continue;
+    std::swap(rows[pivot], rows[found]);
+    for (std::size_t i = found + 1; i < rows.size(); ++i) {
+      const mpq_class factor = rows[i][column] / rows[found][column];
+      for (std::size_t j = column; j < rows[i].size(); ++j) rows[i][j] -= factor * rows[found][j];
+    }
+    ++found;
+  }
+  return static_cast<Eigen::Index>(found);
+}
+
 /// Entries over many magnitudes, with rows that are sums of others if singular.
 RC_GTEST_PROP(ExactSolve, GivesTheSolutionOrKnowsThereIsNone, ()) {
   const auto n = *rc::gen::inRange<Eigen::Index>(1, 12);
@@ -59,12 +82,14 @@ RC_GTEST_PROP(ExactSolve, GivesTheSolutionOrKnowsThereIsNone, ()) {
   if (singular) A.row(n - 1) = 2.0 * A.row(0);
   const Eigen::MatrixXd b = *test::vector(n, 1.0);
   const auto x = solve(Dyadic(A), Dyadic(b));
+  // Drawn at random, a row of zeros or two of one direction is singular, too.
+  RC_ASSERT(x.has_value() == (rank(A) == n));
   if (singular) {
     RC_ASSERT(!x.has_value());
     RC_ASSERT(independent_columns(Dyadic(A)).size() < static_cast<std::size_t>(n));
     return;
   }
-  RC_PRE(x.has_value());
+  if (!x) return;
   for (Eigen::Index i = 0; i < n; ++i) {
     Rational left;
     for (Eigen::Index j = 0; j < n; ++j) {

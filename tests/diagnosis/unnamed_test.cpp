@@ -76,6 +76,8 @@ TEST(Unnamed, GearsNumberIsWhatTheGearYields) {
   const Structure curve =
       lawless(arm(), reference::ContactTreatment::ignore, result.model, log, 2, law);
   EXPECT_EQ(curve.law, "gear@joint2 that yields");
+  ASSERT_GT(curve.at.size(), 1U);
+  ASSERT_EQ(curve.value.size(), curve.at.size());
   for (std::size_t i = 0; i < curve.at.size(); ++i) {
     EXPECT_NEAR(curve.value[i], law.number * curve.at[i], 1e-12);
   }

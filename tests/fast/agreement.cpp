@@ -34,7 +34,7 @@ Agreement agreement(const TriangleCase& given, const fast::MassSolver& solver,
   const VectorXd Phi = p.U * m;
   for (Index i = 0; i < Phi.size(); ++i) {
     const double term = p.U.row(i).cwiseAbs().dot(m);
-    here.Phi = std::max(here.Phi, scaled(std::abs(solver.Phi()[i] - Phi[i]), term, p.shapes()));
+    keep_worst(here.Phi, scaled(std::abs(solver.Phi()[i] - Phi[i]), term, p.shapes()));
   }
   here.motion =
       scaled((p.Y * (p.U * (m - reference))).squaredNorm(), terms.dot(m + reference), size);
@@ -44,25 +44,25 @@ Agreement agreement(const TriangleCase& given, const fast::MassSolver& solver,
     for (Index j = 0; j < p.shapes(); ++j) {
       if ((m[j] > 0.0) == (reference[j] > 0.0)) continue;
       ++here.other_side;
-      here.other_slope = std::max(here.other_slope, scaled(std::abs(0.5 * z[j]), terms[j], size));
+      keep_worst(here.other_slope, scaled(std::abs(0.5 * z[j]), terms[j], size));
     }
     const double total = reference.sum();
     if (here.other_side == 0 && total > 0.0) {
-      here.largest_move = (m - reference).lpNorm<Eigen::Infinity>() / total;
+      here.largest_move = (m - reference).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / total;
     }
   }
   return here;
 }
 
 void keep_worst(const Agreement& one, Agreement& worst) {
-  worst.kkt = std::max(worst.kkt, one.kkt);
-  worst.objective = std::max(worst.objective, one.objective);
-  worst.value = std::max(worst.value, one.value);
-  worst.Phi = std::max(worst.Phi, one.Phi);
-  worst.masses = std::max(worst.masses, one.masses);
-  worst.largest_move = std::max(worst.largest_move, one.largest_move);
-  worst.motion = std::max(worst.motion, one.motion);
-  worst.other_slope = std::max(worst.other_slope, one.other_slope);
+  keep_worst(worst.kkt, one.kkt);
+  keep_worst(worst.objective, one.objective);
+  keep_worst(worst.value, one.value);
+  keep_worst(worst.Phi, one.Phi);
+  keep_worst(worst.masses, one.masses);
+  keep_worst(worst.largest_move, one.largest_move);
+  keep_worst(worst.motion, one.motion);
+  keep_worst(worst.other_slope, one.other_slope);
 }
 
 std::string why_not_equal(const Agreement& here, const TriangleCase& given,

@@ -60,11 +60,11 @@ double criterion(double m, double V, double V0, const DivisionOptions& options) 
 void compare(const fast::MassSolver& masses, const Snapshot& expected, double terms,
              RunComparison& result) {
   const Eigen::VectorXd m = masses.m();
-  const auto keep_worst = [](double& worst, double here) { worst = std::max(worst, here); };
   keep_worst(result.worst_objective, scaled(std::abs(masses.value().total() - expected.value),
                                             terms, expected.problem.F.size() + m.size()));
   if (m.size() > 0 && expected.m.maxCoeff() > 0.0) {
-    keep_worst(result.worst_mass, (m - expected.m).cwiseAbs().maxCoeff() / expected.m.maxCoeff());
+    keep_worst(result.worst_mass,
+               (m - expected.m).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / expected.m.maxCoeff());
     keep_worst(result.worst_scaled_mass, scaled_mass_difference(expected.problem, m, expected.m));
   }
   keep_worst(result.worst_Phi,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -248,6 +249,26 @@ TEST(FastIdentifierWindows, NothingGrowsWithTheStream) {
               }),
               0U);
     EXPECT_EQ(identifier.samples_by_six_rows(), 5000U);
+  }
+}
+
+// Every other test bounds the gap from above, which a gap that is always zero keeps.
+TEST(FastIdentifierWindows, TheGapIsThatOfTheLastMasses) {
+  const Robot robot = test::bundled_quadruped();
+  const std::vector<Sample> samples = trot_of(robot, 200, test::Noise::sensors);
+  for (const std::optional<double> bound : {std::optional<double>(), std::optional<double>(17.0)}) {
+    IdentifierSettings settings;
+    settings.expected_mass = 6.0;
+    settings.mass_bound = bound;
+    Identifier identifier(robot, test::bundled_shapes(robot), settings);
+    int apart = 0;
+    for (const Sample& s : samples) {
+      if (identifier.feed(s) != Fed::answered) continue;
+      const fast::MassSolver& masses = identifier.division().masses();
+      EXPECT_EQ(identifier.answer().gap, masses.gap(bound.value_or(10.0 * 6.0)));
+      apart += masses.gap(60.0) != masses.gap(17.0) ? 1 : 0;
+    }
+    EXPECT_GT(apart, 0) << "the bound is not seen in any window";
   }
 }
 

@@ -1,5 +1,5 @@
-// Both paths on logs of real robots. The data lie outside the project; without them the tests say
-// so and check nothing.
+// Both paths on logs of real robots. The data lie outside the project; without them the tests are
+// skipped.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ class FastMeasured : public testing::TestWithParam<const char*> {};
 
 TEST_P(FastMeasured, MiniCheetahsBaseAsTheReference) {
   const std::string folder = "mini_cheetah_umich/", file = folder + GetParam() + ".csv.gz";
-  if (test::absent(file)) return;
+  if (test::absent(file)) GTEST_SKIP() << file << " is not there (set SHAPEID_DATA)";
   const test::Log log = test::log_of(folder + "mini_cheetah_from_mit_constants.urdf",
                                      Root::floating, file, "mini_cheetah", 3000);
   ASSERT_EQ(log.robot.contacts.size(), 4U);
@@ -65,7 +65,7 @@ TEST_P(FastMeasured, MiniCheetahsBaseAsTheReference) {
 
 TEST_P(FastMeasured, MiniCheetahsWindowsAsTheReferenceSolvesThem) {
   const std::string folder = "mini_cheetah_umich/", file = folder + GetParam() + ".csv.gz";
-  if (test::absent(file)) return;
+  if (test::absent(file)) GTEST_SKIP() << file << " is not there (set SHAPEID_DATA)";
   const test::Log log = test::log_of(folder + "mini_cheetah_from_mit_constants.urdf",
                                      Root::floating, file, "mini_cheetah", 2000);
   fast::IdentifierSettings settings;
@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Logs, FastMeasured,
 
 TEST(FastMeasuredRobots, WholeMiniCheetahAsTheReference) {
   const std::string folder = "mini_cheetah_umich/", file = folder + "concrete_galloping_val.csv.gz";
-  if (test::absent(file)) return;
+  if (test::absent(file)) GTEST_SKIP() << file << " is not there (set SHAPEID_DATA)";
   const test::Log log = test::log_of(folder + "mini_cheetah_from_mit_constants.urdf",
                                      Root::floating, file, "mini_cheetah", 600);
   compare_windows(log, test::whole_model(log.robot), ContactTreatment::project);
@@ -94,7 +94,7 @@ TEST(FastMeasuredRobots, WholeMiniCheetahAsTheReference) {
 
 TEST(FastMeasuredRobots, ArmOnAFixedBaseAsTheReference) {
   const std::string folder = "ur10e_load/", file = folder + "ur-20_02_19_14harm50sec.csv.gz";
-  if (test::absent(file)) return;
+  if (test::absent(file)) GTEST_SKIP() << file << " is not there (set SHAPEID_DATA)";
   const test::Log log = test::log_of(folder + "ur10e.urdf", Root::fixed, file, "ur10e", 1000);
   compare_windows(log, test::whole_model(log.robot), ContactTreatment::ignore);
 }

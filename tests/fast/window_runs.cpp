@@ -100,8 +100,7 @@ void compare(const fast::Identifier& identifier, const BodyModel& model,
              WindowRuns& runs) {
   const double terms = objective_terms(expected.problem, expected.solution.m);
   const auto note = [&](double value, double right) {
-    runs.worst_objective =
-        std::max(runs.worst_objective, scaled(std::abs(value - right), terms, 1));
+    keep_worst(runs.worst_objective, scaled(std::abs(value - right), terms, 1));
   };
   const std::vector<std::string> ids = divided(identifier.division(), model);
   const auto& history = identifier.division().history();
@@ -119,8 +118,7 @@ void compare(const fast::Identifier& identifier, const BodyModel& model,
   }
   if (same < std::min(ids.size(), expected.history.size())) {
     ++runs.parted;
-    runs.worst_tie = std::max(runs.worst_tie,
-                              tie_of(windows, k, same, ids[same], expected.history[same].divided));
+    keep_worst(runs.worst_tie, tie_of(windows, k, same, ids[same], expected.history[same].divided));
     return;
   }
   if (same < ids.size()) {
@@ -128,7 +126,7 @@ void compare(const fast::Identifier& identifier, const BodyModel& model,
     return;
   }
   note(identifier.answer().value.total(), expected.solution.value.total());
-  runs.worst_gap = std::max(runs.worst_gap, identifier.answer().gap / terms);
+  keep_worst(runs.worst_gap, identifier.answer().gap / terms);
 }
 
 }  // namespace
@@ -162,8 +160,7 @@ WindowRuns run_windows(const Robot& robot, const BodyModel& model,
     filtered = filtered.size() == 0 ? identifier.Phi()
                                     : Eigen::VectorXd(settings.alpha * identifier.Phi() +
                                                       (1.0 - settings.alpha) * filtered);
-    runs.worst_filter =
-        std::max(runs.worst_filter, scaled_difference(identifier.filtered(), filtered, 1));
+    keep_worst(runs.worst_filter, scaled_difference(identifier.filtered(), filtered, 1));
   }
   runs.six_rows = identifier.samples_by_six_rows();
   return runs;

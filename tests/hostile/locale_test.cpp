@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <clocale>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <locale>
@@ -28,23 +29,41 @@ class Commas : public std::numpunct<char> {
   std::string do_grouping() const override { return "\3"; }
 };
 
-/// C++'s global locale always; C's as well where a language with decimal commas is installed.
+/// C++'s global locale.
 class ForeignLocale {
  public:
-  ForeignLocale() : before_(std::locale::global(std::locale(std::locale(), new Commas))) {
-    for (const char* name : {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "es_ES.UTF-8"}) {
-      if (std::setlocale(LC_ALL, name) != nullptr) break;
-    }
-  }
-  ~ForeignLocale() {
-    std::locale::global(before_);
-    std::setlocale(LC_ALL, "C");
-  }
+  ForeignLocale() : before_(std::locale::global(std::locale(std::locale(), new Commas))) {}
+  ~ForeignLocale() { std::locale::global(before_); }
   ForeignLocale(const ForeignLocale&) = delete;
   ForeignLocale& operator=(const ForeignLocale&) = delete;
 
  private:
   std::locale before_;
+};
+
+/// C's locale: one that is installed, or compiled from the sources of the package `locales`.
+class ForeignCLocale {
+ public:
+  ForeignCLocale() {
+    for (const char* name : {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "es_ES.UTF-8"}) {
+      if (std::setlocale(LC_ALL, name) != nullptr) return;
+    }
+    const std::string compiled = folder_.path("de_DE.UTF-8");
+    const std::string command = "localedef -i de_DE -f UTF-8 '" + compiled + "' >/dev/null 2>&1";
+    if (std::system(command.c_str()) != 0) return;
+    ::setenv("LOCPATH", folder_.path("").c_str(), 1);
+    std::setlocale(LC_ALL, "de_DE.UTF-8");
+    ::unsetenv("LOCPATH");
+  }
+  ~ForeignCLocale() { std::setlocale(LC_ALL, "C"); }
+  ForeignCLocale(const ForeignCLocale&) = delete;
+  ForeignCLocale& operator=(const ForeignCLocale&) = delete;
+
+  /// Whether 1.5 is written 1,5 now.
+  [[nodiscard]] static bool is_set() { return *std::localeconv()->decimal_point == ','; }
+
+ private:
+  test::ScratchFolder folder_;
 };
 
 std::string content(const std::string& path) {
@@ -90,9 +109,18 @@ std::string session() {
   return all + json + problem_to_json(stated_problem_from_json(json, "p.json"));
 }
 
-TEST(HostileLocale, ChangesNothing) {
+TEST(HostileLocale, OfCppChangesNothing) {
   const std::string before = session();
   const ForeignLocale foreign;
+  EXPECT_EQ(session(), before);
+}
+
+TEST(HostileLocale, OfCChangesNothing) {
+  const std::string before = session();
+  const ForeignCLocale foreign;
+  if (!ForeignCLocale::is_set()) {
+    GTEST_SKIP() << "no locale with decimal commas, and no sources to compile one (apt: locales)";
+  }
   EXPECT_EQ(session(), before);
 }
 

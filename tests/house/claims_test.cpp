@@ -1,6 +1,7 @@
 // docs/claims.md against the tree: what it names exists, and what the tree cites is in it.
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <regex>
@@ -155,9 +156,30 @@ TEST(Proofs, AssumptionsAreListedForEveryTheorem) {
   EXPECT_EQ(all, listed);
 }
 
+/// What a page's headings are called in links, as GitHub does: small letters, digits, - and _.
+std::set<std::string> anchors(const std::string& page) {
+  std::set<std::string> found;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t title = line.find_first_not_of('#');
+    if (title == 0 || title == std::string::npos || line[title] != ' ') continue;
+    std::string anchor;
+    for (const char c : line.substr(title + 1)) {
+      const auto letter = static_cast<unsigned char>(c);
+      if (c == ' ')
+        anchor += '-';
+      else if (std::isalnum(letter) != 0 || c == '-' || c == '_' || letter >= 0x80) {
+        anchor += static_cast<char>(std::tolower(letter));
+      }
+    }
+    found.insert(anchor);
+  }
+  return found;
+}
+
 /// Links between the pages of docs/ and the READMEs lead somewhere.
 TEST(Documents, LinksLeadToFiles) {
-  const std::regex link(R"(\]\(([^)#:]+)\))");
+  const std::regex link(R"(\]\(([^)#:]*)(?:#([^)]+))?\))");
   for (const auto& file : fs::recursive_directory_iterator(root)) {
     const std::string path = fs::relative(file.path(), root).string();
     if (file.path().extension() != ".md" || path.starts_with("build") || path.starts_with("out")) {
@@ -165,8 +187,11 @@ TEST(Documents, LinksLeadToFiles) {
     }
     const std::string text = text_of(file.path());
     for (std::sregex_iterator m(text.begin(), text.end(), link), end; m != end; ++m) {
-      EXPECT_TRUE(fs::exists(file.path().parent_path() / (*m)[1].str()))
-          << path << " links to " << (*m)[1];
+      const bool here = (*m)[1].length() == 0;
+      const fs::path page = here ? file.path() : file.path().parent_path() / (*m)[1].str();
+      EXPECT_TRUE(fs::exists(page)) << path << " links to " << (*m)[1];
+      if (!(*m)[2].matched || page.extension() != ".md" || !fs::exists(page)) continue;
+      EXPECT_TRUE(anchors(text_of(page)).contains((*m)[2])) << path << " links to " << (*m)[0];
     }
   }
 }

@@ -1,5 +1,5 @@
 // Logs of real robots, read with the mapping examples of the guide. The data lie outside the
-// project; without them the tests say so and check nothing.
+// project; without them the tests are skipped.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,11 +23,7 @@ std::filesystem::path data(const std::string& file) {
          file;
 }
 
-bool absent(const std::string& file) {
-  if (std::filesystem::exists(data(file))) return false;
-  fmt::print("skipped: {} is not there (set SHAPEID_DATA)\n", data(file).string());
-  return true;
-}
+bool absent(const std::string& file) { return !std::filesystem::exists(data(file)); }
 
 Mapping example(const std::string& name) {
   return read_mapping_yaml(SHAPEID_SOURCE_DIR "/docs/examples/" + name + ".mapping.yaml");
@@ -59,7 +55,7 @@ class MiniCheetah : public testing::TestWithParam<const char*> {};
 
 TEST_P(MiniCheetah, StandsInGravityAndMovesItsLegs) {
   const std::string folder = "mini_cheetah_umich/", log = folder + GetParam() + ".csv.gz";
-  if (absent(log)) return;
+  if (absent(log)) GTEST_SKIP() << data(log) << " is not there (set SHAPEID_DATA)";
   Robot robot = robot_of(folder + "mini_cheetah_from_mit_constants.urdf", Root::floating);
   const Mapping mapping = example("mini_cheetah");
   add_default_contacts(robot, data(log), mapping);
@@ -129,7 +125,7 @@ void expect_torques_of(const ReadMotion& motion, const std::string& log, const R
 
 TEST(Measured, KukaReadsAtItsRateWithItsOwnTorques) {
   const std::string log = "kuka_lwr4/kuka_lwr4_measurements_2.csv.gz";
-  if (absent(log)) return;
+  if (absent(log)) GTEST_SKIP() << data(log) << " is not there (set SHAPEID_DATA)";
   std::vector<std::string> joints, columns;
   for (int j = 0; j < 7; ++j) {
     joints.push_back(fmt::format("lwr_{}_joint", j));
@@ -162,7 +158,7 @@ TEST(Measured, KukaReadsAtItsRateWithItsOwnTorques) {
 // No URDF comes with it.
 TEST(Measured, PandaReadsThroughItsJitter) {
   const std::string log = "franka_panda/panda_exciting_traj1_first_half.csv.gz";
-  if (absent(log)) return;
+  if (absent(log)) GTEST_SKIP() << data(log) << " is not there (set SHAPEID_DATA)";
   std::vector<std::string> joints, columns;
   for (int j = 1; j <= 7; ++j) {
     joints.push_back(fmt::format("panda_joint{}", j));
@@ -177,7 +173,7 @@ TEST(Measured, PandaReadsThroughItsJitter) {
 
 TEST(Measured, Ur10eCurrentsBecomeTorques) {
   const std::string folder = "ur10e_load/", log = folder + "ur-20_02_19_14harm50sec.csv.gz";
-  if (absent(log)) return;
+  if (absent(log)) GTEST_SKIP() << data(log) << " is not there (set SHAPEID_DATA)";
   const Robot robot = robot_of(folder + "ur10e.urdf", Root::fixed);
   MotionOptions options;
   options.cutoff = 5.0;

@@ -92,9 +92,9 @@ INSTANTIATE_TEST_SUITE_P(Roots, PublishedRobots, testing::Values(Root::floating,
 TEST_P(PublishedRobots, AgreeWithSimbody) {
   const std::vector<fs::path> files = published_urdfs();
   if (files.empty()) {
-    std::cout << fmt::format("skipped: no URDF below {} (set SHAPEID_DATA)\n",
-                             data_folder().string());
+    GTEST_SKIP() << "no URDF below " << data_folder() << " (set SHAPEID_DATA)";
   }
+  int compared = 0;
   for (const fs::path& file : files) {
     SCOPED_TRACE(file.filename().string());
     const std::optional<Robot> read = readable(file, GetParam());
@@ -102,7 +102,9 @@ TEST_P(PublishedRobots, AgreeWithSimbody) {
     const Robot robot = with_possible_bodies(*read);
     std::cout << fmt::format("{}: {} links, worst {:.2g} eps\n", file.filename().string(),
                              robot.link_count(), worst_residual(robot));
+    ++compared;
   }
+  EXPECT_GT(compared, 0) << "none of " << files.size() << " files was read";
 }
 
 }  // namespace

@@ -19,6 +19,8 @@
 namespace shapeid::test {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::string track(const std::string& options) {
   return fmt::format("track {} {}", bundled_robot(), options);
 }
@@ -50,7 +52,7 @@ std::string difference(const std::string& a, const std::string& b) {
 void expect_same_when_cut_at(std::size_t bytes) {
   const std::string log = joined(trot_log());
   scratch_file("cut.csv", log.substr(0, bytes));
-  std::filesystem::remove(scratch() + "/state.json");
+  fs::remove(scratch() + "/state.json");
   const std::string options = track("--checkpoint state.json --resume cut.csv");
   const CommandRun first = shapeid(options);
   ASSERT_EQ(first.status, 0) << first.err;
@@ -87,6 +89,14 @@ pid_t start(const std::string& arguments, const std::string& out) {
   return child;
 }
 
+/// For half a minute at most.
+template <class Condition>
+void wait_until(const Condition& holds) {
+  for (int i = 0; i < 3000 && !holds(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
 /// Lines of several runs, each from its first to its last: a line that comes again must be the
 /// same, and replaces what came after it.
 std::string merged(const std::string& text, std::size_t& repeated) {
@@ -112,8 +122,8 @@ TEST(TrackResume, KilledAtAnyMomentNothingIsLost) {
   const std::string log = joined(trot_log());
   scratch_file("grows.csv", "");
   const std::string out = scratch() + "/killed.jsonl";
-  std::filesystem::remove(out);
-  std::filesystem::remove(scratch() + "/state.json");
+  fs::remove(out);
+  fs::remove(scratch() + "/state.json");
   const std::string options =
       track("--checkpoint state.json --checkpoint-every 3 --resume grows.csv");
   constexpr std::size_t pieces = 7;  // a prime, so that cuts fall anywhere in lines
@@ -124,16 +134,49 @@ TEST(TrackResume, KilledAtAnyMomentNothingIsLost) {
     if (piece == 0) continue;  // a header is needed
     const pid_t child = start(options + " --follow", out);
     std::this_thread::sleep_for(std::chrono::milliseconds(150 + 90 * piece));
+    // On a busy machine the last run waits for a checkpoint, the only one that it can have written
+    // being one while running.
+    if (piece + 1 == pieces) wait_until([] { return fs::exists(scratch() + "/state.json"); });
     ::kill(child, SIGKILL);
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     EXPECT_TRUE(WIFSIGNALED(status));
   }
+  EXPECT_TRUE(fs::exists(scratch() + "/state.json")) << "nothing saved while running";
   const CommandRun last = shapeid(options);
   ASSERT_EQ(last.status, 0) << last.err;
+  const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
+  EXPECT_NE(first_line(last.out), first_line(whole())) << "the last run began anew";
   std::size_t repeated = 0;
   EXPECT_EQ(difference(merged(read_file(out) + last.out, repeated), whole()), "");
   fmt::print("killed {} times; {} lines were said again\n", pieces - 1, repeated);
+}
+
+// A line is said again for each that came behind the last checkpoint.
+TEST(TrackResume, CheckpointsComeAfterSoManyLines) {
+  const std::string state = scratch() + "/every.json", out = scratch() + "/every.jsonl";
+  const auto lines = std::count(whole().begin(), whole().end(), '\n');
+  scratch_file("whole.csv", joined(trot_log()));
+  for (const auto every : {std::ptrdiff_t{7}, lines - 1, lines + 1}) {
+    fs::remove(state);
+    fs::remove(out);
+    const std::string options = track(
+        fmt::format("--checkpoint every.json --checkpoint-every {} --resume whole.csv", every));
+    const pid_t child = start(options + " --follow", out);
+    wait_until([&] { return read_file(out) == whole(); });
+    // A checkpoint is written after the line is said.
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    const CommandRun again = shapeid(options);
+    const auto said = std::count(again.out.begin(), again.out.end(), '\n');
+    // The first lines come several at once.
+    if (every == 7)
+      EXPECT_LT(said, every);
+    else
+      EXPECT_EQ(said, lines % every) << every;
+  }
 }
 
 // From a pipe: the writer stops in the middle of a line and goes on later.
@@ -156,7 +199,7 @@ TEST(TrackResume, StreamsGoOnEitherWay) {
   scratch_file("whole.csv", joined(log));
   const std::string options = track("--checkpoint state.json --resume -");
   for (const char* rest : {"tail.csv", "whole.csv"}) {
-    std::filesystem::remove(scratch() + "/state.json");
+    fs::remove(scratch() + "/state.json");
     const CommandRun first = shapeid(options, "head.csv");
     ASSERT_EQ(first.status, 0) << first.err;
     const CommandRun second = shapeid(options, rest);
@@ -177,7 +220,7 @@ std::string without_contacts(const std::string& header, const std::string& line)
 
 TEST(TrackResume, RefusesWhatDoesNotBelongTogether) {
   scratch_file("whole.csv", joined(trot_log()));
-  std::filesystem::remove(scratch() + "/state.json");
+  fs::remove(scratch() + "/state.json");
   ASSERT_EQ(shapeid(track("--checkpoint state.json whole.csv")).status, 0);
   const auto expect_refused = [](const std::string& options, const std::string& says) {
     const CommandRun run = shapeid(track(options));
