@@ -103,9 +103,11 @@ json identified(const std::string& name, const std::string& text, const std::str
   as.root = Root::fixed;
   const Robot robot = read_urdf(robot_file, as).robot;
   write_log(scratch() + "/" + name + ".csv", robot);
-  const CommandRun run = shapeid(fmt::format(
-      "identify --robot {0}.urdf --log {0}.csv --test {0}.csv --exact --json --divisions 2 {1}",
-      name, options));
+  write_log(scratch() + "/" + name + "_again.csv", robot);
+  const CommandRun run =
+      shapeid(fmt::format("identify --robot {0}.urdf --log {0}.csv --test {0}_again.csv --exact "
+                          "--json --divisions 2 {1}",
+                          name, options));
   EXPECT_EQ(run.status, 0) << name << ": " << run.err;
   return run.status == 0 ? json::parse(run.out) : json();
 }
