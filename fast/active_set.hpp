@@ -59,6 +59,9 @@ class ActiveSet {
   /// Likewise; but if its column depends on them, nothing changes, and the answer is false.
   [[nodiscard]] bool enter_beside(int j, double mass) noexcept;
 
+  /// Whether most of the passive shapes are without mass where these shapes alone are at their
+  /// minimum: then masses to start from are of little use.
+  [[nodiscard]] bool is_far_off() noexcept;
   /// To the minimum from the present masses; checked.
   Outcome run() noexcept;
   /// After run() with lambda = 0 on `set`: on to the minimum for this lambda, if that has the same

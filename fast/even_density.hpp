@@ -3,10 +3,11 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <vector>
 
 #include "shapeid/fast/column_qr.hpp"
+#include "shapeid/fast/damped_ten.hpp"
+#include "shapeid/fast/link_density.hpp"
 #include "shapeid/fast/passive_set.hpp"
 
 namespace shapeid::fast {
@@ -17,8 +18,6 @@ namespace shapeid::fast {
 /// link, not one a shape: with X the rows sqrt(V_j) u_j^T of the passive shapes of a link and X = Q
 /// T its rank-revealing QR, Phi = T^T y and the density term is lambda || y ||^2. The y of all
 /// links solve one damped least-squares problem, of at most ten unknowns a link.
-///
-/// X is never stored: its triangle is updated as shapes enter and leave.
 class EvenDensity final : public PassiveSet {
  public:
   /// `columns` and `V` (m^3, an entry a shape) must outlive the object.
@@ -37,34 +36,28 @@ class EvenDensity final : public PassiveSet {
   [[nodiscard]] const Eigen::VectorXd& slopes(const Eigen::VectorXd& of_residual) noexcept override;
 
  private:
-  using Square = Eigen::Matrix<double, 10, 10>;
-  using Ten = Eigen::Matrix<double, 10, 1>;
+  using Ten = LinkDensity::Ten;
 
   /// One link's share.
   struct Density {
-    Square X;               ///< triangle of the rows sqrt(V_j) u_j^T
-    int shapes = 0;         ///< that are passive
-    bool outdated = false;  ///< X must be made anew from its rows
-    bool revealed = false;  ///< T is that of X
-    Square T;               ///< X without its column lengths, columns in the order of `pivots`
-    Ten lengths;            ///< of the columns of X; 1 for a column of zeros
-    std::array<int, 10> pivots;
-    int rank = 0;
-    int certain = 0;         ///< of these, directions in which the shapes spread well
+    LinkDensity rows;
     Eigen::Index first = 0;  ///< of its unknowns y
     Ten w, change;           ///< density u_j . w of passive shapes, and its last correction
     Ten missing;             ///< slopes u_j . missing, what y left before that correction
+
+    /// Its unknowns among those of all links; zeros behind them.
+    [[nodiscard]] Ten share_of(const Eigen::VectorXd& y) const noexcept;
+    /// The w of which these are the unknowns.
+    [[nodiscard]] Ten weights(const Ten& y) const noexcept;
   };
 
-  void add_row(Density& density, Ten row) noexcept;
-  [[nodiscard]] bool remove_row(Density& density, const Ten& row) noexcept;
-  void reveal_rank(Density& density) noexcept;
   void rebuild(int link) noexcept;
   [[nodiscard]] Ten row_of(int j) const noexcept;
-  [[nodiscard]] static Ten weights(const Density& density, int rank, const Ten& y,
-                                   const Ten& rest) noexcept;
-  [[nodiscard]] static Ten share_of(const Density& density, const Ten& slopes) noexcept;
+  void factorise() noexcept;
+  void factorise_many_links() noexcept;
   void solve() noexcept;
+  void solve_normal(Eigen::VectorXd& x) const noexcept;
+  [[nodiscard]] bool is_one_link() const noexcept { return densities_.size() == 1; }
 
   const ShapeColumns* columns_;
   const Eigen::VectorXd* V_;
@@ -73,9 +66,10 @@ class EvenDensity final : public PassiveSet {
   std::vector<Density> densities_;
   std::vector<int> passive_;
   bool sound_ = true;
-  bool solved_ = false;  ///< y_ and the weights are those of the passive shapes
-  ColumnQr qr_;
-  std::vector<Eigen::Index> unfelt_;  ///< unknowns y that no row feels
+  bool solved_ = false;               ///< y_ and the weights are those of the passive shapes
+  DampedTen ten_;                     ///< of one link
+  ColumnQr qr_;                       ///< of several
+  std::vector<Eigen::Index> unfelt_;  ///< unknowns y that no row of several links feels
   Eigen::VectorXd b_, y_, correction_, target_, slopes_;
   Eigen::VectorXd noise_;  ///< what rounding leaves of a slope R^T r that is zero
 };

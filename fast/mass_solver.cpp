@@ -63,7 +63,9 @@ void MassSolver::start_at(int j, double mass) noexcept {
 Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
   if (!method_.take(R)) return Outcome::not_finite;
   if (guess_is_right()) return Outcome::solved;
+  is_new_ = true;
   const Outcome outcome = solve_again();
+  is_new_ = false;
   if (outcome != Outcome::solved) method_.take_back();
   return outcome;
 }
@@ -106,10 +108,21 @@ void MassSolver::put_masses_in() noexcept {
 // its own size, and the answer costs what it costs at lambda = 0. Only where shapes are left that
 // the rows do not tell apart, the even density among them is sought.
 Outcome MassSolver::solve_damped() noexcept {
-  if (at_vertex_) {
+  bool from_vertex = at_vertex_;
+  // On new rows of one link masses that are far off are worse than none: a vertex is found in less
+  // time than they take to leave.
+  if (is_new_ && links() == 1 && !from_vertex) {
+    method_.use(even_, lambda_);
+    from_vertex = method_.is_far_off();
+    if (from_vertex) method_.clear();
+  }
+  if (from_vertex) {
     method_.use(*vertex_, 0.0);
     const Outcome outcome = method_.run();
-    if (outcome == Outcome::solved && method_.damp(*vertex_, lambda_)) return outcome;
+    if (outcome == Outcome::solved && method_.damp(*vertex_, lambda_)) {
+      at_vertex_ = true;
+      return outcome;
+    }
     if (outcome != Outcome::solved) method_.restore();
   }
   method_.use(even_, lambda_);

@@ -88,6 +88,7 @@ class MassSolver {
   std::unique_ptr<ColumnSet> vertex_;  ///< passive shapes with independent columns
   EvenDensity even_;                   ///< any number of them, for lambda > 0
   ActiveSet method_;
+  bool is_new_ = false;    ///< the triangle
   bool at_vertex_ = true;  ///< where the next call may start, for lambda > 0
 };
 
