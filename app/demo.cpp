@@ -112,8 +112,9 @@ std::string residual_sentence(const Result& result, const Robot& robot) {
   const Comparison& c = result.heldout;
   return fmt::format(
       "On {} samples that were not fitted the joints' residual torque, after the part that contact "
-      "forces can explain is removed, is {:.3g} N m (given model {:.3g}, predicting zero {:.3g}).",
-      c.samples, overall(c.found, robot), overall(c.given, robot), overall(c.zero, robot));
+      "forces can explain is removed, is {:.3g} {} (given model {:.3g}, predicting zero {:.3g}).",
+      c.samples, overall(c.found, robot), joints_unit(robot), overall(c.given, robot),
+      overall(c.zero, robot));
 }
 
 void base_link(Demo& demo) {

@@ -9,12 +9,12 @@
 #include "shapeid/app/identification.hpp"
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/option_checks.hpp"
+#include "shapeid/app/output_folder.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
 #include "shapeid/diagnosis/torque_header.hpp"
 #include "shapeid/models/error.hpp"
-#include "shapeid/models/file_output.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -26,24 +26,15 @@ struct Options {
 };
 
 void write_files(const Options& options, const RobotInputs& robot, DiagnosisRun& run) {
-  const std::filesystem::path folder(options.delivery.folder);
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) {
-    throw InputError({folder.string()}, "cannot be made: " + failed.message(), "another folder");
-  }
-  const auto write = [&](const std::string& name, const std::string& content) {
-    write_file((folder / name).string(), content);
-    fmt::print(stderr, "wrote {}\n", (folder / name).string());
-  };
+  const OutputFolder folder(options.delivery.folder);
   const Robot& r = robot.robot;
-  write("identified.urdf", diagnosed_urdf(run, r, options.diagnose.inputs.robot));
+  folder.write("identified.urdf", diagnosed_urdf(run, r, options.diagnose.inputs.robot));
   diagnosis::RichModel model = run.consistent.model;
   if (options.diagnose.curves) model.curves = run.curves;
-  write("effects.yaml", diagnosis::write_effects_yaml(r, {model.effects, model.curves}));
-  write("predict_torque.hpp", diagnosis::torque_header(r, model));
-  write("result.json", json_text(diagnosis_json(run, r, options.diagnose), 2) + "\n");
-  write("report.html", diagnosis_report(run, r, options.diagnose));
+  folder.write("effects.yaml", diagnosis::write_effects_yaml(r, {model.effects, model.curves}));
+  folder.write("predict_torque.hpp", diagnosis::torque_header(r, model));
+  folder.write("result.json", json_text(diagnosis_json(run, r, options.diagnose), 2) + "\n");
+  folder.write("report.html", diagnosis_report(run, r, options.diagnose));
 }
 
 void diagnose(Options& options) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "shapeid/app/gnuplot.hpp"
+#include "shapeid/app/result.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -69,8 +70,8 @@ std::string errors_picture(const DiagnosisRun& run, const Robot& robot) {
   std::string script =
       canvas(820, 320) +
       "set style data histograms\nset style histogram clustered gap 1\n"
-      "set style fill solid 0.85 noborder\nset xtics rotate by -35\nset yrange [0:*]\n"
-      "set ylabel 'residual (N m, rms)'\n$d << EOD\n";
+      "set style fill solid 0.85 noborder\nset xtics rotate by -35\nset yrange [0:*]\n" +
+      fmt::format("set ylabel 'residual ({}, rms)'\n$d << EOD\n", joints_unit(robot));
   for (int j = 0; j < robot.joint_count(); ++j) {
     script += fmt::format("{} {:.5g} {:.5g} {:.5g}\n", gnuplot_entry(robot.joint(j).name),
                           run.errors.zero[base + j], run.errors.given[base + j],
@@ -96,15 +97,16 @@ std::string torque_picture(const DiagnosisRun& run, const Robot& robot, int join
                           run.before.predicted(row, i),   run.after.predicted(row, i),
                           run.before.residual(row, i),    run.after.residual(row, i)};
       });
+  const std::string unit = unit_at(robot.joint(joint), "N m");
   script += fmt::format(
       "set multiplot layout 2,1 margins 0.09,0.98,0.12,0.9 spacing 0.05\nset format x ''\n"
-      "set ylabel 'torque (N m)'\n"
+      "set ylabel '{4} ({3})'\n"
       "plot $d using 1:2 with lines lw 2 lc rgb '{0}' title 'logged', $d using 1:3 with lines lc "
       "rgb '{1}' title 'given model', $d using 1:4 with lines lc rgb '{2}' title 'found'\n"
-      "unset key\nset format x '%g'\nset xlabel 'time (s)'\nset ylabel 'residual (N m)'\n"
+      "unset key\nset format x '%g'\nset xlabel 'time (s)'\nset ylabel 'residual ({3})'\n"
       "plot $d using 1:5 with lines lc rgb '{1}', $d using 1:6 with lines lc rgb '{2}'\n"
       "unset multiplot\n",
-      grey, orange, blue);
+      grey, orange, blue, unit, unit == "N" ? "force" : "torque");
   return gnuplot(script);
 }
 
@@ -124,11 +126,14 @@ std::string scatter_picture(const DiagnosisRun& run, const Robot& robot, int joi
                                            run.before.residual(row, i * stride),
                                            run.after.residual(row, i * stride)};
                        });
-  script +=
+  const auto here = [&](const char* unit) { return unit_at(robot.joint(joint), unit); };
+  script += fmt::format(
       "set multiplot layout 1,4 margins 0.07,0.985,0.25,0.94 spacing 0.035\n"
-      "set ylabel 'residual (N m)'\n";
-  const std::array<const char*, 4> labels = {"velocity (rad/s)", "position (rad)", "torque (N m)",
-                                             "time (s)"};
+      "set ylabel 'residual ({})'\n",
+      here("N m"));
+  const std::array<std::string, 4> labels = {
+      "velocity (" + here("rad/s") + ")", "position (" + here("rad") + ")",
+      (here("N m") == "N" ? "force (" : "torque (") + here("N m") + ")", "time (s)"};
   for (std::size_t k = 0; k < labels.size(); ++k) {
     script += fmt::format(
         "set xlabel '{}'\n"
@@ -224,15 +229,18 @@ std::string inertia_picture(const DiagnosisRun& run, const Robot& robot, int lin
   return gnuplot(script + "unset multiplot\n");
 }
 
-std::string structure_picture(const diagnosis::Structure& structure) {
+std::string structure_picture(const diagnosis::Structure& structure, const Robot& robot) {
   std::string script =
       canvas(420, 240) + "unset key\n" + data("d", std::ssize(structure.at), [&](Eigen::Index i) {
         const auto k = static_cast<std::size_t>(i);
         return std::array{structure.at[k], structure.value[k]};
       });
-  const std::string over = structure.law.empty()
-                               ? fmt::format("residual of {} (N m)", structure.joint)
-                               : fmt::format("number of {}", structure.law);
+  const auto joint = robot.find_joint(structure.joint);
+  const std::string over =
+      structure.law.empty()
+          ? fmt::format("residual of {} ({})", structure.joint,
+                        joint ? unit_at(robot.joint(*joint), "N m") : joints_unit(robot))
+          : fmt::format("number of {}", structure.law);
   return gnuplot(script + fmt::format("set xlabel {}\nset ylabel {}\n"
                                       "plot $d with linespoints pt 7 ps 0.5 lc rgb '{}'\n",
                                       gnuplot_string(structure.variable), gnuplot_string(over),

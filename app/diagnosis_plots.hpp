@@ -27,6 +27,7 @@ namespace shapeid::app {
 [[nodiscard]] std::string inertia_picture(const DiagnosisRun& run, const Robot& robot, int link);
 
 /// The empirical curve of what stays unexplained.
-[[nodiscard]] std::string structure_picture(const diagnosis::Structure& structure);
+[[nodiscard]] std::string structure_picture(const diagnosis::Structure& structure,
+                                            const Robot& robot);
 
 }  // namespace shapeid::app

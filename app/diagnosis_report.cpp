@@ -65,8 +65,8 @@ Table findings_table(const DiagnosisRun& run, const Robot& robot) {
       table.push_back({p == 0 ? hypothesis_id(robot, a) : "",
                        a.effect->parameters[p].name + " = " + short_number(a.value[at]),
                        short_number(run.consistent.effect_error[k][at]),
-                       a.effect->parameters[p].unit, p == 0 ? gain : "", p == 0 ? t : "",
-                       p == 0 ? others : ""});
+                       unit_of(robot, a, a.effect->parameters[p].unit), p == 0 ? gain : "",
+                       p == 0 ? t : "", p == 0 ? others : ""});
     }
   }
   return table;
@@ -130,15 +130,15 @@ void add_undetermined(Page& page, const DiagnosisRun& run, const Robot& robot) {
   if (!run.curves.empty()) {
     page.paragraph(fmt::format(
         "With curves in the place of what no name explains the error of all joints on the test "
-        "motion is {} N m instead of {}. diagnose --curves writes them with the model.",
-        short_number(overall(run.errors.with_curves, robot)),
+        "motion is {} {} instead of {}. diagnose --curves writes them with the model.",
+        short_number(overall(run.errors.with_curves, robot)), joints_unit(robot),
         short_number(overall(run.errors.found, robot))));
   }
   if (run.structures.empty()) page.paragraph("The residual follows no signal that was tested.");
   constexpr std::size_t shown = 6;
   for (std::size_t i = 0; i < std::min(shown, run.structures.size()); ++i) {
     const diagnosis::Structure& s = run.structures[i];
-    page.picture(structure_picture(s),
+    page.picture(structure_picture(s, robot),
                  s.variable == diagnosis::slow
                      ? fmt::format("Unexplained: the residual of {} is no noise: {:.1f} % of its "
                                    "variance is slower",
@@ -174,11 +174,12 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
       fmt::join(logs, ", "), run.errors.where, run.errors.samples, filter, run.loop.hypotheses,
       run.loop.blocks, run.loop.screening_seconds, run.loop.refit_seconds));
   page.heading("Error before and after");
-  page.paragraph(
-      "Predicted minus logged torque, root mean square, N m (base rows: N and N m). "
+  page.paragraph(fmt::format(
+      "Predicted minus logged torque, root mean square, {} (base rows: N and N m). "
       "Usual fit: least squares of masses and, at every joint, viscous and Coulomb friction, an "
       "offset and a rotor, nothing selected. Unfiltered: the found model against the torque as "
-      "logged.");
+      "logged.",
+      joints_unit(robot)));
   page.table(errors_table(run, robot));
   page.picture(errors_picture(run, robot), "Joints: the same errors as in the table.");
   page.heading("What was found");

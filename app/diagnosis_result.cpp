@@ -44,18 +44,19 @@ json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
   json values = json::object();
   for (std::size_t p = 0; p < a.effect->parameters.size(); ++p) {
     const auto at = static_cast<Eigen::Index>(p);
-    values[a.effect->parameters[p].name] = {{"value", a.value[at]},
-                                            {"unit", a.effect->parameters[p].unit},
-                                            {"standard_error", number(error[at])}};
+    values[a.effect->parameters[p].name] = {
+        {"value", a.value[at]},
+        {"unit", unit_of(robot, a, a.effect->parameters[p].unit)},
+        {"standard_error", number(error[at])}};
   }
   for (std::size_t s = 0; s < a.effect->shape.size(); ++s) {
     values[a.effect->shape[s].name] = {{"value", a.shape[static_cast<Eigen::Index>(s)]},
-                                       {"unit", a.effect->shape[s].unit}};
+                                       {"unit", unit_of(robot, a, a.effect->shape[s].unit)}};
   }
   json entry = {{"effect", a.effect->id},
                 {"site", site_name(robot, a.effect->site, a.site)},
                 {"value", a.value[0]},
-                {"unit", a.effect->parameters[0].unit},
+                {"unit", unit_of(robot, a, a.effect->parameters[0].unit)},
                 {"standard_error", number(error[0])},
                 {"values", values}};
   if (const diagnosis::Found* f = found_for(run, a)) {
@@ -110,17 +111,18 @@ json links_json(const DiagnosisRun& run, const Robot& robot) {
   return links;
 }
 
-std::string values_text(const AppliedEffect& a, const Eigen::VectorXd& error) {
+std::string values_text(const Robot& robot, const AppliedEffect& a, const Eigen::VectorXd& error) {
   std::string text;
   for (std::size_t p = 0; p < a.effect->parameters.size(); ++p) {
     const auto at = static_cast<Eigen::Index>(p);
     const diagnosis::Parameter& parameter = a.effect->parameters[p];
     text += fmt::format("{}{} = {:.4g} +- {:.2g} {}", p == 0 ? "" : ", ", parameter.name,
-                        a.value[at], error[at], parameter.unit);
+                        a.value[at], error[at], unit_of(robot, a, parameter.unit));
   }
   for (std::size_t s = 0; s < a.effect->shape.size(); ++s) {
     text += fmt::format(", {} = {:.3g} {}", a.effect->shape[s].name,
-                        a.shape[static_cast<Eigen::Index>(s)], a.effect->shape[s].unit);
+                        a.shape[static_cast<Eigen::Index>(s)],
+                        unit_of(robot, a, a.effect->shape[s].unit));
   }
   return text;
 }
@@ -135,7 +137,7 @@ std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const diagnosis::Found* f = found_for(run, effects[k]);
     text += fmt::format("  {:<38}{}\n", hypothesis_id(robot, effects[k]),
-                        values_text(effects[k], run.consistent.effect_error[k]));
+                        values_text(robot, effects[k], run.consistent.effect_error[k]));
     if (f != nullptr && !f->name_stands()) {
       text += fmt::format("  {:<38}a description, not the cause: {}\n", "", doubt(run, *f, robot));
     }
@@ -173,10 +175,10 @@ std::string errors_text(const DiagnosisRun& run, const Robot& robot) {
     }
     text += "\n";
   }
-  return text + fmt::format("  {:<20}{:>10.4g}{:>10.4g}{:>10.4g}{:>10.4g}{:>14.3g}{:>12.4g}  N m\n",
+  return text + fmt::format("  {:<20}{:>10.4g}{:>10.4g}{:>10.4g}{:>10.4g}{:>14.3g}{:>12.4g}  {}\n",
                             "all joints", overall(e.zero, robot), overall(e.given, robot),
                             overall(e.usual, robot), overall(e.found, robot), e.noise_floor.norm(),
-                            e.unfiltered_found.norm());
+                            e.unfiltered_found.norm(), joints_unit(robot));
 }
 
 std::string curves_text(const DiagnosisRun& run, const Robot& robot) {
@@ -186,8 +188,8 @@ std::string curves_text(const DiagnosisRun& run, const Robot& robot) {
     over += fmt::format("{}{} over {}", over.empty() ? "" : ", ", hypothesis_id(robot, c.law),
                         variable_name(c.over, robot));
   }
-  return fmt::format("with curves for what is unexplained ({}): {:.4g} N m\n", over,
-                     overall(run.errors.with_curves, robot));
+  return fmt::format("with curves for what is unexplained ({}): {:.4g} {}\n", over,
+                     overall(run.errors.with_curves, robot), joints_unit(robot));
 }
 
 std::string structures_text(const DiagnosisRun& run) {

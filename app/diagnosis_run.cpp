@@ -261,8 +261,8 @@ void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
     const std::string now = fmt::format("{:.3g}", found), before = fmt::format("{:.3g}", given);
     if (found > given && now != before) {
       run.notes.push_back(
-          fmt::format("{} is predicted worse than by the given model: {} instead of {} N m",
-                      robot.joint(j).name, now, before));
+          fmt::format("{} is predicted worse than by the given model: {} instead of {} {}",
+                      robot.joint(j).name, now, before, unit_at(robot.joint(j), "N m")));
     }
   }
 }

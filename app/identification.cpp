@@ -2,19 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "shapeid/app/certificate_text.hpp"
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/option_checks.hpp"
+#include "shapeid/app/output_folder.hpp"
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
-#include "shapeid/models/file_output.hpp"
 #include "shapeid/proofs/certificate/certificate_json.hpp"
 #include "shapeid/reference/residual.hpp"
 
@@ -25,20 +25,20 @@ namespace {
 class PartOfLog {
  public:
   PartOfLog(LogSamples& log, const MotionInputs& inputs, std::optional<Part> wanted)
-      : log_(&log), held_out_stretch_(inputs.held_out_stretch), wanted_(wanted) {}
+      : log_(&log), inputs_(&inputs), wanted_(wanted) {}
 
   std::optional<Sample> next() {
     while (std::optional<Sample> sample = log_->next()) {
       if (!started_) start_ = sample->time;
       started_ = true;
-      if (!wanted_ || part_of(sample->time - start_, held_out_stretch_) == *wanted_) return sample;
+      if (!wanted_ || part_of(sample->time - start_, *inputs_) == *wanted_) return sample;
     }
     return std::nullopt;
   }
 
  private:
   LogSamples* log_;
-  int held_out_stretch_;
+  const MotionInputs* inputs_;
   std::optional<Part> wanted_;
   bool started_ = false;
   double start_ = 0.0;
@@ -182,23 +182,19 @@ void deliver(const Delivery& delivery, const nlohmann::json& document, const std
              const MotionInputs& inputs) {
   const std::string json = json_text(document, 2) + "\n";
   fmt::print("{}", delivery.json ? json : text);
-  if (delivery.folder.empty()) return;
-  std::error_code failed;
-  std::filesystem::create_directories(delivery.folder, failed);
-  if (failed) {
-    throw InputError({delivery.folder}, "cannot be made: " + failed.message(), "another folder");
+  if (!delivery.folder.empty()) {
+    const OutputFolder folder(delivery.folder);
+    folder.write("result.json", json);
+    folder.write("problem.json", problem_to_json(judged.problem));
+    folder.write("answer.json", answer_to_json(judged.answer));
+    folder.write("certificate.json", certificate_to_json(judged.certified.proof, judged.evidence));
+    fmt::print(stderr, "{}", certified_text(judged.certified));
+    folder.write("identified.urdf", write_urdf(inputs.robot, robot.robot, result.written));
   }
-  const auto write = [&](const std::string& name, const std::string& content) {
-    const std::string path = (std::filesystem::path(delivery.folder) / name).string();
-    write_file(path, content);
-    fmt::print(stderr, "wrote {}\n", path);
-  };
-  write("result.json", json);
-  write("problem.json", problem_to_json(judged.problem));
-  write("answer.json", answer_to_json(judged.answer));
-  write("certificate.json", certificate_to_json(judged.certified.proof, judged.evidence));
-  fmt::print(stderr, "{}", certified_text(judged.certified));
-  write("identified.urdf", write_urdf(inputs.robot, robot.robot, result.written));
+  if (!judged.certified.reasons.empty()) {
+    throw std::logic_error("the exact checker rejects this answer: " +
+                           judged.certified.reasons.front());
+  }
 }
 
 void add_delivery_options(CLI::App& verb, Delivery& delivery) {

@@ -230,12 +230,17 @@ std::optional<Sample> LogSamples::next() {
   return sample;
 }
 
-Part part_of(double time_since_start, int held_out_stretch) {
+Part part_of(double time_since_start, const MotionInputs& inputs) {
   constexpr double stretch = 2.0;  // s: several strides
-  // s: the response of the default filter (20 Hz) has fallen below a thousandth well before.
-  constexpr double margin = 0.1;
+  // s: two periods of the cutoff, after which the filter's response has fallen below a thousandth;
+  // not less than at the default one of 20 Hz, and not so much that nothing is left.
+  constexpr double periods = 2.0, shortest = 0.1, longest = 0.8;
+  double margin = shortest;
+  for (const double cutoff : {inputs.cutoff, inputs.row_cutoff}) {
+    if (cutoff > 0.0) margin = std::clamp(periods / cutoff, margin, longest);
+  }
   constexpr double period = stretches * stretch;
-  const double held_out_from = (held_out_stretch - 1) * stretch;
+  const double held_out_from = (inputs.held_out_stretch - 1) * stretch;
   const double place = std::fmod(time_since_start - held_out_from + period, period);
   if (place >= margin && place < stretch - margin) return Part::held_out;
   if (place >= stretch + margin && place < period - margin) return Part::fitted;

@@ -88,8 +88,8 @@ class LogSamples {
 /// samples close to its ends are used for neither side, because the smoothing filter reaches
 /// across.
 enum class Part { fitted, held_out, neither };
-/// `held_out_stretch`: 1 to `stretches`.
-[[nodiscard]] Part part_of(double time_since_start, int held_out_stretch);
+/// Of the time (s) since the log began, for the stretch and the filter of these inputs.
+[[nodiscard]] Part part_of(double time_since_start, const MotionInputs& inputs);
 
 /// What is held out, for people to read.
 [[nodiscard]] std::string held_out_words(const MotionInputs& inputs);

@@ -99,6 +99,20 @@ bool is_written(const CLI::Option& option) {
   return option.get_name() == "--out" || option.get_name() == "--checkpoint";
 }
 
+/// A set of files is written as a whole or not at all, and what prevents it is said before the
+/// work.
+void check_no_folder_in_the_way(const std::filesystem::path& folder,
+                                const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const std::filesystem::path path = folder / name;
+    std::error_code none;
+    if (std::filesystem::is_directory(path, none)) {
+      throw InputError({path.string()}, "is a folder, and a file of this name is to be written",
+                       "another folder for all of them");
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<std::pair<std::size_t, std::size_t>> same_file(
@@ -123,6 +137,7 @@ void check_given(const CLI::App& verb) {
   const std::vector<std::string> names = written_into_folder(verb);
   for (const CLI::Option* out : options) {
     if (!is_written(*out) || out->count() == 0) continue;
+    check_no_folder_in_the_way(out->results().front(), names);
     for (const CLI::Option* in : options) {
       if (is_written(*in)) continue;
       for (const std::string& input : in->results()) {

@@ -27,7 +27,7 @@ namespace shapeid::app {
     const std::vector<std::string>& paths);
 
 /// What was given to a verb, before it begins. Throws InputError for an empty value, for a number
-/// that is none, and for a file to write that is read.
+/// that is none, for a file to write that is read, and for a folder where a file is to be written.
 void check_given(const CLI::App& verb);
 
 }  // namespace shapeid::app

@@ -41,8 +41,7 @@ RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
                        fmt::format("more than {} samples, all of which are held", most_samples),
                        "half an hour says no less: give a shorter stretch");
     }
-    if (!wanted || part_of(sample->time - *start, inputs.held_out_stretch) == *wanted)
-      samples.push_back(*sample);
+    if (!wanted || part_of(sample->time - *start, inputs) == *wanted) samples.push_back(*sample);
   }
   const MotionReport& report = log.report();
   const double begins = start.value_or(0.0);

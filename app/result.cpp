@@ -122,15 +122,15 @@ std::string comparison_text(const Comparison& c, const Robot& robot) {
   std::string text = fmt::format(
       "\nresidual on {} samples that were not fitted ({}), rms\n  {:<20}{:>12}{:>12}{:>12}  unit\n",
       c.samples, c.where, "", "zero", "given", "found");
-  const auto names = row_names(robot);
+  const auto names = row_names(robot), units = row_units(robot);
   for (Eigen::Index row = 0; row < c.zero.size(); ++row) {
-    const bool force = row < 3 && robot.base_dof() > 0;
-    text += fmt::format("  {:<20}{:>12.4g}{:>12.4g}{:>12.4g}  {}\n",
-                        names[static_cast<std::size_t>(row)], c.zero[row], c.given[row],
-                        c.found[row], force ? "N" : "N m");
+    const auto at = static_cast<std::size_t>(row);
+    text += fmt::format("  {:<20}{:>12.4g}{:>12.4g}{:>12.4g}  {}\n", names[at], c.zero[row],
+                        c.given[row], c.found[row], units[at]);
   }
-  text += fmt::format("  {:<20}{:>12.4g}{:>12.4g}{:>12.4g}  N m\n", "all joints",
-                      overall(c.zero, robot), overall(c.given, robot), overall(c.found, robot));
+  text +=
+      fmt::format("  {:<20}{:>12.4g}{:>12.4g}{:>12.4g}  {}\n", "all joints", overall(c.zero, robot),
+                  overall(c.given, robot), overall(c.found, robot), joints_unit(robot));
   return text;
 }
 
@@ -144,6 +144,21 @@ std::vector<std::string> row_names(const Robot& robot) {
   }
   for (int j = 0; j < robot.joint_count(); ++j) names.push_back(robot.joint(j).name);
   return names;
+}
+
+std::vector<std::string> row_units(const Robot& robot) {
+  std::vector<std::string> units;
+  if (robot.base_dof() > 0) units = {"N", "N", "N", "N m", "N m", "N m"};
+  for (int j = 0; j < robot.joint_count(); ++j) units.push_back(unit_at(robot.joint(j), "N m"));
+  return units;
+}
+
+std::string joints_unit(const Robot& robot) {
+  bool turns = false, slides = false;
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    (robot.joint(j).kind == JointKind::prismatic ? slides : turns) = true;
+  }
+  return !slides ? "N m" : turns ? "N m and N" : "N";
 }
 
 double overall(const Eigen::VectorXd& rms, const Robot& robot) {

@@ -51,7 +51,12 @@ void choose_written_links(Result& result, const Robot& robot, double least_mass)
 /// "base force x", ..., then the joints' names: the generalised rows.
 [[nodiscard]] std::vector<std::string> row_names(const Robot& robot);
 
-/// sqrt of the sum of squares over the joint rows, N m: one number for a whole robot.
+/// Their units: N or N m.
+[[nodiscard]] std::vector<std::string> row_units(const Robot& robot);
+
+/// sqrt of the sum of squares over the joint rows, in joints_unit(): one number for a whole robot.
 [[nodiscard]] double overall(const Eigen::VectorXd& rms, const Robot& robot);
+/// "N m", "N", or "N m and N" of a robot with joints of both kinds.
+[[nodiscard]] std::string joints_unit(const Robot& robot);
 
 }  // namespace shapeid::app

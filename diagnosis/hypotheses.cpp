@@ -27,6 +27,11 @@ std::vector<AppliedEffect> stepped(std::vector<AppliedEffect> effects,
 
 }  // namespace
 
+std::string unit_of(const Robot& robot, const AppliedEffect& effect, const std::string& unit) {
+  const bool at_joint = effect.effect->site == SiteKind::joint;
+  return at_joint ? unit_at(robot.joint(effect.site), unit) : unit;
+}
+
 std::string hypothesis_id(const Robot& robot, const AppliedEffect& effect) {
   return fmt::format("{}@{}", effect.effect->id,
                      site_name(robot, effect.effect->site, effect.site));

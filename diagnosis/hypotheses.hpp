@@ -11,6 +11,10 @@ namespace shapeid::diagnosis {
 /// "viscous_friction@knee"
 [[nodiscard]] std::string hypothesis_id(const Robot& robot, const AppliedEffect& effect);
 
+/// The unit of one of its numbers where it sits, from that in the catalogue, where joints turn.
+[[nodiscard]] std::string unit_of(const Robot& robot, const AppliedEffect& effect,
+                                  const std::string& unit);
+
 /// All that the robot has sites for, each at its start. Payloads are left out (their columns are
 /// the links' own), and what is sought before all others.
 [[nodiscard]] std::vector<AppliedEffect> all_hypotheses(const Robot& robot);

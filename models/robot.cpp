@@ -4,8 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string_view>
+#include <utility>
 
 namespace shapeid {
+
+std::string unit_at(const Joint& joint, std::string rotary) {
+  if (joint.kind != JointKind::prismatic) return rotary;
+  using Pair = std::pair<std::string_view, std::string_view>;
+  for (const auto& [turns, slides] : {Pair{"N m", "N"}, Pair{"kg m^2", "kg"}, Pair{"rad", "m"}}) {
+    const std::size_t at = rotary.find(turns);
+    if (at != std::string::npos) rotary.replace(at, turns.size(), slides);
+  }
+  return rotary;
+}
 
 std::optional<LinkSite> Robot::find_site(const std::string& wanted) const {
   for (int i = 0; i < link_count(); ++i) {

@@ -27,6 +27,10 @@ struct Joint {
   double velocity = std::numeric_limits<double>::infinity();  ///< rad/s or m/s
 };
 
+/// The unit of a quantity at this joint, from that at one that turns: where it slides, N m is N,
+/// rad is m, and kg m^2 is kg.
+[[nodiscard]] std::string unit_at(const Joint& joint, std::string rotary);
+
 struct Box {
   Eigen::Vector3d size;  ///< full side lengths, m
 };

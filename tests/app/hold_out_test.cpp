@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "shapeid/app/inputs.hpp"
 #include "shapeid/models/log.hpp"
 #include "shapeid/models/log_writer.hpp"
 #include "shapeid/tests/app/command.hpp"
@@ -76,6 +77,30 @@ TEST(HoldOut, RefusesWhatIsNoStretch) {
       EXPECT_NE(run.err.find("hold-out"), std::string::npos) << run.err;
     }
   }
+}
+
+/// Samples of neither part lie between them, as many as the filter smears over.
+TEST(HoldOut, IsAsFarFromWhatIsFittedAsTheFilterReaches) {
+  const auto nothing_within = [](double cutoff, double row_cutoff) {
+    app::MotionInputs inputs;
+    inputs.cutoff = cutoff;
+    inputs.row_cutoff = row_cutoff;
+    inputs.held_out_stretch = 2;
+    double reach = 0.0;
+    while (app::part_of(2.0 + reach, inputs) == app::Part::neither) reach += 1e-3;
+    EXPECT_EQ(app::part_of(2.0 + reach + 1e-3, inputs), app::Part::held_out);
+    EXPECT_EQ(app::part_of(2.0 - reach - 2e-3, inputs), app::Part::fitted);
+    EXPECT_EQ(app::part_of(4.0 + reach + 2e-3, inputs), app::Part::fitted);
+    EXPECT_EQ(app::part_of(1.999 + 2e-3 - reach, inputs), app::Part::neither);
+    return reach;
+  };
+  constexpr double step = 2e-3;
+  EXPECT_NEAR(nothing_within(20.0, 0.0), 0.1, step);
+  EXPECT_NEAR(nothing_within(0.0, 0.0), 0.1, step);
+  EXPECT_NEAR(nothing_within(100.0, 0.0), 0.1, step);
+  EXPECT_NEAR(nothing_within(5.0, 0.0), 0.4, step);
+  EXPECT_NEAR(nothing_within(20.0, 4.0), 0.5, step);
+  EXPECT_NEAR(nothing_within(0.5, 0.0), 0.8, step);
 }
 
 }  // namespace

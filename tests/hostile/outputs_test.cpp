@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <string>
 
 #include "shapeid/models/error.hpp"
@@ -107,6 +108,23 @@ TEST(HostileOutputs, FoldersAreNoFiles) {
       says(refusal([] { write_file(scratch() + "/none/file", "anything"); }), "cannot be written"));
   EXPECT_TRUE(says(refusal([] { write_file("", "anything"); }), "cannot be "));
   EXPECT_TRUE(says(refusal([] { LogWriter(scratch(), {"a"}); }), "is a folder"));
+}
+
+// A set of files is written as a whole or not at all.
+TEST(HostileOutputs, AFolderWhereOneOfASetWouldBe) {
+  ASSERT_EQ(shapeid("simulate --exact --seconds 2 --rate 50 --out set.csv").status, 0);
+  scratch_file("box.yaml", "base: [{kind: cuboid, size: [0.5, 0.25, 0.15]}]\n");
+  const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
+  const std::string inputs = fmt::format(
+      "--robot {0}quadruped.urdf --log set.csv --exact --shapes box.yaml --out set", robots);
+  fs::create_directories(scratch() + "/set/identified.urdf");
+  for (const std::string verb : {"identify ", "diagnose "}) {
+    const CommandRun run = shapeid(verb + inputs);
+    EXPECT_EQ(run.status, 2) << run.err;
+    EXPECT_TRUE(says(run.err, "identified.urdf: is a folder")) << run.err;
+    EXPECT_EQ(std::distance(fs::directory_iterator(scratch() + "/set"), fs::directory_iterator()),
+              1);
+  }
 }
 
 // What a user types may hold anything as well.

@@ -1,0 +1,25 @@
+#include "shapeid/app/output_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <system_error>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/file_output.hpp"
+
+namespace shapeid::app {
+
+OutputFolder::OutputFolder(const std::string& folder) : folder_(folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder_, failed);
+  if (failed) throw InputError({folder}, "cannot be made: " + failed.message(), "another folder");
+}
+
+void OutputFolder::write(const std::string& name, const std::string& content) const {
+  const std::string path = (folder_ / name).string();
+  write_file(path, content);
+  fmt::print(stderr, "wrote {}\n", path);
+}
+
+}  // namespace shapeid::app
