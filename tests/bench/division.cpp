@@ -1,4 +1,5 @@
 // Whole division runs: the same recorded problems for everybody, from one shape to a thousand.
+// Speed of Claims C4, C5, C13.
 #include <time.h>
 
 #include <algorithm>

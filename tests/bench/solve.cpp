@@ -1,4 +1,5 @@
 // One window's solve: the base link as eleven shapes and as 54 points, cold and warm.
+// Speed of Claims C3, C13.
 #include "shapeid/tests/bench/harness.hpp"
 #include "shapeid/tests/bench/problems/variants.hpp"
 #include "shapeid/tests/bench/problems/windows.hpp"

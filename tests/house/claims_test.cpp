@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 struct Claim {
   std::string promised_in;
-  std::vector<std::string> derived_in, theorems, tests;
+  std::vector<std::string> derived_in, theorems, tests, speed;
 };
 
 std::vector<std::string> items(const std::string& cell) {
@@ -35,10 +35,13 @@ std::vector<std::string> items(const std::string& cell) {
 std::map<std::string, Claim> claims() {
   std::map<std::string, Claim> found;
   std::istringstream lines(text_of(root / "docs/claims.md"));
-  const std::regex row(R"(\| (C\d+) \| [^|]+ \| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([^|]+) \|)");
+  const std::regex row(
+      R"(\| (C\d+) \| [^|]+ \| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([^|]+) \|)");
   for (std::string line; std::getline(lines, line);) {
     std::smatch m;
-    if (std::regex_match(line, m, row)) found[m[1]] = {m[2], items(m[3]), items(m[4]), items(m[5])};
+    if (std::regex_match(line, m, row)) {
+      found[m[1]] = {m[2], items(m[3]), items(m[4]), items(m[5]), items(m[6])};
+    }
   }
   return found;
 }
@@ -136,6 +139,34 @@ TEST(Claims, TheoremsAgreeOnBothSides) {
     proofs.erase(id);
   }
   for (const auto& [id, theorem] : proofs) ADD_FAILURE() << *theorem.begin() << " proves " << id;
+}
+
+/// What the programs of tests/bench measure, as "Speed of Claims C4, C5." at their head.
+ByClaim measured() {
+  ByClaim found;
+  const std::regex cited(R"(// Speed of Claims? (C\d+(?:, C\d+)*)\.)"), id(R"(C\d+)");
+  for (const auto& file : fs::directory_iterator(root / "tests/bench")) {
+    if (file.path().extension() != ".cpp") continue;
+    const std::string text = text_of(file.path());
+    std::smatch m;
+    if (!std::regex_search(text, m, cited)) continue;
+    const std::string list = m[1];
+    for (std::sregex_iterator k(list.begin(), list.end(), id), end; k != end; ++k) {
+      found[k->str()].insert("bench_" + file.path().stem().string());
+    }
+  }
+  return found;
+}
+
+TEST(Claims, BenchmarksAgreeOnBothSides) {
+  ByClaim programs = measured();
+  EXPECT_FALSE(programs.empty());
+  for (const auto& [id, claim] : claims()) {
+    const std::set<std::string> stated(claim.speed.begin(), claim.speed.end());
+    EXPECT_EQ(stated, programs[id]) << id;
+    programs.erase(id);
+  }
+  for (const auto& [id, program] : programs) ADD_FAILURE() << *program.begin() << " cites " << id;
 }
 
 TEST(Proofs, TakeNothingWithoutProof) {
