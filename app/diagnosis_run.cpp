@@ -289,6 +289,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   const std::optional<Part> test_part = split ? std::optional(Part::held_out) : std::nullopt;
   RecordedLog test = read_recordings(test_paths, robot, options.inputs, test_part,
                                      split ? log.shifts : std::vector<double>());
+  check_contacts_alike(options.inputs.log, log.motion, test_paths.front(), test.motion,
+                       log.contacts);
   MotionInputs unsmoothed = options.inputs;
   unsmoothed.cutoff = 0.0;
   const RecordedLog raw = read_recordings(test_paths, robot, unsmoothed, test_part, test.shifts);
@@ -296,6 +298,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   if (!options.reference.empty()) {
     earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);
     diagnosis::check_recording(robot.robot, earlier->recording, earlier->contacts);
+    check_contacts_alike(options.inputs.log, log.motion, options.reference, earlier->motion,
+                         log.contacts);
   }
 
   DiagnosisRun run{settings_for(robot, options, log),

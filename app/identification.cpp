@@ -155,6 +155,10 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   LogSamples log(inputs.log, robot, inputs);
   PartOfLog samples(log, inputs,
                     options.test_log.empty() ? std::optional(Part::fitted) : std::nullopt);
+  if (!options.test_log.empty()) {
+    const LogSamples test(options.test_log, robot, inputs);
+    check_contacts_alike(inputs.log, log.report(), options.test_log, test.report(), log.contacts());
+  }
   reference::IdentifySettings settings = settings_for(log, robot, inputs, options.settings);
   if (effects) {
     settings.rows = [&](const Sample& moved) { return effects->rows(moved, model); };
@@ -177,9 +181,12 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   return result;
 }
 
-void deliver(const Delivery& delivery, const nlohmann::json& document, const std::string& text,
+void deliver(const Delivery& delivery, nlohmann::json document, const std::string& text,
              const Result& result, const Judgement& judged, const RobotInputs& robot,
              const MotionInputs& inputs) {
+  const std::vector<std::string>& reasons = judged.certified.reasons;
+  document["certificate"] = {
+      {"accepted", reasons.empty()}, {"gap", judged.certified.proof.gap}, {"reasons", reasons}};
   const std::string json = json_text(document, 2) + "\n";
   fmt::print("{}", delivery.json ? json : text);
   if (!delivery.folder.empty()) {
@@ -191,9 +198,8 @@ void deliver(const Delivery& delivery, const nlohmann::json& document, const std
     fmt::print(stderr, "{}", certified_text(judged.certified));
     folder.write("identified.urdf", write_urdf(inputs.robot, robot.robot, result.written));
   }
-  if (!judged.certified.reasons.empty()) {
-    throw std::logic_error("the exact checker rejects this answer: " +
-                           judged.certified.reasons.front());
+  if (!reasons.empty()) {
+    throw std::logic_error("the exact checker rejects this answer: " + reasons.front());
   }
 }
 

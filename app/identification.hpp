@@ -39,9 +39,11 @@ struct Delivery {
   bool json = false;   ///< standard output gets the document instead of the text
 };
 
-/// Prints the result; writes result.json (the document), problem.json, answer.json, their
-/// certificate.json and identified.urdf into the folder, made if it is not there.
-void deliver(const Delivery& delivery, const nlohmann::json& document, const std::string& text,
+/// Prints the result; writes result.json (the document, with what the exact checker says of it),
+/// problem.json, answer.json, their certificate.json and identified.urdf into the folder, made if
+/// it is not there. Throws logic_error, after that, if the checker rejects the answer: no input
+/// should bring that about.
+void deliver(const Delivery& delivery, nlohmann::json document, const std::string& text,
              const Result& result, const Judgement& judged, const RobotInputs& robot,
              const MotionInputs& inputs);
 

@@ -24,6 +24,12 @@ struct RecordedLog {
 [[nodiscard]] RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
                                          const MotionInputs& inputs, std::optional<Part> wanted);
 
+/// Throws InputError if contacts are logged in one of two logs only, and forces are not: what feet
+/// are found to touch, and what is said to touch, leave residuals that cannot be compared.
+void check_contacts_alike(const std::string& first, const MotionReport& of_first,
+                          const std::string& path, const MotionReport& report,
+                          reference::ContactTreatment contacts);
+
 /// Several logs of the same robot as one, a second's pause between them, or moved in time by
 /// `shifts`, so that the same logs with another filter, or other parts of them, have the same
 /// times. Throws InputError if their rates or extra columns differ, or if contacts are logged in

@@ -252,17 +252,26 @@ TEST(Diagnose, LoggedAndDerivedContactsAreNotMixed) {
   ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out flagged.csv").status, 0);
   leave_out("flagged.csv", "derived.csv", "contact.");
-  const std::string words = fmt::format("diagnose {} --trust --json --log ", files);
-  const CommandRun first = shapeid(words + "run.csv --also derived.csv");
-  EXPECT_EQ(first.status, 2);
-  EXPECT_NE(first.err.find("derived.csv: has no contact.* columns, and run.csv has some"),
-            std::string::npos)
-      << first.err;
-  const CommandRun second = shapeid(words + "derived.csv --also run.csv");
-  EXPECT_EQ(second.status, 2);
-  EXPECT_NE(second.err.find("run.csv: has contact.* columns, and derived.csv has none"),
-            std::string::npos)
-      << second.err;
+  const auto refused = [](const std::string& verb, const std::string& option,
+                          const std::string& first, const std::string& other) {
+    const CommandRun run =
+        shapeid(fmt::format("{} {} --log {} --{} {}", verb, files, first, option, other));
+    EXPECT_EQ(run.status, 2) << verb << " --" << option;
+    EXPECT_EQ(run.out, "");
+    return run.err;
+  };
+  const std::string words = "contact.* columns, and ";
+  for (const auto& [verb, option] : {std::pair("diagnose --trust --json", "also"),
+                                     {"diagnose --trust --json", "test"},
+                                     {"diagnose --trust --json", "reference"},
+                                     {"identify --free base --json", "test"}}) {
+    const std::string first = refused(verb, option, "run.csv", "derived.csv");
+    EXPECT_NE(first.find("derived.csv: has no " + words + "run.csv has some"), std::string::npos)
+        << first;
+    const std::string second = refused(verb, option, "derived.csv", "run.csv");
+    EXPECT_NE(second.find("run.csv: has " + words + "derived.csv has none"), std::string::npos)
+        << second;
+  }
 }
 
 TEST(Diagnose, NotesOfFurtherLogsNameThem) {

@@ -99,5 +99,13 @@ TEST(Refusals, DataThatCannotAnswerAreRefusedWithTheirReason) {
   EXPECT_NE(online.err.find("too-short"), std::string::npos) << online.err;
 }
 
+// A block of 80 kg, a hand's breadth in front of the middle of a robot of 13 kg.
+TEST(Refusals, ARobotThatFellLeavesNoLog) {
+  const CommandRun run = shapeid("simulate --out fell.csv --seconds 3 --load 80 0.1 0 0.1");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("refused (fell): the robot fell after 0."), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch() + "/fell.csv"));
+}
+
 }  // namespace
 }  // namespace shapeid::test

@@ -41,6 +41,28 @@ TEST(Verbs, InspectSeesTheBundledRobot) {
   EXPECT_TRUE(document["findings"].empty()) << document["findings"].dump(2);
 }
 
+TEST(Verbs, InspectSaysWhichInertiaNoBodyCanHave) {
+  const std::string robot = scratch_file(
+      "rod.urdf",
+      "<robot name='rod'>\n<link name='rod'><inertial><mass value='2'/><inertia ixx='1' "
+      "iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial></link></robot>\n");
+  for (const std::string json : {"", "--json "}) {
+    const CommandRun run = shapeid("inspect " + json + robot);
+    EXPECT_EQ(run.status, 1);
+    EXPECT_NE(run.err.find("refused (impossible-inertia)"), std::string::npos) << run.err;
+    EXPECT_NE(run.out.find("short by 0.8"), std::string::npos) << run.out;
+    if (json.empty()) {
+      EXPECT_NE(run.out.find("rod.urdf:2: link rod: the triangle"), std::string::npos) << run.out;
+      continue;
+    }
+    const auto document = nlohmann::json::parse(run.out);
+    ASSERT_EQ(document["findings"].size(), 1U);
+    EXPECT_EQ(document["findings"][0]["line"], 2);
+    EXPECT_EQ(document["findings"][0]["fatal"], true);
+    EXPECT_NEAR(document["links"][0]["consistency_margin"].get<double>(), -0.8, 1e-12);
+  }
+}
+
 // Simulate, inspect, identify, reread: the files of one verb are the input of the next.
 TEST(Verbs, FromSimulationToAnIdentifiedUrdf) {
   const std::string files =
@@ -95,6 +117,10 @@ TEST(Verbs, FromSimulationToAnIdentifiedUrdf) {
   EXPECT_TRUE(proof["optimum_known"].get<bool>());
   EXPECT_LT(proof["floor"].get<double>(), answer.objective);
   EXPECT_GT(proof["floor"].get<double>(), 0.9 * answer.objective);
+  const nlohmann::json accepted = {
+      {"accepted", true}, {"gap", proof["gap"]}, {"reasons", nlohmann::json::array()}};
+  EXPECT_EQ(result["certificate"], accepted);
+  EXPECT_EQ(nlohmann::json::parse(read_file(folder + "result.json")), result);
 
   // Its columns are what the shapes beside them make, and those lie in the undivided ones; the
   // optima of larger sets come in order.

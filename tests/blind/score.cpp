@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -102,23 +103,30 @@ Outcome judge_known(const Machine& m, const Trial& trial, const std::vector<Said
   return structure ? Outcome::unexplained : Outcome::abstained;
 }
 
-/// Distance of inertias from the true ones: mass, first moments and tensors, each relative to the
-/// link's mass and a decimetre; of all numbers, or of those that the diagnosis calls determined.
-double distance(const Machine& m, const json& links, const std::string& which, bool all) {
+Judgement::Distance distance(const Machine& m, const json& links, const std::string& which) {
   constexpr double length = 0.1;
-  double sum = 0.0;
+  Judgement::Distance square;
   for (const json& entry : links) {
     const int link = *m.robot.find_link(entry.at("name"));
     const Vector10 truth = m.robot.links[static_cast<std::size_t>(link)].inertia.values;
     for (std::size_t p = 0; p < 10; ++p) {
-      if (!all && !entry.at("determined").at(p).get<bool>()) continue;
-      const double unit = p == 0 ? 1.0 : p < 4 ? length : length * length;
+      const std::size_t unit = p == 0 ? 0 : p < 4 ? 1 : 2;
       const double error =
           entry.at(which).at(p).get<double>() - truth[static_cast<Eigen::Index>(p)];
-      sum += std::pow(error / (truth[0] * unit), 2);
+      const double relative = error / (truth[0] * std::pow(length, unit));
+      square.all += relative * relative;
+      square.all_by_unit[unit] += error * error;
+      if (!entry.at("determined").at(p).get<bool>()) continue;
+      square.determined += relative * relative;
+      square.determined_by_unit[unit] += error * error;
     }
   }
-  return std::sqrt(sum);
+  const auto root = [](std::array<double, 3> x) {
+    for (double& entry : x) entry = std::sqrt(entry);
+    return x;
+  };
+  return {std::sqrt(square.all), std::sqrt(square.determined), root(square.all_by_unit),
+          root(square.determined_by_unit)};
 }
 
 /// The largest error of a number that is called determined, in units of the error that `which`
@@ -197,6 +205,50 @@ std::string table(const std::vector<Scored>& all, const std::string& first, cons
   return text + "\n";
 }
 
+/// Of sorted values, the one that so large a share lies below.
+double quantile(const std::vector<double>& sorted, double share) {
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+using ByUnit = std::array<double, 3> Judgement::Distance::*;
+
+std::string inertia_row(const std::vector<Scored>& all, const std::string& name, std::size_t unit,
+                        ByUnit part) {
+  std::vector<double> given, found;
+  int closer = 0;
+  for (const Scored& s : all) {
+    const double before = (s.judgement.given.*part)[unit], after = (s.judgement.found.*part)[unit];
+    if (is_foreign(s.trial) || !(before > 0.0)) continue;
+    given.push_back(before);
+    found.push_back(after);
+    if (after < before) ++closer;
+  }
+  if (given.empty()) return fmt::format("| {} | - | - | - | - | - | - |\n", name);
+  std::sort(given.begin(), given.end());
+  std::sort(found.begin(), found.end());
+  return fmt::format("| {} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {} of {} |\n", name,
+                     quantile(given, 0.5), quantile(found, 0.5), quantile(given, 0.9),
+                     quantile(found, 0.9), found.back(), closer, given.size());
+}
+
+/// How far inertias are from the truth before and after, each unit by itself.
+std::string inertia_table(const std::vector<Scored>& all) {
+  std::string text =
+      "Distance of the inertias from the truth, root of the sum of squares over the links:\n\n"
+      "| | given, median | found, median | given, 90 % below | found, 90 % below | found, largest "
+      "| "
+      "closer in |\n|---|---|---|---|---|---|---|\n";
+  const std::array<const char*, 3> names = {"mass (kg)", "first moments (kg m)",
+                                            "tensors (kg m^2)"};
+  for (std::size_t unit = 0; unit < names.size(); ++unit) {
+    const std::string name = names[unit];
+    text += inertia_row(all, name, unit, &Judgement::Distance::all_by_unit);
+    text += inertia_row(all, name + ", what is called determined", unit,
+                        &Judgement::Distance::determined_by_unit);
+  }
+  return text + "\n";
+}
+
 std::string numbers(const std::vector<Scored>& all) {
   std::vector<double> ratio;
   int closer = 0, compared = 0, determined_closer = 0, determined = 0, within_errors = 0,
@@ -234,7 +286,7 @@ std::string numbers(const std::vector<Scored>& all) {
         "largest {:.3f}.\n",
         ratio[ratio.size() / 2], ratio.back());
   }
-  return text + "\n";
+  return text + "\n" + inertia_table(all);
 }
 
 }  // namespace
@@ -284,8 +336,8 @@ Judgement judge(const Trial& trial, const json& result) {
     j.outcome = structure ? Outcome::unexplained : Outcome::right;
   }
   const json& links = result.at("links");
-  j.given = {distance(m, links, "given", true), distance(m, links, "given", false)};
-  j.found = {distance(m, links, "parameters", true), distance(m, links, "parameters", false)};
+  j.given = distance(m, links, "given");
+  j.found = distance(m, links, "parameters");
   j.standard_errors = most_errors(m, links, "standard_error");
   j.errors_if_unnoticed = most_errors(m, links, "error_if_unnoticed");
   return j;

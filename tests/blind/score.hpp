@@ -1,6 +1,7 @@
 // What a diagnosis said against what was there.
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include <string>
@@ -33,9 +34,10 @@ struct Judgement {
   std::size_t set_size = 0;  ///< of the largest set of inseparable names
   double error_ratio = 0.0;  ///< held-out error over that of the model told the truth; 0: not known
   /// Distance from the true inertias, of all numbers and of those that the diagnosis calls
-  /// determined.
+  /// determined: relative to the links' masses and a decimetre, and in kg, kg m and kg m^2 apart.
   struct Distance {
     double all = 0.0, determined = 0.0;
+    std::array<double, 3> all_by_unit = {}, determined_by_unit = {};
   };
   Distance given, found;
   /// How far the number that is furthest from the truth is, of those called determined: in its

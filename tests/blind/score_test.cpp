@@ -133,6 +133,12 @@ TEST(Score, InertiasAreComparedWithTheTruth) {
   // Of the mass alone, relative to itself.
   EXPECT_NEAR(j.given.determined, 0.2, 1e-12);
   EXPECT_NEAR(j.found.determined, 0.1, 1e-12);
+  // And in units of their own.
+  EXPECT_NEAR(j.given.all_by_unit[0], 0.2 * truth[0], 1e-12);
+  EXPECT_NEAR(j.given.all_by_unit[1], 0.5 * truth.segment<3>(1).norm(), 1e-12);
+  EXPECT_NEAR(j.found.all_by_unit[2], 0.1 * truth.tail<6>().norm(), 1e-12);
+  EXPECT_NEAR(j.found.determined_by_unit[0], 0.1 * truth[0], 1e-12);
+  EXPECT_EQ(j.found.determined_by_unit[1], 0.0);
   EXPECT_NEAR(j.standard_errors, 2.5, 1e-12);
   EXPECT_NEAR(j.errors_if_unnoticed, 2.0, 1e-12);
 }

@@ -132,15 +132,17 @@ TEST(CurvesYaml, IsReadBackTheSame) {
 }
 
 TEST(CurvesYaml, SaysWhatIsWrong) {
-  const auto refused = [](const std::string& entry) -> std::string {
+  const auto said_to = [](const std::string& text) -> std::string {
     const test::Scratch scratch;
     try {
-      static_cast<void>(read_effects_yaml(
-          scratch.file("effects.yaml", "effects: []\ncurves:\n  - " + entry + "\n"), test::arm()));
+      static_cast<void>(read_effects_yaml(scratch.file("effects.yaml", text), test::arm()));
     } catch (const InputError& error) {
       return error.what();
     }
     return "taken";
+  };
+  const auto refused = [&](const std::string& entry) {
+    return said_to("effects: []\ncurves:\n  - " + entry + "\n");
   };
   const auto expect = [&](const std::string& entry, const std::string& words) {
     const std::string said = refused(entry);
@@ -151,6 +153,13 @@ TEST(CurvesYaml, SaysWhatIsWrong) {
   EXPECT_EQ(refused(place + "over: q.joint2, at: [0, 1], number: [1, 2]}"), "taken");
   expect(place + "over: q.joint9, at: [0, 1], number: [1, 2]}", "there is no signal q.joint9");
   expect(place + "over: time, at: [0, 1], number: [1, 2]}", "there is no signal time");
+  const std::string friction = "{effect: coulomb_friction, site: joint1, ",
+                    over = "over: q.joint2, at: [0, 1], number: [1, 2]}";
+  EXPECT_EQ(refused(friction + "shape: {width: 0.1}, " + over), "taken");
+  expect(friction + over, "coulomb_friction has no shape here; give width");
+  EXPECT_NE(said_to("effects: {}\n").find("effects.yaml:1: effects is no list"), std::string::npos);
+  EXPECT_NE(said_to("effects: []\ncurves: 3\n").find("effects.yaml:2: curves is no list"),
+            std::string::npos);
   expect(place + "over: q.joint2, at: [0, 0], number: [1, 2]}", "do not increase");
   expect(place + "over: q.joint2, at: [0], number: [1]}", "do not increase");
   expect(place + "over: q.joint2, at: [0, 1], number: [1, 2, 3]}", "3 numbers for 2 knots");

@@ -160,6 +160,71 @@ RC_GTEST_PROP(Effects, DragTakesPowerFromTheLink, ()) {
   RC_ASSERT(test::scaled(std::abs(power - wanted), wanted + 1e-3, 10) < few_hundred_eps);
 }
 
+/// The robot with contact `c` touching and no other, and the Jacobian of its point.
+Eigen::MatrixXd rows_of_point(const Scene& scene, int c) {
+  Sample alone = scene.sample;
+  alone.in_contact.assign(alone.in_contact.size(), false);
+  alone.in_contact[static_cast<std::size_t>(c)] = true;
+  return reference::contact_jacobian(scene.robot, alone).topRows<3>();
+}
+
+/// A contact that is declared otherwise than it is: its force, where the flag is wrong alone.
+RC_GTEST_PROP(Effects, ForcesAtContactsAreTheirJacobian, ()) {
+  const Scene scene = any_scene();
+  for (int c = 0; c < std::ssize(scene.robot.contacts); ++c) {
+    const bool touches = scene.sample.in_contact[static_cast<std::size_t>(c)];
+    const Eigen::MatrixXd force = -rows_of_point(scene, c).transpose();
+    for (const bool declared : {true, false}) {
+      const Effect& e = *find_effect(declared ? "contact_absent" : "contact_undeclared");
+      if (!has_site(e, scene.robot, c)) continue;
+      const Eigen::MatrixXd got = scene.columns(e, c);
+      if (touches == declared) {
+        RC_ASSERT(test::scaled_difference(got, force, 10) < few_hundred_eps);
+      } else {
+        RC_ASSERT(got.isZero(0.0));
+      }
+    }
+  }
+}
+
+/// On a floating base a force is felt by the base itself: as it is, and by its moment about the
+/// base's origin.
+RC_GTEST_PROP(Effects, ForcesReachTheBaseWithTheirMoments, ()) {
+  const Scene scene = any_scene(Root::floating);
+  const int link = *rc::gen::inRange(0, scene.robot.link_count());
+  const Eigen::MatrixXd columns = scene.columns(*find_effect("external_force"), link);
+  const Eigen::Vector3d p = scene.motions[static_cast<std::size_t>(link)].pose.translation();
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d force = Eigen::Vector3d::Unit(k);
+    RC_ASSERT((columns.col(k).head<3>() + force).norm() < few_hundred_eps);
+    const Eigen::Vector3d moment = columns.col(k).segment<3>(3) + p.cross(force);
+    RC_ASSERT(test::scaled(moment.norm(), 1.0 + p.norm(), 10) < few_hundred_eps);
+  }
+}
+
+/// With one foot on the ground the base moves as that foot stands still, and drag takes c |v|^2 of
+/// what all joints and the base's motion give. Without a foot nobody knows how fast the base is.
+RC_GTEST_PROP(Effects, DragOfAFloatingRobotGoesByItsStandingFoot, ()) {
+  Scene scene = any_scene(Root::floating);
+  const int contacts = static_cast<int>(std::ssize(scene.robot.contacts));
+  const Effect& drag = *find_effect("drag");
+  const int link = *rc::gen::inRange(0, scene.robot.link_count());
+  scene.sample.in_contact.assign(scene.robot.contacts.size(), false);
+  RC_ASSERT(scene.columns(drag, link).isZero(0.0));
+  if (contacts == 0) return;
+  const int foot = *rc::gen::inRange(0, contacts);
+  scene.sample.in_contact[static_cast<std::size_t>(foot)] = true;
+  Eigen::VectorXd velocity(scene.robot.dof());
+  velocity << Eigen::Vector3d::Zero(), scene.sample.base_angular_velocity, scene.sample.dq;
+  const Eigen::Vector3d relative = rows_of_point(scene, foot) * velocity;
+  velocity.head<3>() = -relative;
+  const Eigen::Vector3d v =
+      scene.motions[static_cast<std::size_t>(link)].velocity + velocity.head<3>();
+  const double power = scene.columns(drag, link).col(0).dot(velocity);
+  const double size = velocity.squaredNorm() * (1.0 + scene.columns(drag, link).norm());
+  RC_ASSERT(test::scaled(std::abs(power - v.squaredNorm()), size + 1e-3, 10) < few_hundred_eps);
+}
+
 /// Two parallel joints: the textbook's extra terms of a rotor in the second joint's motor,
 /// k (0 1; 1 0) times (ddq1, ddq2) (double pendulum with motors, gear times rotor inertia k).
 TEST(RotorReaction, IsTheTextbooksForTwoParallelJoints) {

@@ -225,6 +225,29 @@ TEST(CInterface, PassesMeasuredForces) {
   compare(settings, same, samples, 3);
 }
 
+TEST(CInterface, IgnoresContactsIfTold) {
+  shapeid_settings settings = defaults();
+  settings.contacts = SHAPEID_IGNORE_CONTACTS;
+  fast::IdentifierSettings same;
+  same.contacts = ContactTreatment::ignore;
+  same.expected_mass = 6.0;
+  compare(settings, same, trot_of(60), 3);
+}
+
+TEST(CInterface, NoFlagsAreNoContacts) {
+  const Handle with = bundled(defaults()), without = bundled(defaults());
+  std::vector<unsigned char> flags;
+  for (Sample s : trot_of(20)) {
+    s.in_contact.assign(s.in_contact.size(), false);
+    shapeid_sample sample = plain(s, flags);
+    const shapeid_status status = shapeid_feed(with.get(), &sample);
+    sample.in_contact = nullptr;
+    ASSERT_EQ(shapeid_feed(without.get(), &sample), status);
+  }
+  ASSERT_NE(*shapeid_parameters(with.get(), 0), 0.0);
+  EXPECT_EQ(ten(shapeid_parameters(without.get(), 0)), ten(shapeid_parameters(with.get(), 0)));
+}
+
 TEST(CInterface, CountsAndNames) {
   const Handle c = bundled(defaults());
   const Robot robot = test::bundled_quadruped();
@@ -364,6 +387,10 @@ TEST(CInterface, SaysWhatIsWrongWithSettings) {
                "weight");
   EXPECT_PRED2(is_one_line_with, complaint_after([](auto& s) { s.root = SHAPEID_FIXED_ROOT; }),
                "which links");
+  EXPECT_PRED2(is_one_line_with, complaint_after([](auto& s) {
+                 s.contacts = static_cast<shapeid_contacts>(SHAPEID_IGNORE_CONTACTS + 1);
+               }),
+               "no such treatment");
   // No InputError, but no memory.
   EXPECT_PRED2(is_one_line_with, complaint_after([](auto& s) { s.window = SIZE_MAX; }), "");
 }

@@ -168,6 +168,10 @@ TEST(ShapesYaml, RefusalsSayLineWrongAndRight) {
        "with a positive volume"},
       {"leg:\n  - {kind: polyhedron, vertices: [[0, 0, 0]], mesh: a.stl}\n",
        "shapes.yaml:2: a polyhedron has both vertices and a mesh; give one of them"},
+      {"leg:\n  - {kind: polyhedron, vertices: 3}\n",
+       "shapes.yaml:2: vertices is not a list; write [[x, y, z], ...]"},
+      {"leg:\n  - {kind: polyhedron, mesh: ends.stl}\n",
+       "ends.stl:29: \"end\" is not STL here; expected facet or endsolid"},
       {"leg:\n  - {kind: polyhedron, mesh: none.stl}\n",
        "none.stl: no such file, or not a regular one; check the path"},
       {"leg:\n  - {kind: polyhedron, mesh: open.stl}\n",
@@ -188,6 +192,8 @@ TEST(ShapesYaml, RefusalsSayLineWrongAndRight) {
   folder.write("open.stl", ascii_stl(3));
   std::string bad = ascii_stl();
   folder.write("word.stl", bad.replace(bad.find("vertex 2"), 8, "vertex two"));
+  std::string ends = ascii_stl();
+  folder.write("ends.stl", ends.replace(ends.find("endsolid"), 8, "end"));
   folder.write("short.stl", binary_stl().substr(6));
   const Robot robot = test::two_link_robot();
   for (const Broken& broken : cases) {
