@@ -11,6 +11,7 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -64,6 +65,31 @@ bool ask_for_priority() {
   sched_param parameters{};
   parameters.sched_priority = sched_get_priority_min(SCHED_FIFO);
   return sched_setscheduler(0, SCHED_FIFO, &parameters) == 0;
+}
+
+/// What a machine shared with others takes away by itself: for so many seconds nothing is done but
+/// reading the clock, with the same breaks.
+void print_pauses(double seconds) {
+  constexpr double stretch = 0.05;  // s between breaks
+  double spent = 0.0, longest = 0.0;
+  int missed = 0;
+  while (spent < seconds) {
+    const auto from = Clock::now();
+    double elapsed = 0.0;
+    while (elapsed < stretch) {
+      const double now = std::chrono::duration<double>(Clock::now() - from).count();
+      longest = std::max(longest, now - elapsed);
+      if (now - elapsed > sample_deadline) ++missed;
+      elapsed = now;
+    }
+    spent += elapsed;
+    std::this_thread::sleep_for(breath);
+  }
+  fmt::print(
+      "\nThe machine by itself, asked for nothing but the time for as long ({:.1f} s): {} pauses "
+      "of "
+      "more than {:.0f} us, the longest of {:.0f} us.\n",
+      spent, missed, 1e6 * sample_deadline, 1e6 * longest);
 }
 
 std::vector<Sample> read_samples(const std::string& log, const Robot& robot,
@@ -120,6 +146,7 @@ void replay(const Robot& robot, const BodyModel& model, const std::vector<Sample
       "\nResident memory {:.0f} kB before, {:.0f} kB after a minute, {:.0f} kB at the end; {} "
       "requests for memory in between; {} samples or windows declined.\n",
       memory_before, memory_early, memory_after, asked, declined);
+  print_pauses(std::accumulate(calls.seconds.begin(), calls.seconds.end(), 0.0));
 }
 
 void replay(const std::vector<std::string>& files) {

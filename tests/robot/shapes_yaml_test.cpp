@@ -171,7 +171,7 @@ TEST(ShapesYaml, RefusalsSayLineWrongAndRight) {
       {"leg:\n  - {kind: polyhedron, vertices: 3}\n",
        "shapes.yaml:2: vertices is not a list; write [[x, y, z], ...]"},
       {"leg:\n  - {kind: polyhedron, mesh: ends.stl}\n",
-       "ends.stl:29: \"end\" is not STL here; expected facet or endsolid"},
+       "ends.stl:30: \"end\" is not STL here; expected facet or endsolid"},
       {"leg:\n  - {kind: polyhedron, mesh: none.stl}\n",
        "none.stl: no such file, or not a regular one; check the path"},
       {"leg:\n  - {kind: polyhedron, mesh: open.stl}\n",
