@@ -90,7 +90,7 @@ class MassSolver {
   std::unique_ptr<ColumnSet> vertex_;  ///< passive shapes with independent columns
   EvenDensity even_;                   ///< any number of them, for lambda > 0
   ActiveSet method_;
-  bool is_new_ = false;    ///< the triangle
+  bool is_new_ = false;  ///< the triangle
   bool starts_at_guess_ = false;
   bool at_vertex_ = true;  ///< where the next call may start, for lambda > 0
 };
