@@ -25,7 +25,7 @@ struct IdentifierSettings {
   std::size_t stride = 10;           ///< samples from one window to the next: 10 at 500 Hz is 20 ms
   double alpha = 0.5;                ///< equation (17), in (0, 1]
   double expected_mass = 0.0;        ///< M0 > 0, kg, of all free shapes together
-  std::optional<double> lambda;      ///< default: default_lambda() of the first answer, then kept
+  std::optional<double> lambda;      ///< default: that of the first window with forces, then kept
   std::optional<double> mass_bound;  ///< kg, for the gap; default: ten times M0
   /// Windows start at the masses of the one before. If not, an answer depends on its window alone,
   /// to the last bit: what a restart in the middle of a stream needs.
@@ -84,7 +84,7 @@ class Identifier {
   [[nodiscard]] const Eigen::VectorXd& filtered() const noexcept { return filtered_; }
   /// How the last window's solve ended.
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
-  /// lambda in use; empty before the first answer.
+  /// lambda in use; empty before the first answer to forces.
   [[nodiscard]] std::optional<double> lambda() const noexcept { return lambda_; }
   /// The divided shapes of the last window.
   [[nodiscard]] const Division& division() const noexcept { return division_; }

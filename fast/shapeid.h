@@ -49,7 +49,7 @@ typedef struct shapeid_settings {
   size_t stride;         /**< samples from one window to the next: 10, at 500 Hz 20 ms */
   double alpha;          /**< of filter (17), in (0, 1]: 0.5; 1 does not smooth */
   double expected_mass;  /**< kg, of all free links; 0 (default): from robot.yaml, else the URDF */
-  double lambda;         /**< density term, >= 0; negative (default): from the first answer */
+  double lambda;         /**< density term, >= 0; negative (default): from the first forces */
   double mass_bound;     /**< kg, for the gap; 0 (default): ten times the expected mass */
   int most_divisions;    /**< in every window: 0 (default) divides nothing */
   double division_step;  /**< divisions end when a step is below this: 1e-3 */

@@ -39,8 +39,9 @@ std::optional<OnlineResult> OnlineIdentifier::feed(const Sample& sample) {
   rows_.clear();
   for (const Sample& s : recent_) rows_.add(s);
   MassProblem problem = rows_.problem(model_);
-  if (!settings_.lambda) settings_.lambda = default_lambda(problem, settings_.expected_mass);
-  problem.lambda = *settings_.lambda;
+  problem.lambda =
+      settings_.lambda ? *settings_.lambda : default_lambda(problem, settings_.expected_mass);
+  if (!problem.F.isZero(0.0)) settings_.lambda = problem.lambda;  // no forces give no scale
 
   OnlineResult result{sample.time, solve_masses(problem, masses_), {}};
   masses_ = result.solution.m;

@@ -23,7 +23,7 @@ struct OnlineSettings {
   std::size_t stride = 10;       ///< samples from one window to the next: 10 at 500 Hz is 20 ms
   double alpha = 0.5;            ///< equation (17)
   double expected_mass = 0.0;    ///< M0 > 0, kg
-  std::optional<double> lambda;  ///< default: default_lambda() of the first window, then kept
+  std::optional<double> lambda;  ///< default: that of the first window with forces, then kept
 };
 
 /// One window's answer.
