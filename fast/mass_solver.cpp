@@ -62,12 +62,10 @@ void MassSolver::start_at(int j, double mass) noexcept {
 
 Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
   if (!method_.take(R)) return Outcome::not_finite;
-  const bool is_guessed = makes_a_guess();
-  if (is_guessed && guess_is_right()) return Outcome::solved;
+  if (guess_is_right()) return Outcome::solved;
   is_new_ = true;
-  starts_at_guess_ = is_guessed && lambda_ == 0.0 && passive().empty();
   const Outcome outcome = solve_again();
-  is_new_ = starts_at_guess_ = false;
+  is_new_ = false;
   if (outcome != Outcome::solved) method_.take_back();
   return outcome;
 }
@@ -75,7 +73,6 @@ Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
 Outcome MassSolver::solve_again() noexcept {
   method_.save();
   take_masses_out();
-  if (starts_at_guess_) start_at_guess();
   const Outcome outcome = lambda_ > 0.0 ? solve_damped() : method_.run();
   if (outcome != Outcome::solved) method_.restore();
   put_masses_in();
@@ -83,11 +80,9 @@ Outcome MassSolver::solve_again() noexcept {
 }
 
 // A new triangle of one link with few shapes: most answers are found by pivots on a dozen rows.
-bool MassSolver::makes_a_guess() noexcept {
-  return links() == 1 && few_.fits() && few_.guess(V_, lambda_, method_.R(), passive());
-}
-
 bool MassSolver::guess_is_right() noexcept {
+  if (links() != 1 || !few_.fits()) return false;
+  if (!few_.guess(V_, lambda_, method_.R(), passive())) return false;
   method_.save();
   take_masses_out();
   method_.use(*vertex_, lambda_);
@@ -99,15 +94,6 @@ bool MassSolver::guess_is_right() noexcept {
   }
   put_masses_in();
   return is_right;
-}
-
-// A guess that cannot be corrected is mostly wrong by a shape whose mass is hardly more than
-// rounding: it is nearer to the answer than no mass at all.
-void MassSolver::start_at_guess() noexcept {
-  method_.clear();
-  for (int j = 0; j < shapes(); ++j) {
-    if (few_.is_passive(j) && few_.mass(j) > 0.0) method_.start_at(j, few_.mass(j));
-  }
 }
 
 void MassSolver::take_masses_out() noexcept {

@@ -75,9 +75,7 @@ class MassSolver {
   [[nodiscard]] double gap(double mass_bound) const noexcept;
 
  private:
-  [[nodiscard]] bool makes_a_guess() noexcept;
   [[nodiscard]] bool guess_is_right() noexcept;
-  void start_at_guess() noexcept;
   [[nodiscard]] Outcome solve_damped() noexcept;
   void give(int j, double mass) noexcept;
   void take_masses_out() noexcept;
@@ -90,8 +88,7 @@ class MassSolver {
   std::unique_ptr<ColumnSet> vertex_;  ///< passive shapes with independent columns
   EvenDensity even_;                   ///< any number of them, for lambda > 0
   ActiveSet method_;
-  bool is_new_ = false;  ///< the triangle
-  bool starts_at_guess_ = false;
+  bool is_new_ = false;    ///< the triangle
   bool at_vertex_ = true;  ///< where the next call may start, for lambda > 0
 };
 
