@@ -2,10 +2,12 @@
 #include "shapeid/fast/active_set.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <iterator>
 #include <utility>
 
 #include "shapeid/fast/triangle_products.hpp"
@@ -61,14 +63,16 @@ ActiveSet::ActiveSet(ShapeColumns& columns, const Eigen::VectorXd& V)
       slopes_(Phi_),
       saved_Phi_(Phi_),
       saved_slopes_(Phi_) {
-  rows_.lengths = other_rows_.lengths = Phi_;
+  rows_->lengths = other_rows_->lengths = Phi_;
   coefficients_.setZero(std::max<Eigen::Index>(Phi_.size(), columns.capacity()));
+  gradient_ = coefficients_;
   const auto room = static_cast<std::size_t>(columns.capacity());
   passive_.reserve(room);
   masses_.reserve(room);
   stiffness_.reserve(room);
   tried_.reserve(room);
   refused_.reserve(room);
+  guessed_.reserve(room);
   saved_.reserve(room);
   entering_.reserve(room);
 }
@@ -81,21 +85,30 @@ void ActiveSet::use(PassiveSet& set, double lambda) noexcept {
 }
 
 bool ActiveSet::take(const Eigen::MatrixXd& R) noexcept {
-  column_sizes(R, other_rows_.lengths);
-  other_rows_.length = R.col(Phi_.size()).norm();
-  if (!std::isfinite(other_rows_.lengths.sum() + other_rows_.length)) return false;
-  other_rows_.R = &R;
+  if (columns_->links() == 1) {
+    other_rows_->link.take(R);
+    std::copy_n(other_rows_->link.lengths().data(), 10, other_rows_->lengths.data());
+    other_rows_->length = other_rows_->link.length();
+  } else {
+    column_sizes(R, other_rows_->lengths);
+    other_rows_->length = R.col(Phi_.size()).norm();
+  }
+  if (!std::isfinite(other_rows_->lengths.sum() + other_rows_->length)) return false;
+  other_rows_->R = &R;
   take_back();
   return true;
 }
 
 void ActiveSet::take_back() noexcept {
-  std::swap(rows_.R, other_rows_.R);
-  rows_.lengths.swap(other_rows_.lengths);
-  std::swap(rows_.length, other_rows_.length);
-  columns_->set_scale(rows_.lengths, rows_.length);
+  std::swap(rows_, other_rows_);
+  scaled_ = false;
   started_ = false;
   evaluated_ = false;
+}
+
+void ActiveSet::scale_prices() noexcept {
+  if (!scaled_) columns_->set_scale(rows_->lengths, rows_->length);
+  scaled_ = true;
 }
 
 void ActiveSet::clear() noexcept {
@@ -103,6 +116,17 @@ void ActiveSet::clear() noexcept {
   masses_.clear();
   started_ = false;
   evaluated_ = false;
+}
+
+void ActiveSet::divide(int j, int other, double share) noexcept {
+  const auto at = std::find(passive_.begin(), passive_.end(), j) - passive_.begin();
+  started_ = false;
+  evaluated_ = false;
+  if (at == std::ssize(passive_)) return;
+  double& mass = masses_[static_cast<std::size_t>(at)];
+  passive_.push_back(other);
+  masses_.push_back(share * mass);
+  masses_[static_cast<std::size_t>(at)] -= masses_.back();
 }
 
 void ActiveSet::start_at(int j, double mass) noexcept {
@@ -171,27 +195,43 @@ bool ActiveSet::damp(ColumnSet& set, double lambda) noexcept {
 // The pivots may have gone astray, and the masses have the digits that a squared condition leaves.
 // Whether they are the minimum is asked of the masses alone, as of any other answer, and more
 // strictly: where no correction reaches the last digits the method itself is called.
-bool ActiveSet::settles_at(FewShapes& guess) noexcept {
-  clear();
-  stiffness_.clear();
-  columns_->unbar_all();
-  for (int j = 0; j < columns_->size(); ++j) {
-    if (!guess.is_passive(j)) continue;
-    if (!(guess.mass(j) > 0.0)) return false;
-    add(j, guess.mass(j));
+bool ActiveSet::settles_at(Guess& guess) noexcept {
+  const AtPlaces at = guess.answer();
+  Dozen stiffness;
+  for (unsigned left = lambda_ > 0.0 ? at.used : 0U; left != 0; left &= left - 1) {
+    const auto place = static_cast<std::size_t>(std::countr_zero(left));
+    stiffness[place] = lambda_ / (*V_)[at.shape[place]];
   }
-  iterations_ += guess.pivots() + 1;  // one to see that nothing is left to do
-  if (!settle(guess)) return false;
-  // Slopes are small beside || c ||. Where the rows are met almost exactly, masses have more digits
-  // than that shows, and one more correction gains them.
-  const bool almost_exact = value_.data < met_exactly * rows_.length * rows_.length;
-  if (almost_exact && largest_slope() > 0.0) {
-    const bool is_positive = correct(guess);
-    evaluate();
-    if (!is_positive || largest_slope() > refined_slope) return false;
+  LinkRows::Settled settled;
+  rows_->link.settle(*columns_, at, stiffness, refined_slope, most_refinements, met_exactly,
+                     settled);
+  iterations_ = guess.pivots() + 1 + settled.corrections;  // one to see that nothing is left to do
+  const double value = settled.at.square + settled.density;
+  const double threshold = lambda_ > 0.0 ? -certainly_held : smallest_slope;
+  if (!settled.is_settled || !std::isfinite(value) ||
+      !guess.none_enters(rows_->link, settled.at.slopes, threshold)) {
+    return false;
   }
-  if (lambda_ > 0.0) return is_at_a_vertex() && tells_apart(guess);
-  return columns_->steepest(slopes_, smallest_slope) < 0;
+  guessed_.clear();
+  tried_.clear();
+  for (unsigned left = at.used; left != 0; left &= left - 1) {
+    const auto place = static_cast<std::size_t>(std::countr_zero(left));
+    guessed_.push_back(at.shape[place]);
+    tried_.push_back(settled.m[place]);
+  }
+  if (lambda_ > 0.0 && (guessed_.size() > 10 || !tells_apart(guess, guessed_, tried_))) {
+    return false;
+  }
+  passive_.swap(guessed_);
+  masses_.swap(tried_);
+  stiffness_.assign(passive_.size(), 0.0);
+  if (lambda_ > 0.0) {
+    for (std::size_t i = 0; i < passive_.size(); ++i) stiffness_[i] = lambda_ / (*V_)[passive_[i]];
+  }
+  at_masses_ = settled.at;
+  started_ = false;
+  take_value(settled.density);
+  return true;
 }
 
 /// Corrects the masses until the slopes of the passive shapes are rounding. False if that does not
@@ -209,7 +249,13 @@ bool ActiveSet::settle(NormalEquations& normal) noexcept {
 // What a rounding of each slope does to the masses. The signs that do the most are found as in
 // Hager's estimate of a condition: from any signs, by those of what they lead to.
 bool ActiveSet::tells_apart(NormalEquations& normal) noexcept {
-  const auto n = static_cast<Eigen::Index>(masses_.size());
+  return tells_apart(normal, passive_, masses_);
+}
+
+bool ActiveSet::tells_apart(NormalEquations& normal, const std::vector<int>& passive,
+                            const std::vector<double>& masses) noexcept {
+  scale_prices();
+  const auto n = static_cast<Eigen::Index>(masses.size());
   for (Eigen::Index i = 0; i < n; ++i) {
     coefficients_[i] = ((some_signs >> (i % 64)) & 1U) != 0 ? 1.0 : -1.0;
   }
@@ -218,10 +264,10 @@ bool ActiveSet::tells_apart(NormalEquations& normal) noexcept {
     all = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto place = static_cast<std::size_t>(i);
-      const double terms = 1.0 / columns_->price(passive_[place], 1.0);
+      const double terms = 1.0 / columns_->price(passive[place], 1.0);
       coefficients_[i] =
           std::copysign(std::numeric_limits<double>::epsilon() * terms, coefficients_[i]);
-      all += masses_[place];
+      all += masses[place];
     }
     normal.solve_normal(coefficients_);
   }
@@ -247,8 +293,15 @@ void ActiveSet::for_each_slope(Use use) const noexcept {
 /// One step of refinement of the masses; whether all stay positive.
 bool ActiveSet::correct(NormalEquations& normal) noexcept {
   ++iterations_;
-  for_each_slope(
-      [this](std::size_t i, double slope) { coefficients_[static_cast<Eigen::Index>(i)] = slope; });
+  if (columns_->links() == 1) {
+    static_cast<void>(largest_slope());
+    coefficients_.head(static_cast<Eigen::Index>(masses_.size())) =
+        gradient_.head(static_cast<Eigen::Index>(masses_.size()));
+  } else {
+    for_each_slope([this](std::size_t i, double slope) {
+      coefficients_[static_cast<Eigen::Index>(i)] = slope;
+    });
+  }
   normal.solve_normal(coefficients_);
   evaluated_ = false;
   double smallest = std::numeric_limits<double>::infinity();
@@ -286,7 +339,8 @@ void ActiveSet::restore() noexcept {
 
 /// A fresh factorisation of the passive shapes.
 void ActiveSet::factorise() noexcept {
-  set_->start(*rows_.R);
+  scale_prices();
+  set_->start(*rows_->R);
   columns_->unbar_all();
   started_ = true;
   entering_.clear();
@@ -520,10 +574,33 @@ Outcome ActiveSet::iterate() noexcept {
 // From the masses alone, so that no error of the factorisation's updates is in it.
 void ActiveSet::evaluate() noexcept {
   if (evaluated_) return;
+  double density = 0.0;
+  for (std::size_t i = 0; i < passive_.size(); ++i) {
+    density += stiffness_[i] * masses_[i] * masses_[i];
+  }
+  if (columns_->links() == 1) {
+    rows_->link.evaluate(*columns_, passive_, masses_, at_masses_);
+    take_value(density);
+    return;
+  }
   evaluated_ = true;
   judged_ = false;
+  value_.density = density;
+  evaluate_links();
+}
+
+/// Of one link: Phi, slopes and value are those at `at_masses_`.
+void ActiveSet::take_value(double density) noexcept {
+  evaluated_ = true;
+  judged_ = false;
+  std::copy_n(at_masses_.Phi.data(), 10, Phi_.data());
+  std::copy_n(at_masses_.slopes.data(), 10, slopes_.data());
+  const double unreached = (*rows_->R)(10, 10);
+  value_ = {at_masses_.square + unreached * unreached, density};
+}
+
+void ActiveSet::evaluate_links() noexcept {
   Phi_.setZero();
-  value_.density = 0.0;
   // Of shapes one after the other on a link, in registers.
   ShapeColumns::Column sum = ShapeColumns::Column::Zero();
   int link = 0;
@@ -535,23 +612,26 @@ void ActiveSet::evaluate() noexcept {
       link = columns_->link(j);
     }
     sum += masses_[i] * columns_->column(j);
-    value_.density += stiffness_[i] * masses_[i] * masses_[i];
   }
   if (columns_->links() > 0) Phi_.segment<10>(Eigen::Index{10} * link) += sum;
-  r_ = right_hand_side(*rows_.R);
+  r_ = right_hand_side(*rows_->R);
   for (int l = 0; l < columns_->links(); ++l) {
     const ShapeColumns::Column minus = -Phi_.segment<10>(Eigen::Index{10} * l);
-    add_column(*rows_.R, l, minus, r_.data());
+    add_column(*rows_->R, l, minus, r_.data());
   }
-  const double unreached = (*rows_.R)(Phi_.size(), Phi_.size());
+  const double unreached = (*rows_->R)(Phi_.size(), Phi_.size());
   value_.data = r_.squaredNorm() + unreached * unreached;
-  slopes_of(*rows_.R, r_, slopes_);
+  slopes_of(*rows_->R, r_, slopes_);
 }
 
 /// Of the passive shapes, whose slopes should be zero; over their terms.
 double ActiveSet::largest_slope() noexcept {
   if (judged_) return largest_slope_;
   judged_ = true;
+  if (columns_->links() == 1) {
+    return largest_slope_ = rows_->link.judge(*columns_, passive_, masses_, stiffness_,
+                                              at_masses_.slopes, gradient_);
+  }
   largest_slope_ = 0.0;
   for_each_slope([this](std::size_t i, double slope) {
     largest_slope_ = std::max(largest_slope_, columns_->price(passive_[i], std::abs(slope)));
@@ -565,7 +645,7 @@ bool ActiveSet::passes_check() noexcept {
   // masses to the last digits; where a row is hardly felt they need not be, and shapes are asked.
   // So are they if some were refused: a target that is all rounding refuses any.
   const Eigen::VectorXd& slopes = set_->slopes(slopes_);
-  const auto allowed = allowed_slope * rows_.length * rows_.lengths.array();
+  const auto allowed = allowed_slope * rows_->length * rows_->lengths.array();
   const bool same_slopes = ((slopes_ - slopes).array().abs() <= allowed).all();
   if (same_slopes && !ended_with_refused_) return true;
   return columns_->steepest(slopes_, allowed_slope) < 0;

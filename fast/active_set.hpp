@@ -3,9 +3,10 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <vector>
 
-#include "shapeid/fast/few_shapes.hpp"
+#include "shapeid/fast/link_rows.hpp"
 #include "shapeid/fast/passive_set.hpp"
 #include "shapeid/fast/shape_columns.hpp"
 #include "shapeid/models/mass_problem.hpp"
@@ -31,6 +32,10 @@ enum class Outcome {
 /// After construction nothing allocates or throws; the steps of a run are bounded.
 class ActiveSet {
  public:
+  ActiveSet(const ActiveSet&) = delete;
+  ActiveSet& operator=(const ActiveSet&) = delete;
+  ~ActiveSet() = default;
+
   /// `columns` and `V` (m^3, an entry a shape) must outlive the object; `columns` has no shapes
   /// yet.
   ActiveSet(ShapeColumns& columns, const Eigen::VectorXd& V);
@@ -44,10 +49,13 @@ class ActiveSet {
   [[nodiscard]] bool take(const Eigen::MatrixXd& R) noexcept;
   /// Back to the triangle before the last take().
   void take_back() noexcept;
-  [[nodiscard]] bool has_rows() const noexcept { return rows_.R != nullptr; }
+  [[nodiscard]] bool has_rows() const noexcept { return rows_->R != nullptr; }
 
   /// No passive shapes.
   void clear() noexcept;
+  /// Shape `j`, if it is passive, gives `share` of its mass to shape `other`, which is not; where
+  /// the next run starts.
+  void divide(int j, int other, double share) noexcept;
   /// Shape `j` has this mass (kg, > 0) where the next run starts.
   void start_at(int j, double mass) noexcept;
 
@@ -68,8 +76,8 @@ class ActiveSet {
   /// passive shapes. False if that is not certain; then the masses stay.
   [[nodiscard]] bool damp(ColumnSet& set, double lambda) noexcept;
   /// From a guess at the minimum: whether it is the minimum once its masses are corrected. If not,
-  /// masses are to be restored.
-  [[nodiscard]] bool settles_at(FewShapes& guess) noexcept;
+  /// nothing changes.
+  [[nodiscard]] bool settles_at(Guess& guess) noexcept;
   /// Whether every shape that is not passive would certainly raise the objective, and there are no
   /// more passive ones than independent columns.
   [[nodiscard]] bool is_at_a_vertex() noexcept;
@@ -86,9 +94,13 @@ class ActiveSet {
   [[nodiscard]] const Objective& value() const noexcept { return value_; }
   /// Steps since save().
   [[nodiscard]] int iterations() const noexcept { return iterations_; }
-  [[nodiscard]] const Eigen::MatrixXd& R() const noexcept { return *rows_.R; }
+  [[nodiscard]] const Eigen::MatrixXd& R() const noexcept { return *rows_->R; }
+  /// Of one link.
+  [[nodiscard]] const LinkRows& link_rows() const noexcept { return rows_->link; }
   /// Upper bounds of the lengths of the columns of R.
-  [[nodiscard]] const Eigen::VectorXd& lengths() const noexcept { return rows_.lengths; }
+  [[nodiscard]] const Eigen::VectorXd& lengths() const noexcept { return rows_->lengths; }
+  /// Tells the columns what prices are measured by, if they do not know yet.
+  void scale_prices() noexcept;
 
  private:
   struct ShapeMass {
@@ -96,6 +108,7 @@ class ActiveSet {
     double mass;
   };
   struct Rows {
+    LinkRows link;  ///< where there is one link only
     const Eigen::MatrixXd* R = nullptr;
     Eigen::VectorXd lengths;  ///< of the columns of R, from above
     double length = 0.0;      ///< of c
@@ -120,27 +133,37 @@ class ActiveSet {
   void evaluate() noexcept;
   /// Whether the rows determine the passive masses.
   [[nodiscard]] bool tells_apart(NormalEquations& normal) noexcept;
+  [[nodiscard]] bool tells_apart(NormalEquations& normal, const std::vector<int>& passive,
+                                 const std::vector<double>& masses) noexcept;
   [[nodiscard]] bool settle(NormalEquations& normal) noexcept;
   [[nodiscard]] bool correct(NormalEquations& normal) noexcept;
+  void evaluate_links() noexcept;
+  void take_value(double density) noexcept;
   template <typename Use>
   void for_each_slope(Use use) const noexcept;
   [[nodiscard]] double largest_slope() noexcept;
   [[nodiscard]] bool passes_check() noexcept;
 
+  LinkRows::Value at_masses_;      ///< if evaluated_ and there is one link
+  std::array<Rows, 2> both_rows_;  // first: its members are the most strictly aligned
+  Rows* rows_ = both_rows_.data();
+  Rows* other_rows_ = rows_ + 1;
   ShapeColumns* columns_;
   const Eigen::VectorXd* V_;
   PassiveSet* set_ = nullptr;
   double lambda_ = 0.0;
   bool started_ = false;  ///< set_ holds the passive shapes
-  Rows rows_, other_rows_;
+  bool scaled_ = false;   ///< the columns know what prices are measured by
   std::vector<int> passive_;
   std::vector<double> masses_;       ///< of the passive shapes
   std::vector<double> stiffness_;    ///< lambda / V of the passive shapes, once started
-  std::vector<double> tried_;        ///< masses to come back to
+  std::vector<double> tried_;        ///< masses to come back to, or of a guess
+  std::vector<int> guessed_;         ///< its passive shapes
   std::vector<int> refused_;         ///< barred until the next step that is taken
   bool ended_with_refused_ = false;  ///< so that some were not asked at the end
   std::vector<ShapeMass> entering_;  ///< on their way into a fresh factorisation
   Eigen::VectorXd coefficients_, Phi_, r_, slopes_;
+  Eigen::VectorXd gradient_;  ///< of the passive shapes, if judged_ and there is one link
   Objective value_;
   bool evaluated_ = false;      ///< Phi_, slopes_ and value_ are those of the masses
   bool judged_ = false;         ///< largest_slope_ is that of the passive shapes at slopes_

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -28,22 +29,26 @@ constexpr double smallest_share = 1e-12;
 /// The bits of a number that hold a place among the dozen.
 constexpr std::uint64_t lanes = 15;
 
-/// H = A^T A and q = A^T c with A = R U, and the square of || c ||, from the triangle [R c] whose
-/// columns lie `stride` apart.
-SHAPEID_WIDE double form(const TenRows& U, const double* R, std::size_t stride, std::size_t shapes,
-                         std::array<Dozen, dozen>& H, Dozen& q) noexcept {
+/// H = A^T A and q = A^T c with A = R U, the square of || c ||, and what bounds the columns of A.
+SHAPEID_WIDE double form(const TenRows& U, const LinkRows& link, std::size_t shapes,
+                         std::array<Dozen, dozen>& H, Dozen& q, Dozen& sizes) noexcept {
   TenRows A;
-  Dozen sum;
+  Dozen sum, size;
   double square = 0.0;
   for (std::size_t i = 0; i < 10; ++i) {
+    const Dozen& r = link.rows()[i];
     Dozen row;
-    for (std::size_t l = i; l < 10; ++l) add(row, R[l * stride + i], U[l]);
-    const double c = R[10 * stride + i];
+    for (std::size_t l = i; l < 10; ++l) add(row, r[l], U[l]);
+    const double c = r[10];
     add(sum, c, row);
     square += c * c;
     A[i] = row;
+    Dozen u = U[i];
+    for (Four& part : u.part) take_sign(part);
+    add(size, link.lengths()[i], u);
   }
   q = sum;
+  sizes = size;
   for (std::size_t k = 0; k < shapes; ++k) {
     Dozen row;
     for (const Dozen& a : A) add(row, a[k], a);
@@ -52,15 +57,17 @@ SHAPEID_WIDE double form(const TenRows& U, const double* R, std::size_t stride, 
   return square;
 }
 
-/// What is out of place by most, and by how much: a passive shape of negative mass m by what it
-/// costs to hold it at zero, m^2 over its entry of the inverse; another of positive slope s by what
-/// it gains, s^2 over what is left of its column. The low bits of each carry its number, so that
-/// one maximum finds both.
+/// What is out of place by most, and by how much: a passive shape of negative mass m by m^2 h,
+/// another of positive slope s by s^2 / h, with h the square of its column. (What is left of the
+/// column is the better measure, but would have to be divided by first.) The low bits of each carry
+/// its number, so that one maximum finds both.
 [[gnu::always_inline]] inline double furthest_out(const Exchanged& now) noexcept {
   Four most = {};
   for (std::size_t p = 0; p < 3; ++p) {
-    const Four x = now.x.part[p], size = x < 0.0 ? -x : x;
-    const Four out = now.side.part[p] * x * size / now.diagonal.part[p];
+    const Four x = now.x.part[p];
+    Four size = x;
+    take_sign(size);
+    const Four out = now.weight.part[p] * x * size;
     const Four marked =
         reinterpret_cast<Four>((reinterpret_cast<FourPlaces>(out) & ~lanes) | places[p]);
     most = marked > most ? marked : most;
@@ -68,23 +75,32 @@ SHAPEID_WIDE double form(const TenRows& U, const double* R, std::size_t stride, 
   return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
 }
 
+/// The inverses of the diagonal, before it is known which of them is needed: nothing waits for them.
+[[gnu::always_inline]] inline void invert(const Exchanged& now, Dozen& inverse) noexcept {
+  for (std::size_t p = 0; p < 3; ++p) inverse.part[p] = 1.0 / now.diagonal.part[p];
+}
+
 /// The exchange of x_k and its slope in  slope = q - H x,  for either direction. Column k is row k
 /// but for the signs of the rows on the other side. Entries k are set among their neighbours: what
 /// is written in part is slow to read as a whole.
-[[gnu::always_inline]] inline void exchange(Exchanged& now, std::size_t shapes,
-                                            std::size_t k) noexcept {
+[[gnu::always_inline]] inline void exchange(Exchanged& now, std::size_t shapes, std::size_t k,
+                                            double inverse) noexcept {
   Dozen row = now.H[k], column;
   FourPlaces others[3];
-  const double inverse = 1.0 / row[k], step = inverse * now.x[k], same = now.side[k];
+  const double step = inverse * now.x[k], same = now.side[k];
   for (std::size_t p = 0; p < 3; ++p) {
     const auto is_k = places[p] == k;
     others[p] = reinterpret_cast<FourPlaces>(~is_k);
     Four &side = now.side.part[p], &x = now.x.part[p], &diagonal = now.diagonal.part[p];
+    Four &weight = now.weight.part[p], &other = now.other_weight.part[p];
     column.part[p] = same * side * row.part[p];
     row.part[p] = is_k ? Four{} + inverse : inverse * row.part[p];
     x = is_k ? Four{} + step : x - step * column.part[p];
     diagonal = is_k ? Four{} + inverse : diagonal - column.part[p] * row.part[p];
     side = is_k ? -side : side;
+    const Four before = weight;
+    weight = is_k ? other : weight;
+    other = is_k ? before : other;
   }
   for (std::size_t i = 0; i < shapes; ++i) {
     for (std::size_t p = 0; p < 3; ++p) {
@@ -102,15 +118,17 @@ SHAPEID_WIDE double form(const TenRows& U, const double* R, std::size_t stride, 
 SHAPEID_WIDE bool settle(Exchanged& now, const Dozen& squares, std::size_t shapes, double smallest,
                          int most_pivots) noexcept {
   while (true) {
+    Dozen inverse;
+    invert(now, inverse);
     const double most = furthest_out(now);
     if (!(most > smallest)) return true;
     const std::size_t k = std::bit_cast<std::uint64_t>(most) & lanes;
     if (now.side[k] > 0.0 && !(now.diagonal[k] > smallest_share * squares[k])) {
-      now.diagonal[k] = std::numeric_limits<double>::infinity();
+      now.weight[k] = 0.0;  // it depends on the passive ones
     } else if (now.pivots == most_pivots) {
       return false;
     } else {
-      exchange(now, shapes, k);
+      exchange(now, shapes, k, inverse[k]);
     }
   }
 }
@@ -120,8 +138,27 @@ SHAPEID_WIDE void start(Exchanged& now, const Dozen& squares, std::size_t shapes
                         const std::vector<int>& passive) noexcept {
   for (const int j : passive) {
     const auto k = static_cast<std::size_t>(j);
-    if (squares[k] > 0.0 && now.diagonal[k] > smallest_share * squares[k]) exchange(now, shapes, k);
+    if (squares[k] > 0.0 && now.diagonal[k] > smallest_share * squares[k]) {
+      exchange(now, shapes, k, 1.0 / now.diagonal[k]);
+    }
   }
+}
+
+/// Of the shapes with side 1: the largest of slope - threshold x size.
+SHAPEID_WIDE double furthest_above(const TenRows& U, const Dozen& side, const Dozen& slopes,
+                                   const Dozen& sizes, double threshold,
+                                   std::size_t shapes) noexcept {
+  Dozen slope;
+  for (std::size_t i = 0; i < 10; ++i) add(slope, slopes[i], U[i]);
+  constexpr double lowest = -std::numeric_limits<double>::max();
+  Four most = Four{} + lowest;
+  for (std::size_t p = 0; p < 3; ++p) {
+    const Four above = slope.part[p] - threshold * sizes.part[p];
+    const auto asked = side.part[p] > 0.0 && places[p] < shapes;
+    const Four here = asked ? above : Four{} + lowest;
+    most = here > most ? here : most;
+  }
+  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
 }
 
 }  // namespace
@@ -137,16 +174,17 @@ void FewShapes::put(int j, const ShapeColumns::Column& u) noexcept {
   for (int i = 0; i < 10; ++i) U_[place(i)][place(j)] = u[i];
 }
 
-bool FewShapes::guess(const Eigen::VectorXd& V, double lambda, const Eigen::MatrixXd& R,
+bool FewShapes::guess(const Eigen::VectorXd& V, double lambda, const LinkRows& rows,
                       const std::vector<int>& passive) noexcept {
   const std::size_t shapes = place(shapes_);
-  const double square =
-      form(U_, R.data(), static_cast<std::size_t>(R.outerStride()), shapes, now_.H, now_.x);
+  const double square = form(U_, rows, shapes, now_.H, now_.x, sizes_);
   Dozen squares;
   for (std::size_t j = 0; j < dozen; ++j) {
     if (lambda > 0.0 && j < shapes) now_.H[j][j] += lambda / V[static_cast<Eigen::Index>(j)];
     squares[j] = j < shapes ? now_.H[j][j] : 0.0;
-    now_.diagonal[j] = squares[j] > 0.0 ? squares[j] : std::numeric_limits<double>::infinity();
+    now_.diagonal[j] = squares[j] > 0.0 ? squares[j] : 1.0;
+    now_.weight[j] = squares[j] > 0.0 ? 1.0 / squares[j] : 0.0;
+    now_.other_weight[j] = -squares[j];
   }
   for (Four& side : now_.side.part) side = Four{1.0, 1.0, 1.0, 1.0};
   if (square > 0.0) start(now_, squares, shapes, passive);  // without forces there is no mass
@@ -155,6 +193,20 @@ bool FewShapes::guess(const Eigen::VectorXd& V, double lambda, const Eigen::Matr
   const double smallest =
       std::max(smallest_step * smallest_step * square, std::numeric_limits<double>::min());
   return settle(now_, squares, shapes, smallest, 4 * shapes_);
+}
+
+AtPlaces FewShapes::answer() const noexcept {
+  static constexpr std::array<int, dozen> numbers = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+  unsigned used = 0;
+  for (std::size_t j = 0; j < place(shapes_); ++j) {
+    used |= static_cast<unsigned>(std::signbit(now_.side[j])) << j;
+  }
+  return {&U_, now_.H.data(), numbers.data(), &now_.x, &sizes_, used};
+}
+
+bool FewShapes::none_enters(const LinkRows& rows, const Dozen& slopes, double threshold) noexcept {
+  return furthest_above(U_, now_.side, slopes, sizes_, threshold * rows.length(),
+                        place(shapes_)) <= 0.0;
 }
 
 void FewShapes::solve_normal(Eigen::VectorXd& x) noexcept {

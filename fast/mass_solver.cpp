@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "shapeid/fast/many_links.hpp"
 #include "shapeid/fast/one_link.hpp"
@@ -21,6 +22,7 @@ MassSolver::MassSolver(int links, int most_shapes)
     : columns_(links, most_shapes),
       m_(Eigen::VectorXd::Zero(most_shapes)),
       V_(Eigen::VectorXd::Ones(most_shapes)),
+      table_(columns_, V_),
       vertex_(column_set(columns_)),
       even_(columns_, V_),
       method_(columns_, V_) {
@@ -44,33 +46,46 @@ bool MassSolver::append(int link, const Column& u, double V) noexcept {
 
 void MassSolver::set_lambda(double lambda) noexcept {
   lambda_ = lambda;
+  table_state_ = TableState::useless;
   if (lambda > 0.0) even_.set_lambda(lambda);
   method_.use(*vertex_, 0.0);
   at_vertex_ = true;
 }
 
 void MassSolver::forget_masses() noexcept {
+  table_state_ = TableState::useless;
   take_masses_out();
   method_.clear();
   at_vertex_ = true;
 }
 
 void MassSolver::start_at(int j, double mass) noexcept {
+  table_state_ = TableState::useless;
   method_.start_at(j, mass);
   m_[j] = mass;
 }
 
 Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
-  if (!method_.take(R)) return Outcome::not_finite;
+  const TableState before = std::exchange(table_state_, TableState::useless);
+  if (!method_.take(R)) {
+    table_state_ = before;
+    return Outcome::not_finite;
+  }
   if (guess_is_right()) return Outcome::solved;
   is_new_ = true;
-  const Outcome outcome = solve_again();
+  const Outcome outcome = solve_by_method();
   is_new_ = false;
   if (outcome != Outcome::solved) method_.take_back();
   return outcome;
 }
 
 Outcome MassSolver::solve_again() noexcept {
+  if (table_state_ == TableState::stands && settles_at_table()) return Outcome::solved;
+  table_state_ = TableState::useless;
+  return solve_by_method();
+}
+
+Outcome MassSolver::solve_by_method() noexcept {
   method_.save();
   take_masses_out();
   const Outcome outcome = lambda_ > 0.0 ? solve_damped() : method_.run();
@@ -79,19 +94,44 @@ Outcome MassSolver::solve_again() noexcept {
   return outcome;
 }
 
-// A new triangle of one link with few shapes: most answers are found by pivots on a dozen rows.
+// A new triangle of one link: most answers are found by pivots, of few shapes on their own normal
+// equations, of more in the link's parameters.
 bool MassSolver::guess_is_right() noexcept {
-  if (links() != 1 || !few_.fits()) return false;
-  if (!few_.guess(V_, lambda_, method_.R(), passive())) return false;
-  method_.save();
-  take_masses_out();
-  method_.use(*vertex_, lambda_);
-  const bool is_right = method_.settles_at(few_);
-  if (is_right) {
-    at_vertex_ = true;
-  } else {
-    method_.restore();
+  if (links() != 1) return false;
+  if (few_.fits()) {
+    if (!few_.guess(V_, lambda_, method_.link_rows(), passive()) || !settles_at(few_)) return false;
+    table_state_ = TableState::none;
+    return true;
   }
+  if (!has_table()) return false;
+  return settles_at_table();
+}
+
+bool MassSolver::has_table() noexcept {
+  method_.scale_prices();
+  const bool stands = table_.start(method_.link_rows(), lambda_, passive());
+  table_state_ = stands ? TableState::stands : TableState::useless;
+  return stands;
+}
+
+bool MassSolver::settles_at_table() noexcept {
+  constexpr int most_rounds = 4;  // one is enough where single precision can tell
+  for (int round = 0; round < most_rounds && table_.settle(); ++round) {
+    if (settles_at(table_)) {
+      table_.correct(method_.masses(), method_.slopes());
+      return true;
+    }
+    if (!table_.can_go_on()) break;
+  }
+  table_state_ = TableState::useless;
+  return false;
+}
+
+bool MassSolver::settles_at(Guess& guess) noexcept {
+  for (const int j : passive()) m_[j] = 0.0;
+  method_.use(*vertex_, lambda_);
+  const bool is_right = method_.settles_at(guess);
+  if (is_right) at_vertex_ = true;
   put_masses_in();
   return is_right;
 }
@@ -131,10 +171,28 @@ Outcome MassSolver::solve_damped() noexcept {
   return outcome;
 }
 
+// With as many passive shapes as rows mass only moves among them, which the method does in less time
+// than a table takes.
+bool MassSolver::has_table_to_divide() noexcept {
+  if (lambda_ == 0.0 && passive().size() == 10) table_state_ = TableState::useless;
+  if (table_state_ == TableState::none) static_cast<void>(has_table());
+  return table_state_ == TableState::stands;
+}
+
 bool MassSolver::divide(int j, const Column& first, double V1, const Column& second,
                         double V2) noexcept {
   const int other = shapes();
   if (!append(columns_.link(j), second, V2)) return false;
+  if (has_table_to_divide()) {
+    columns_.replace(j, first);
+    few_.put(j, first);
+    V_[j] = V1;
+    if (!table_.divide(j, other, V1, V2)) table_state_ = TableState::useless;
+    method_.divide(j, other, V2 / (V1 + V2));
+    put_masses_in();
+    SHAPEID_CONTRACT(why_changed());
+    return true;
+  }
   const double mass = m_[j];
   take_masses_out();
   if (mass > 0.0 && method_.has_rows()) method_.drop(j);

@@ -9,6 +9,7 @@
 #include "shapeid/fast/active_set.hpp"
 #include "shapeid/fast/even_density.hpp"
 #include "shapeid/fast/few_shapes.hpp"
+#include "shapeid/fast/link_table.hpp"
 #include "shapeid/fast/shape_columns.hpp"
 #include "shapeid/models/mass_problem.hpp"
 
@@ -17,8 +18,8 @@ namespace shapeid::fast {
 /// Minimises  || R U m - c ||^2 + lambda sum_j m_j^2 / V_j  over m >= 0, with [R c] the triangle of
 /// a window: the same minimiser as `reference::solve_masses` (lambda > 0), or the same minimum
 /// (lambda = 0). By an active-set method on one of two sets of passive shapes: columns that are
-/// independent, or, where lambda decides among more of them, the even density. A link with few
-/// shapes is tried by pivots first.
+/// independent, or, where lambda decides among more of them, the even density. One link is tried by
+/// pivots first.
 ///
 /// After construction nothing allocates or throws; the steps of a call are bounded.
 class MassSolver {
@@ -76,6 +77,11 @@ class MassSolver {
 
  private:
   [[nodiscard]] bool guess_is_right() noexcept;
+  [[nodiscard]] bool settles_at(Guess& guess) noexcept;
+  [[nodiscard]] bool settles_at_table() noexcept;
+  [[nodiscard]] bool has_table() noexcept;
+  [[nodiscard]] bool has_table_to_divide() noexcept;
+  [[nodiscard]] Outcome solve_by_method() noexcept;
   [[nodiscard]] Outcome solve_damped() noexcept;
   void give(int j, double mass) noexcept;
   void take_masses_out() noexcept;
@@ -84,6 +90,10 @@ class MassSolver {
   FewShapes few_;  ///< a first answer where a link has few shapes
   ShapeColumns columns_;
   Eigen::VectorXd m_, V_;
+  /// Of one link: whether the table is that of the passive shapes, can be made, or is of no use
+  /// until there is another triangle.
+  enum class TableState { none, stands, useless } table_state_ = TableState::none;
+  LinkTable table_;
   double lambda_ = 0.0;
   std::unique_ptr<ColumnSet> vertex_;  ///< passive shapes with independent columns
   EvenDensity even_;                   ///< any number of them, for lambda > 0

@@ -3,6 +3,9 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
+#include "shapeid/fast/link_rows.hpp"
 #include "shapeid/fast/shape_columns.hpp"
 
 namespace shapeid::fast {
@@ -58,6 +61,19 @@ class NormalEquations {
   /// Replaces x, an entry a passive shape, by the solution z of A^T A z = x with A = R U of the
   /// passive shapes, or what comes close to it.
   virtual void solve_normal(Eigen::VectorXd& x) noexcept = 0;
+};
+
+/// A guess at the answer for one link, to be corrected and checked by the one who asks
+/// (ActiveSet::settles_at). Solving the normal equations is for its passive shapes, in their order.
+class Guess : public NormalEquations {
+ public:
+  /// The passive shapes and their masses: positive, but for rounding.
+  [[nodiscard]] virtual AtPlaces answer() const noexcept = 0;
+  /// Pivots that led to it.
+  [[nodiscard]] virtual int pivots() const noexcept = 0;
+  /// Whether no shape that is not passive has a price above `threshold` at these slopes of `rows`.
+  [[nodiscard]] virtual bool none_enters(const LinkRows& rows, const Dozen& slopes,
+                                         double threshold) noexcept = 0;
 };
 
 /// A passive set whose columns are those of the shapes: for lambda = 0. Solving the normal

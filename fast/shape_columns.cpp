@@ -12,44 +12,13 @@
 namespace shapeid::fast {
 namespace {
 
-/// What a barred shape's price is lowered by. Prices lie in [-1, 1].
-constexpr float barred = 1e30F;
-/// And what no price reaches, unless products overflowed.
-constexpr float no_price = 2.0F, impossible = 4.0F;
-
-/// A price further from zero than this has the sign that it shows: its sum carries eight roundings
-/// of terms whose sizes add up to one (operands, product, additions); the rest is for the scale.
-constexpr float uncertain = 13.0F / (1 << 24);
-
 /// Kept away from zero, so that a shape which no row feels has the price zero and not NaN.
 constexpr float smallest_scale = 1e-30F;
 
 /// Of the largest price: what counts as almost as large.
 constexpr float almost = 0.1F;
 
-using Prices = Eigen::Array<float, 16, 1>;
 using Ten = Eigen::Array<float, 10, 1>;
-
-struct Best {
-  float price;
-  std::size_t lane;
-};
-
-/// u . g of sixteen shapes, in two sums, so that one addition need not wait for the other.
-[[gnu::always_inline]] inline void slopes_of(const float* U, const float* g,
-                                             Eight* slopes) noexcept {
-  for (std::ptrdiff_t p = 0; p < 2; ++p) {
-    Eight even = {}, odd = {};
-    for (std::ptrdiff_t i = 0; i < 10; i += 2) {
-      Eight u, v;
-      load(U + 16 * i + 8 * p, u);
-      load(U + 16 * (i + 1) + 8 * p, v);
-      even += u * g[i];
-      odd += v * g[i + 1];
-    }
-    slopes[p] = even + odd;
-  }
-}
 
 /// 1 / sum_i |u_i| sizes_i of each of sixteen shapes.
 [[gnu::always_inline]] inline void inverse_sizes(const float* U, const float* sizes,
@@ -59,42 +28,46 @@ struct Best {
     for (std::ptrdiff_t i = 0; i < 10; ++i) {
       Eight u;
       load(U + 16 * i + 8 * p, u);
-      sum += (u < 0.0F ? -u : u) * sizes[i];
+      take_sign(u);
+      sum += u * sizes[i];
     }
     inverse[p] = 1.0F / sum;
   }
 }
 
-/// The largest price and its lane; `impossible` if one of them cannot be a price. The lane's number
-/// is written into the last four bits of its price, which single precision cannot vouch for anyway:
-/// then one maximum finds both.
-[[gnu::always_inline]] inline Best best_of(const Eight* prices) noexcept {
-  using Bits = std::uint32_t __attribute__((vector_size(32)));
-  constexpr Bits lanes[] = {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10, 11, 12, 13, 14, 15}};
-  Eight most[2];
-  for (std::ptrdiff_t p = 0; p < 2; ++p) {
-    const Eight possible = prices[p] <= no_price ? prices[p] : Eight{} + impossible;
-    most[p] = reinterpret_cast<Eight>((reinterpret_cast<Bits>(possible) & ~15U) | lanes[p]);
-  }
-  const Eight m = most[0] > most[1] ? most[0] : most[1];
-  const float best = std::max(std::max(std::max(m[0], m[1]), std::max(m[2], m[3])),
-                              std::max(std::max(m[4], m[5]), std::max(m[6], m[7])));
-  return {best, std::bit_cast<std::uint32_t>(best) & 15U};
+/// Prices of sixteen shapes by their lengths.
+SHAPEID_WIDE Best price_by_lengths(PriceChunk& chunk, const float* g) noexcept {
+  return price(chunk, g);
 }
 
-/// Prices of sixteen shapes by their lengths.
-SHAPEID_WIDE Best price_by_lengths(const float* U, const float* g, const float* scale,
-                                   const float* barrier, float* prices) noexcept {
-  Eight slopes[2];
-  slopes_of(U, g, slopes);
-  for (std::ptrdiff_t p = 0; p < 2; ++p) {
-    Eight factor, barred_by;
-    load(scale + 8 * p, factor);
-    load(barrier + 8 * p, barred_by);
-    slopes[p] = slopes[p] * factor - barred_by;
-    store(slopes[p], prices + 8 * p);
+/// Of one shape in double.
+struct Asked {
+  double slope, terms;  ///< u . g, and the same of absolute values
+};
+
+/// Of the shapes of a chunk that are neither barred nor certainly below any threshold; `asked` has an
+/// entry a lane. Returns a bit a lane.
+SHAPEID_WIDE unsigned ask(const PriceChunk& chunk, const double* columns, const double* g,
+                          Asked* asked) noexcept {
+  Dozen b;
+  load_ten(g, b);
+  unsigned lanes = 0;
+  for (int lane = 0; lane < chunk.used; ++lane) {
+    if (chunk.barrier.data()[lane] > 0.0F || chunk.last.data()[lane] <= -uncertain) continue;
+    lanes |= 1U << lane;
+    Dozen a;
+    load_ten(columns + std::ptrdiff_t{10} * chunk.shape[static_cast<std::size_t>(lane)], a);
+    Four sum = {}, sizes = {};
+    for (std::size_t p = 0; p < 3; ++p) {
+      Four product = a.part[p] * b.part[p];
+      sum += product;
+      take_sign(product);
+      sizes += product;
+    }
+    asked[lane] = {(sum[0] + sum[2]) + (sum[1] + sum[3]),
+                   (sizes[0] + sizes[2]) + (sizes[1] + sizes[3])};
   }
-  return best_of(slopes);
+  return lanes;
 }
 
 /// And by their own terms, into `prices`. `by_length`: what slopes are multiplied by first for the
@@ -153,14 +126,14 @@ bool ShapeColumns::append(int link, const Column& u) noexcept {
   int& last = last_of_link_[static_cast<std::size_t>(link)];
   if (last < 0 || chunks_[static_cast<std::size_t>(last)].used == lanes) {
     last = used_chunks_++;
-    Chunk& fresh = chunks_[static_cast<std::size_t>(last)];
+    PriceChunk& fresh = chunks_[static_cast<std::size_t>(last)];
     fresh.U.setZero();
     fresh.scale.setOnes();
     fresh.barrier.setConstant(barred);
     fresh.link = link;
     fresh.used = 0;
   }
-  Chunk& chunk = chunks_[static_cast<std::size_t>(last)];
+  PriceChunk& chunk = chunks_[static_cast<std::size_t>(last)];
   const int lane = chunk.used++;
   chunk.shape[static_cast<std::size_t>(lane)] = size_;
   chunk.barrier[lane] = 0.0F;
@@ -175,54 +148,63 @@ void ShapeColumns::replace(int j, const Column& u) noexcept { write(j, u); }
 void ShapeColumns::write(int j, const Column& u) noexcept {
   columns_.col(j) = u;
   const Slot& slot = slots_[static_cast<std::size_t>(j)];
-  Chunk& chunk = chunks_[static_cast<std::size_t>(slot.chunk)];
-  chunk.U.row(slot.lane) = u.transpose().cast<float>().array();
-  const double size = u.cwiseAbs().dot(lengths_.segment<10>(Eigen::Index{10} * chunk.link));
-  chunk.scale[slot.lane] = 1.0F / std::max(static_cast<float>(size), smallest_scale);
+  PriceChunk& chunk = chunks_[static_cast<std::size_t>(slot.chunk)];
+  const double* lengths = lengths_.data() + std::ptrdiff_t{10} * chunk.link;
+  double even = 0.0, odd = 0.0;
+  for (int i = 0; i < 10; i += 2) {
+    even += std::abs(u[i]) * lengths[i];
+    odd += std::abs(u[i + 1]) * lengths[i + 1];
+  }
+  float* lane = chunk.U.data() + slot.lane;
+  for (int i = 0; i < 10; ++i) lane[std::ptrdiff_t{lanes} * i] = static_cast<float>(u[i]);
+  chunk.scale[slot.lane] = 1.0F / std::max(static_cast<float>(even + odd), smallest_scale);
 }
 
 void ShapeColumns::set_scale(const Eigen::VectorXd& lengths, double length) noexcept {
-  const double largest = lengths.size() > 0 ? lengths.maxCoeff() : 0.0;
-  lengths_ = lengths * (largest > 0.0 ? 1.0 / largest : 1.0);
-  unit_ = largest * length;
+  largest_ = lengths.size() > 0 ? lengths.maxCoeff() : 0.0;
+  lengths_ = lengths * (largest_ > 0.0 ? 1.0 / largest_ : 1.0);
+  unit_ = largest_ * length;
   inverse_unit_ = unit_ > 0.0 ? 1.0 / unit_ : 1.0;
   for (int c = 0; c < used_chunks_; ++c) set_scale(chunks_[static_cast<std::size_t>(c)]);
 }
 
-void ShapeColumns::set_scale(Chunk& chunk) noexcept {
+void ShapeColumns::set_scale(PriceChunk& chunk) noexcept {
   const Ten lengths = lengths_.segment<10>(Eigen::Index{10} * chunk.link).cast<float>();
   scales(chunk.U.data(), lengths.data(), chunk.scale.data());
 }
 
-void ShapeColumns::bar(int j, bool is_barred) noexcept {
-  const Slot& slot = slots_[static_cast<std::size_t>(j)];
-  chunks_[static_cast<std::size_t>(slot.chunk)].barrier[slot.lane] = is_barred ? barred : 0.0F;
-}
-
 void ShapeColumns::unbar_all() noexcept {
   for (int c = 0; c < used_chunks_; ++c) {
-    Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+    PriceChunk& chunk = chunks_[static_cast<std::size_t>(c)];
     chunk.barrier.head(chunk.used).setZero();
   }
 }
 
+// Single precision sees slopes beside the largest that these g could make, which is far less than
+// what prices are measured by where the rows are met well.
 int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept {
   steepest_ = -1;
   best_.clear();
-  // As many passive shapes as rows: nothing is left to gain.
-  if (threshold >= 0.0 && g.isZero(0.0)) return -1;
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < g.size(); ++i) {
+    if (lengths_[i] > 0.0) largest = std::max(largest, std::abs(g[i]) / lengths_[i]);
+  }
+  // No price exceeds this, or the sign is all that counts.
+  const double most_possible = largest * inverse_unit_;
+  if (!(threshold < 0.0 || most_possible > threshold)) return -1;
+  const double factor = largest > 0.0 ? 1.0 / largest : 0.0;
+  const double least = largest > 0.0 ? threshold / most_possible : 0.0;
   float most = uncertain;
   uncertain_.clear();
   Ten gl = Ten::Zero();
   int link = -1;
   for (int c = 0; c < used_chunks_; ++c) {
-    Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+    PriceChunk& chunk = chunks_[static_cast<std::size_t>(c)];
     if (chunk.link != link) {
       link = chunk.link;
-      gl = (inverse_unit_ * g.segment<10>(Eigen::Index{10} * link)).cast<float>();
+      gl = (factor * g.segment<10>(Eigen::Index{10} * link)).cast<float>();
     }
-    const Best here = price_by_lengths(chunk.U.data(), gl.data(), chunk.scale.data(),
-                                       chunk.barrier.data(), chunk.last.data());
+    const Best here = price_by_lengths(chunk, gl.data());
     if (!(here.price <= no_price)) {
       // A float overflowed, and may stand above the barrier: double decides.
       uncertain_.push_back(c);
@@ -231,7 +213,7 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
     if (here.price > -uncertain) uncertain_.push_back(c);
     const int shape = chunk.shape[here.lane];
     best_.push_back({shape, here.price});
-    if (here.price > most) {
+    if (here.price > most && here.price > least) {
       most = here.price;
       steepest_ = shape;
     }
@@ -258,7 +240,7 @@ int ShapeColumns::steepest_or_by_terms(const Eigen::VectorXd& g, double threshol
   float most = uncertain, most_by_terms = uncertain;
   int steepest_by_terms = -1;
   for (int c = 0; c < used_chunks_; ++c) {
-    Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+    PriceChunk& chunk = chunks_[static_cast<std::size_t>(c)];
     const Ten gl = (g.segment<10>(Eigen::Index{10} * chunk.link) / largest).cast<float>();
     Best here{}, terms{};
     price_by_both(chunk.U.data(), gl.data(), chunk.scale.data(), chunk.barrier.data(), by_length,
@@ -312,17 +294,16 @@ int ShapeColumns::steepest_in_double(const Eigen::VectorXd& g, double threshold,
                                      Judged judged) const noexcept {
   int best = -1;
   double most = threshold;
+  std::array<Asked, lanes> asked;
   for (const int c : uncertain_) {
-    const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-    for (int lane = 0; lane < chunk.used; ++lane) {
-      // Barred, or certainly below any threshold.
-      if (chunk.barrier[lane] > 0.0F || chunk.last[lane] <= -uncertain) continue;
-      const int j = chunk.shape[static_cast<std::size_t>(lane)];
-      const auto gl = g.segment<10>(Eigen::Index{10} * chunk.link);
-      const double slope = columns_.col(j).dot(gl);
+    const PriceChunk& chunk = chunks_[static_cast<std::size_t>(c)];
+    unsigned left = ask(chunk, data(), g.data() + std::ptrdiff_t{10} * chunk.link, asked.data());
+    for (; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      const int j = chunk.shape[lane];
+      const auto [slope, terms] = asked[lane];
       const double here = judged == Judged::by_terms
-                              ? slope / std::max(columns_.col(j).cwiseAbs().dot(gl.cwiseAbs()),
-                                                 std::numeric_limits<double>::min())
+                              ? slope / std::max(terms, std::numeric_limits<double>::min())
                               : price(j, slope);
       if (here > most) {
         most = here;

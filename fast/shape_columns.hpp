@@ -6,6 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "shapeid/fast/price_chunk.hpp"
+
 namespace shapeid::fast {
 
 /// Unit parameters of shapes on links, sixteen shapes of one link beside each other in memory, so
@@ -32,6 +34,8 @@ class ShapeColumns {
   [[nodiscard]] int links() const noexcept { return static_cast<int>(last_of_link_.size()); }
   [[nodiscard]] int link(int j) const noexcept { return links_[static_cast<std::size_t>(j)]; }
   [[nodiscard]] auto column(int j) const noexcept { return columns_.col(j); }
+  /// All columns, one behind the other.
+  [[nodiscard]] const double* data() const noexcept { return columns_.data(); }
 
   /// What slopes are judged by. `lengths`: of the columns of R, or upper bounds of them (10 links);
   /// `length`: of the right-hand side. No slope u_j . g that comes from a right-hand side of this
@@ -59,26 +63,33 @@ class ShapeColumns {
   enum class Among { links, groups };
   [[nodiscard]] const std::vector<int>& steep_ones(Among among) noexcept;
   /// Bars a shape from steepest(), or admits it again.
-  void bar(int j, bool barred) noexcept;
+  void bar(int j, bool is_barred) noexcept {
+    const Slot& slot = slots_[static_cast<std::size_t>(j)];
+    chunks_[static_cast<std::size_t>(slot.chunk)].barrier[slot.lane] = is_barred ? barred : 0.0F;
+  }
+  struct Slot {
+    int chunk, lane;
+  };
+  /// Where a shape is priced.
+  [[nodiscard]] const Slot& slot(int j) const noexcept { return slots_[static_cast<std::size_t>(j)]; }
+  /// What is priced: sixteen shapes at a time.
+  [[nodiscard]] PriceChunk* chunks() noexcept { return chunks_.data(); }
+  [[nodiscard]] int used_chunks() const noexcept { return used_chunks_; }
+  /// The largest length.
+  [[nodiscard]] double largest() const noexcept { return largest_; }
+  /// What slopes are multiplied by before single precision prices them.
+  [[nodiscard]] double inverse_unit() const noexcept { return inverse_unit_; }
+  /// sum_i |u_ij| lengths_i, to single precision: R u_j is no longer.
+  [[nodiscard]] double bound(int j) const noexcept {
+    const Slot& slot = slots_[static_cast<std::size_t>(j)];
+    const PriceChunk& chunk = chunks_[static_cast<std::size_t>(slot.chunk)];
+    return largest_ / static_cast<double>(chunk.scale[slot.lane]);
+  }
   /// Admits all shapes.
   void unbar_all() noexcept;
 
  private:
-  static constexpr int lanes = 16;
-  using Prices = Eigen::Array<float, lanes, 1>;
-  /// Sixteen shapes of one link. Missing ones are barred.
-  struct Chunk {
-    Eigen::Array<float, lanes, 10> U;
-    Prices scale;    ///< 1 / sum_i |u_ij| lengths_i
-    Prices barrier;  ///< 0, or barred
-    Prices last;     ///< by which the last pricing could not decide
-    std::array<int, lanes> shape;
-    int link;
-    int used;
-  };
-  struct Slot {
-    int chunk, lane;
-  };
+  static constexpr int lanes = PriceChunk::lanes;
   struct Priced {
     int shape;
     float price;
@@ -86,13 +97,13 @@ class ShapeColumns {
 
   enum class Judged { by_lengths, by_terms };
   void write(int j, const Column& u) noexcept;
-  void set_scale(Chunk& chunk) noexcept;
+  void set_scale(PriceChunk& chunk) noexcept;
   [[nodiscard]] int steepest_in_double(const Eigen::VectorXd& g, double threshold,
                                        Judged judged) const noexcept;
 
   int size_ = 0;
   int used_chunks_ = 0;
-  std::vector<Chunk> chunks_;
+  std::vector<PriceChunk> chunks_;
   std::vector<Slot> slots_;                            ///< of every shape
   std::vector<int> links_;                             ///< of every shape
   Eigen::Matrix<double, 10, Eigen::Dynamic> columns_;  ///< in double, one behind the other
@@ -103,6 +114,7 @@ class ShapeColumns {
   std::vector<int> steep_ones_;
   std::vector<int> uncertain_;  ///< chunks that single precision cannot decide
   Eigen::VectorXd lengths_;     ///< relative to the largest, so that single precision holds them
+  double largest_ = 1.0;        ///< of the lengths
   double unit_ = 1.0;           ///< the largest length x that of the right-hand side
   double inverse_unit_ = 1.0;   ///< if it is positive
 };

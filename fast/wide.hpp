@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
 
 namespace shapeid::fast {
 
@@ -11,15 +11,30 @@ namespace shapeid::fast {
 using Four = double __attribute__((vector_size(32)));
 using Eight = float __attribute__((vector_size(32)));
 
-/// The numbers from here on, wherever they lie in memory.
+using FourBits = std::uint64_t __attribute__((vector_size(32)));
+using EightBits = std::uint32_t __attribute__((vector_size(32)));
+
+/// The numbers from here on, wherever they lie in memory. (A memcpy would be made in two halves,
+/// because it is expanded before the machine is chosen.)
 [[gnu::always_inline]] inline void load(const double* x, Four& four) noexcept {
-  std::memcpy(&four, x, sizeof four);
+  using Anywhere [[gnu::aligned(8), gnu::may_alias]] = Four;
+  four = *reinterpret_cast<const Anywhere*>(x);
 }
 [[gnu::always_inline]] inline void load(const float* x, Eight& eight) noexcept {
-  std::memcpy(&eight, x, sizeof eight);
+  using Anywhere [[gnu::aligned(4), gnu::may_alias]] = Eight;
+  eight = *reinterpret_cast<const Anywhere*>(x);
 }
 [[gnu::always_inline]] inline void store(const Eight& eight, float* x) noexcept {
-  std::memcpy(x, &eight, sizeof eight);
+  using Anywhere [[gnu::aligned(4), gnu::may_alias]] = Eight;
+  *reinterpret_cast<Anywhere*>(x) = eight;
+}
+
+/// |x|: without the sign's bit.
+[[gnu::always_inline]] inline void take_sign(Four& x) noexcept {
+  x = reinterpret_cast<Four>(reinterpret_cast<FourBits>(x) & ~(std::uint64_t{1} << 63U));
+}
+[[gnu::always_inline]] inline void take_sign(Eight& x) noexcept {
+  x = reinterpret_cast<Eight>(reinterpret_cast<EightBits>(x) & ~(std::uint32_t{1} << 31U));
 }
 
 /// A dozen doubles.
@@ -29,6 +44,9 @@ struct Dozen {
   double operator[](std::size_t i) const noexcept {
     return reinterpret_cast<const double*>(part)[i];
   }
+  [[nodiscard]] const double* data() const noexcept {
+    return reinterpret_cast<const double*>(part);
+  }
 };
 
 /// a += factor b
@@ -36,6 +54,12 @@ struct Dozen {
   a.part[0] += factor * b.part[0];
   a.part[1] += factor * b.part[1];
   a.part[2] += factor * b.part[2];
+}
+
+/// Sum of the products.
+[[gnu::always_inline]] inline double dot(const Dozen& a, const Dozen& b) noexcept {
+  const Four sum = a.part[0] * b.part[0] + a.part[1] * b.part[1] + a.part[2] * b.part[2];
+  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
 /// The ten numbers from here on, and two zeros.

@@ -38,7 +38,9 @@ class Judged {
   }
 
   bool guess(const Eigen::MatrixXd& R, const std::vector<int>& passive = {}) {
-    return guess_.guess(V(), given_.problem.lambda, R, passive);
+    LinkRows rows;
+    rows.take(R);
+    return guess_.guess(V(), given_.problem.lambda, rows, passive);
   }
   bool settles() { return method_.settles_at(guess_); }
   [[nodiscard]] Eigen::VectorXd masses() const {

@@ -1,0 +1,498 @@
+// Derivation: docs/derivations/fast-masses.md.
+#include "shapeid/fast/link_table.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "shapeid/fast/price_chunk.hpp"
+
+namespace shapeid::fast {
+namespace {
+
+using Table = LinkTable::Exchanged;
+using Problem = LinkTable::Problem;
+using Ten = std::array<Dozen, 10>;
+using FourPlaces = std::uint64_t __attribute__((vector_size(32)));
+
+constexpr FourPlaces places[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
+
+/// A column of which less than this share of its bound's square is new counts as dependent:
+/// rounding of M may be a hundredth of it.
+constexpr double smallest_share = 1e-12;
+
+/// Prices below this are not followed: rounding of M may be as large.
+constexpr double smallest_price = 1e-13;
+
+/// What an answer is checked against (ActiveSet's allowed_slope).
+constexpr double allowed_rounding = 1e-10;
+
+/// The bits of a number that hold a place among the dozen.
+constexpr std::uint64_t lanes = 15;
+
+constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+
+/// Whether there are as many passive shapes as rows: then no row is left that a slope could come
+/// from.
+[[gnu::always_inline]] inline bool is_full(const Table& t, const Problem& problem) noexcept {
+  return problem.lambda == 0.0 && t.count == 10;
+}
+
+/// The first place that is free; most_passive if none is.
+[[gnu::always_inline]] inline std::size_t free_place(const Table& t) noexcept {
+  return static_cast<std::size_t>(std::countr_one(t.used));
+}
+
+/// All bits at the places but one.
+struct Others {
+  FourPlaces part[3];
+};
+
+[[gnu::always_inline]] inline Others others_than(std::size_t place) noexcept {
+  Others others;
+  for (std::size_t p = 0; p < 3; ++p) {
+    others.part[p] = reinterpret_cast<FourPlaces>(places[p] != place);
+  }
+  return others;
+}
+
+/// a at the others, x at the one.
+[[gnu::always_inline]] inline Dozen with(const Dozen& a, const Others& others, double x) noexcept {
+  Dozen b;
+  for (std::size_t p = 0; p < 3; ++p) {
+    b.part[p] = others.part[p] != 0 ? a.part[p] : Four{} + x;
+  }
+  return b;
+}
+
+[[gnu::always_inline]] inline void clear_one(Dozen& a, const Others& others) noexcept {
+  for (std::size_t p = 0; p < 3; ++p) {
+    a.part[p] = reinterpret_cast<Four>(reinterpret_cast<FourPlaces>(a.part[p]) & others.part[p]);
+  }
+}
+
+/// factor a
+[[gnu::always_inline]] inline Dozen times(double factor, const Dozen& a) noexcept {
+  Dozen b;
+  for (std::size_t p = 0; p < 3; ++p) b.part[p] = factor * a.part[p];
+  return b;
+}
+
+/// What a column that enters makes of the table.
+struct Image {
+  Dozen s;             ///< M u
+  Dozen x;             ///< C^T u: its coefficients
+  double left = 0.0;   ///< of its square
+  double slope = 0.0;  ///< -1/2 df/dm where it has no mass
+};
+
+[[gnu::always_inline]] inline void look_at(const Table& t, const double* column, double stiffness,
+                                           Image& image) noexcept {
+  // Two sums each, so that one addition need not wait for the other.
+  Dozen u, s, x, odd_s, odd_x;
+  load_ten(column, u);
+  for (std::size_t i = 0; i < 10; i += 2) {
+    add(s, column[i], t.M[i]);
+    add(x, column[i], t.C[i]);
+    add(odd_s, column[i + 1], t.M[i + 1]);
+    add(odd_x, column[i + 1], t.C[i + 1]);
+  }
+  add(s, 1.0, odd_s);
+  add(x, 1.0, odd_x);
+  image.left = dot(s, u) + stiffness;
+  image.slope = dot(t.g, u);
+  image.s = s;
+  image.x = x;
+}
+
+/// The shape looked at becomes passive at this place, which is free.
+[[gnu::always_inline]] inline void enter_at(Table& t, const Image& image, std::size_t place, int j,
+                                            const double* column) noexcept {
+  const double inverse = 1.0 / image.left, mass = inverse * image.slope;
+  const Others others = others_than(place);
+  const Dozen s = image.s, x = with(image.x, others, -1.0);
+  t.used |= 1U << place;
+  ++t.count;
+  t.places = std::max(t.places, place + 1);
+  t.shape[place] = j;
+  for (std::size_t i = 0; i < 10; ++i) t.U[i][place] = column[i];
+  add(t.g, -mass, s);
+  t.m = with(t.m, others, 0.0);
+  add(t.m, -mass, x);
+  const Dozen f = times(-inverse, s), h = times(inverse, x);
+  t.diagonal = with(t.diagonal, others, 0.0);
+  for (std::size_t p = 0; p < 3; ++p) t.diagonal.part[p] += h.part[p] * x.part[p];
+  for (std::size_t i = 0; i < 10; ++i) {
+    add(t.M[i], f[i], s);
+    add(t.C[i], f[i], x);
+  }
+  for (std::size_t q = 0; q < t.places; ++q) add(t.K[q], h[q], x);
+}
+
+/// The coefficients of the shape at this place.
+[[gnu::always_inline]] inline Dozen coefficients(const Table& t, std::size_t place) noexcept {
+  const Ten& C = t.C;
+  Dozen c;
+  c.part[0] = Four{C[0][place], C[1][place], C[2][place], C[3][place]};
+  c.part[1] = Four{C[4][place], C[5][place], C[6][place], C[7][place]};
+  c.part[2] = Four{C[8][place], C[9][place], 0.0, 0.0};
+  return c;
+}
+
+[[gnu::always_inline]] inline void take_out(Table& t, std::size_t place) noexcept {
+  const Dozen c = coefficients(t, place), k = t.K[place];
+  const double inverse = 1.0 / t.diagonal[place], mass = t.m[place] * inverse;
+  const Others others = others_than(place);
+  const Dozen f = times(inverse, c), h = times(-inverse, k);
+  add(t.g, mass, c);
+  add(t.m, -mass, k);
+  t.m = with(t.m, others, 1.0);
+  for (std::size_t p = 0; p < 3; ++p) t.diagonal.part[p] += h.part[p] * k.part[p];
+  t.diagonal = with(t.diagonal, others, 1.0);
+  for (std::size_t i = 0; i < 10; ++i) {
+    add(t.M[i], f[i], c);
+    add(t.C[i], -f[i], k);
+    clear_one(t.C[i], others);
+  }
+  for (std::size_t q = 0; q < t.places; ++q) {
+    add(t.K[q], h[q], k);
+    clear_one(t.K[q], others);
+  }
+  t.K[place] = Dozen{};
+  t.used &= ~(1U << place);
+  --t.count;
+}
+
+/// Whether a mass is zero or negative.
+[[gnu::always_inline]] inline bool some_below(const Table& t) noexcept {
+  FourPlaces below = {};
+  for (const Four& m : t.m.part) below |= reinterpret_cast<FourPlaces>(m <= 0.0);
+  return ((below[0] | below[1]) | (below[2] | below[3])) != 0;
+}
+
+/// The place whose mass, zero or negative, costs most to be held at zero, m^2 over its entry of K;
+/// only if there is one. The low bits of each cost carry its place, so that one maximum finds both.
+[[gnu::always_inline]] inline std::size_t furthest_below(const Table& t) noexcept {
+  Four most = Four{} - 1.0;
+  for (std::size_t p = 0; p < 3; ++p) {
+    const Four m = t.m.part[p];
+    const Four out = m > 0.0 ? Four{} - 1.0 : m * m / t.diagonal.part[p];
+    const Four marked =
+        reinterpret_cast<Four>((reinterpret_cast<FourPlaces>(out) & ~lanes) | places[p]);
+    most = marked > most ? marked : most;
+  }
+  const double found = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+  return std::bit_cast<std::uint64_t>(found) & lanes;
+}
+
+/// A shape as pricing knows it.
+struct Lane {
+  PriceChunk* chunk = nullptr;
+  std::size_t lane = 0;
+
+  [[nodiscard]] int shape() const noexcept { return chunk->shape[lane]; }
+  [[nodiscard]] float* barrier() const noexcept { return chunk->barrier.data() + lane; }
+  [[nodiscard]] double scale() const noexcept { return static_cast<double>(chunk->scale.data()[lane]); }
+};
+
+/// The largest |g_i| / lengths_i: no slope is larger than this times the shape's bound.
+[[gnu::always_inline]] inline double largest_of(const Dozen& g, const Dozen& inverse_lengths) noexcept {
+  Four most = {};
+  for (std::size_t p = 0; p < 3; ++p) {
+    Four size = g.part[p];
+    take_sign(size);
+    size *= inverse_lengths.part[p];
+    most = size > most ? size : most;
+  }
+  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+}
+
+/// The steepest shape by single precision, and its price.
+[[gnu::always_inline]] inline float steepest(const Dozen& g, const Problem& problem,
+                                             Lane& lane) noexcept {
+  using Numbers = std::int32_t __attribute__((vector_size(32)));
+  constexpr Numbers lane_numbers[] = {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10, 11, 12, 13, 14, 15}};
+  float gl[12];
+  for (std::size_t p = 0; p < 3; ++p) {
+    using FourFloats = float __attribute__((vector_size(16)));
+    const FourFloats single = __builtin_convertvector(problem.inverse_unit * g.part[p], FourFloats);
+    for (std::size_t k = 0; k < 4; ++k) gl[4 * p + k] = single[k];
+  }
+  Eight most[2] = {Eight{} - barred, Eight{} - barred};
+  Numbers number[2] = {lane_numbers[0], lane_numbers[1]};
+  for (int c = 0; c < problem.count; ++c) {
+    const PriceChunk& chunk = problem.chunks[c];
+    Eight prices[2];
+    slopes_of(chunk.U.data(), gl, prices);
+    for (std::ptrdiff_t p = 0; p < 2; ++p) {
+      Eight scale, barrier;
+      load(chunk.scale.data() + 8 * p, scale);
+      load(chunk.barrier.data() + 8 * p, barrier);
+      const Eight here = prices[p] * scale - barrier;
+      const auto is_more = here > most[p];
+      most[p] = is_more ? here : most[p];
+      number[p] = is_more ? lane_numbers[p] + 16 * c : number[p];
+    }
+  }
+  // The lane's number in the low bits, which single precision cannot vouch for: one maximum finds
+  // both.
+  Eight marked[2];
+  alignas(32) int numbers[16];
+  for (std::size_t p = 0; p < 2; ++p) {
+    marked[p] = reinterpret_cast<Eight>((reinterpret_cast<EightBits>(most[p]) & ~15U) |
+                                        reinterpret_cast<EightBits>(lane_numbers[p]));
+    *reinterpret_cast<Numbers*>(numbers + 8 * p) = number[p];
+  }
+  const Eight m = marked[0] > marked[1] ? marked[0] : marked[1];
+  const float best = std::max(std::max(std::max(m[0], m[1]), std::max(m[2], m[3])),
+                              std::max(std::max(m[4], m[5]), std::max(m[6], m[7])));
+  const int found = numbers[std::bit_cast<std::uint32_t>(best) & 15U];
+  lane = {problem.chunks + found / 16, static_cast<std::size_t>(found % 16)};
+  return best;
+}
+
+/// False if the shape depends on the passive ones, or there is no place for it.
+[[gnu::always_inline]] inline bool enter(Table& t, const Problem& problem,
+                                         const Lane& lane) noexcept {
+  const std::size_t place = free_place(t);
+  if (place == LinkTable::most_passive) return false;
+  const int j = lane.shape();
+  Image image;
+  const double* column = problem.U + std::ptrdiff_t{10} * j;
+  look_at(t, column, problem.stiffness(j), image);
+  const double scale = lane.scale();
+  if (!(image.left * scale * scale > problem.smallest_left)) return false;
+  enter_at(t, image, place, j, column);
+  t.barrier[place] = lane.barrier();
+  t.sizes[place] = problem.largest / scale;
+  *lane.barrier() = barred;
+  return true;
+}
+
+[[gnu::always_inline]] inline void leave(Table& t, std::size_t place) noexcept {
+  take_out(t, place);
+  *t.barrier[place] = 0.0F;
+}
+
+SHAPEID_WIDE void leave_one(Table& t, std::size_t place) noexcept { leave(t, place); }
+
+SHAPEID_WIDE bool enter_one(Table& t, const Problem& problem, const Lane& lane) noexcept {
+  return enter(t, problem, lane);
+}
+
+enum class Stop {
+  settled,   ///< nothing wants to enter
+  doubtful,  ///< single precision cannot tell, or what wants to enter cannot
+  endless
+};
+
+/// A mass that is not positive leaves, or else the steepest shape enters; `pivots` counts them.
+SHAPEID_WIDE Stop pivot(Table& t, const Problem& problem, int most_pivots, int& pivots) noexcept {
+  for (; pivots < most_pivots; ++pivots) {
+    if (some_below(t)) {
+      leave(t, furthest_below(t));
+      continue;
+    }
+    if (is_full(t, problem)) return Stop::settled;
+    const double possible = largest_of(t.g, problem.inverse_lengths) * problem.inverse_length;
+    if (!(possible > smallest_price)) return Stop::settled;
+    Lane lane;
+    const auto price = static_cast<double>(steepest(t.g, problem, lane));
+    // Single precision sees a price to a share of the largest that these slopes could make.
+    const double seen = static_cast<double>(uncertain) * possible;
+    if (price < -seen) return Stop::settled;
+    const bool is_certain = price > seen && price > smallest_price && price <= 1.0 + seen;
+    if (!is_certain || !enter(t, problem, lane)) return Stop::doubtful;
+  }
+  return Stop::endless;
+}
+
+/// M and g of rows [R c]: four rows of M at a time, from the rows of R that reach them.
+template <std::size_t first, std::size_t count>
+[[gnu::always_inline]] inline void fill_rows(Table& t, const Ten& rows) noexcept {
+  Dozen sum[count];
+  for (std::size_t i = 0; i < first + count; ++i) {
+    for (std::size_t k = 0; k < count; ++k) add(sum[k], rows[i][first + k], rows[i]);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    t.g[first + k] = sum[k][10];
+    sum[k].part[2] = Four{sum[k].part[2][0], sum[k].part[2][1], 0.0, 0.0};
+    t.M[first + k] = sum[k];
+  }
+}
+
+SHAPEID_WIDE void fill(Table& t, const Ten& rows) noexcept {
+  fill_rows<0, 4>(t, rows);
+  fill_rows<4, 4>(t, rows);
+  fill_rows<8, 2>(t, rows);
+}
+
+/// Parts of a shape.
+struct Parts {
+  const double *remains, *goes;  ///< their columns
+  double sizes[2];               ///< what they are of the whole's volume
+};
+
+/// Of the shape at `place` one part has become a shape of its own, `j`, which enters at `other`. The
+/// whole's column is the sum of the parts' columns, each times its size, so that masses go over.
+/// `shared`: the stiffness of the whole, which both parts feel as long as they move together. False
+/// if the parts can hardly be told apart.
+SHAPEID_WIDE bool split(Table& t, std::size_t place, std::size_t other, int j, const Parts& parts,
+                        double bound, double shared, double stiffness) noexcept {
+  Image image;
+  look_at(t, parts.goes, stiffness, image);
+  if (shared > 0.0) {
+    image.left -= shared * (2.0 * image.x[place] + shared * t.diagonal[place]);
+    image.slope -= shared * t.m[place];
+    add(image.s, -shared, coefficients(t, place));
+    add(image.x, shared, t.K[place]);
+  }
+  if (!(image.left > smallest_share * bound * bound)) return false;
+  enter_at(t, image, other, j, parts.goes);
+  const Others others = others_than(place), before = others_than(other);
+  Dozen ones;
+  for (Four& part : ones.part) part += 1.0;
+  const Dozen remain = with(ones, others, parts.sizes[0]);
+  const Dozen go = with(Dozen{}, before, parts.sizes[1]);
+  const auto turn = [&](Dozen& row) {
+    const double whole = row[place];
+    for (std::size_t p = 0; p < 3; ++p) {
+      row.part[p] = remain.part[p] * row.part[p] + whole * go.part[p];
+    }
+  };
+  for (Dozen& row : t.C) turn(row);
+  turn(t.m);
+  add(t.K[other], parts.sizes[1], t.K[place]);
+  t.K[place] = times(parts.sizes[0], t.K[place]);
+  for (std::size_t q = 0; q < t.places; ++q) turn(t.K[q]);
+  t.diagonal = with(with(t.diagonal, others, t.K[place][place]), before, t.K[other][other]);
+  for (std::size_t i = 0; i < 10; ++i) t.U[i][place] = parts.remains[i];
+  return true;
+}
+
+Lane lane(ShapeColumns& columns, int j) noexcept {
+  const ShapeColumns::Slot& slot = columns.slot(j);
+  return {columns.chunks() + slot.chunk, at(slot.lane)};
+}
+
+}  // namespace
+
+LinkTable::LinkTable(ShapeColumns& columns, const Eigen::VectorXd& V)
+    : columns_(&columns), V_(&V), slopes_(Eigen::VectorXd::Zero(10)) {
+  now_.U.fill(Dozen{});
+}
+
+bool LinkTable::start(const LinkRows& rows, double lambda,
+                      const std::vector<int>& passive) noexcept {
+  pivots_ = 0;
+  wanting_ = -1;
+  problem_.U = columns_->data();
+  problem_.V = V_->data();
+  problem_.chunks = columns_->chunks();
+  problem_.lambda = lambda;
+  problem_.largest = columns_->largest();
+  problem_.inverse_unit = columns_->inverse_unit();
+  problem_.inverse_length = rows.length() > 0.0 ? 1.0 / rows.length() : 0.0;
+  problem_.smallest_left = smallest_share * problem_.largest * problem_.largest;
+  for (std::size_t k = 0; k < 10; ++k) {
+    const double length = rows.lengths()[k];
+    problem_.inverse_lengths[k] = length > 0.0 ? 1.0 / length : 0.0;
+  }
+  columns_->unbar_all();
+  now_.C.fill(Dozen{});
+  now_.K.fill(Dozen{});
+  for (std::size_t p = 0; p < 3; ++p) {
+    now_.m.part[p] = now_.diagonal.part[p] = Four{1.0, 1.0, 1.0, 1.0};
+  }
+  now_.places = 0;
+  now_.used = 0;
+  now_.count = 0;
+  fill(now_, rows.rows());
+  if (passive.size() > most_passive) return false;
+  for (const int j : passive) static_cast<void>(enter_shape(j));
+  return true;
+}
+
+bool LinkTable::enter_shape(int j) noexcept {
+  return enter_one(now_, problem_, lane(*columns_, j));
+}
+
+void LinkTable::correct(const std::vector<double>& masses, const Eigen::VectorXd& slopes) noexcept {
+  std::size_t i = 0;
+  for (unsigned left = now_.used; left != 0; left &= left - 1) {
+    now_.m[at(std::countr_zero(left))] = masses[i++];
+  }
+  load_ten(slopes.data(), now_.g);
+}
+
+bool LinkTable::divide(int j, int other, double V1, double V2) noexcept {
+  pivots_ = 0;
+  wanting_ = -1;
+  std::size_t place = 0;
+  while (place < most_passive && !(is_used(place) && now_.shape[place] == j)) ++place;
+  if (place == most_passive) return true;  // it has no mass
+  const std::size_t free = free_place(now_);
+  if (free == most_passive) return false;
+  const double V = V1 + V2, bound = columns_->bound(other);
+  const Parts parts{columns_->column(j).data(), columns_->column(other).data(), {V1 / V, V2 / V}};
+  const double lambda = problem_.lambda;
+  if (split(now_, place, free, other, parts, bound, lambda > 0.0 ? lambda / V : 0.0,
+            lambda > 0.0 ? lambda / V2 : 0.0)) {
+    now_.sizes[free] = bound;
+    now_.sizes[place] = columns_->bound(j);
+    now_.barrier[free] = lane(*columns_, other).barrier();
+    *now_.barrier[free] = barred;
+    return true;
+  }
+  leave_one(now_, place);
+  static_cast<void>(enter_shape(j));
+  return true;
+}
+
+// Four pivots for each parameter and each shape that there may be: in practice two or three a
+// passive shape.
+bool LinkTable::settle() noexcept {
+  problem_.count = columns_->used_chunks();
+  if (const int j = std::exchange(wanting_, -1); j >= 0) {
+    ++pivots_;
+    if (!enter_shape(j)) return false;
+  }
+  const Stop stop = pivot(now_, problem_, 40 + 4 * columns_->size(), pivots_);
+  is_certain_ = stop == Stop::settled;
+  return stop != Stop::endless;
+}
+
+AtPlaces LinkTable::answer() const noexcept {
+  return {&now_.U, now_.K.data(), now_.shape.data(), &now_.m, &now_.sizes, now_.used};
+}
+
+// Where certainly no shape wanted to enter at the slopes of the table, it is enough that these are
+// the same to what an answer is checked against. As many passive shapes as rows were not asked at
+// all: their slopes are to be nothing.
+bool LinkTable::none_enters(const LinkRows& rows, const Dozen& slopes, double threshold) noexcept {
+  Dozen apart = slopes;
+  if (!is_full(now_, problem_)) add(apart, -1.0, now_.g);
+  if (is_certain_ && threshold > 0.0 &&
+      largest_of(apart, problem_.inverse_lengths) <= allowed_rounding * rows.length()) {
+    return true;
+  }
+  std::copy_n(slopes.data(), 10, slopes_.data());
+  wanting_ = columns_->steepest(slopes_, threshold);
+  return wanting_ < 0;
+}
+
+void LinkTable::solve_normal(Eigen::VectorXd& x) noexcept {
+  Dozen z;
+  Eigen::Index entry = 0;
+  for (unsigned left = now_.used; left != 0; left &= left - 1) {
+    add(z, x[entry++], now_.K[at(std::countr_zero(left))]);
+  }
+  entry = 0;
+  for (unsigned left = now_.used; left != 0; left &= left - 1) {
+    x[entry++] = z[at(std::countr_zero(left))];
+  }
+}
+
+}  // namespace shapeid::fast

@@ -1,0 +1,106 @@
+// The masses of one link by principal pivots in its ten parameters, however many shapes it has.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "shapeid/fast/link_rows.hpp"
+#include "shapeid/fast/passive_set.hpp"
+#include "shapeid/fast/shape_columns.hpp"
+#include "shapeid/fast/wide.hpp"
+
+namespace shapeid::fast {
+
+/// A guess at the masses of one link, for lambda >= 0. Kept are, for the passive shapes P with
+/// A = R U_P,
+///
+///     K = (A^T A + lambda V_P^-1)^-1,      C^T = K A^T R,      m = K A^T c,
+///     M = R^T (R - A C^T),                 g = R^T (c - A m):
+///
+/// a shape that enters or leaves changes each by one product of two vectors, and every other shape
+/// is priced with the ten numbers of g. A division changes the basis. Forming R^T R squares the
+/// condition and pivots need not lead downhill, so this is a guess, to be corrected and checked.
+/// Nothing allocates or throws after construction.
+class LinkTable final : public Guess {
+ public:
+  /// More passive shapes are not dealt with.
+  static constexpr std::size_t most_passive = 12;
+
+  /// What is exchanged. Places that no shape has: zero, and in `m` and `diagonal` one.
+  struct Exchanged {
+    std::array<Dozen, 10> M, C;
+    std::array<Dozen, 10> U;            ///< a place's column in each lane, until it is used anew
+    std::array<Dozen, most_passive> K;  ///< a row a place
+    Dozen g, m, diagonal;               ///< `diagonal`: of K
+    Dozen sizes;                        ///< what bounds the columns of A
+    std::array<int, most_passive> shape{};
+    std::array<float*, most_passive> barrier{};  ///< what bars them
+    std::size_t places = 0;  ///< in use, with gaps
+    unsigned used = 0;       ///< a bit a place
+    int count = 0;           ///< of these
+  };
+
+  /// What the table is about.
+  struct Problem {
+    const double* U = nullptr;  ///< ten numbers a shape
+    const double* V = nullptr;  ///< m^3
+    double lambda = 0.0;
+    double largest = 0.0;         ///< length of the columns of R
+    double inverse_unit = 0.0;    ///< what makes slopes prices, but for a shape's scale
+    double inverse_length = 0.0;  ///< of the right-hand side, or zero
+    double smallest_left = 0.0;   ///< of a column's square, times that of its scale
+    Dozen inverse_lengths;        ///< of the columns of R, or zero
+    PriceChunk* chunks = nullptr;
+    int count = 0;  ///< of them
+
+    [[nodiscard]] double stiffness(int j) const noexcept {
+      return lambda > 0.0 ? lambda / V[j] : 0.0;
+    }
+  };
+
+  /// `columns`, of one link, and `V` (m^3, an entry a shape) must outlive the object. Bars the
+  /// passive shapes, and those alone.
+  LinkTable(ShapeColumns& columns, const Eigen::VectorXd& V);
+
+  /// For these rows, whose scale `columns` knows, with the shapes `passive`, as far as their columns
+  /// do not depend on those before. False if there are too many.
+  [[nodiscard]] bool start(const LinkRows& rows, double lambda,
+                           const std::vector<int>& passive) noexcept;
+  /// The masses and slopes were corrected: the passive shapes of answer(), in that order.
+  void correct(const std::vector<double>& masses, const Eigen::VectorXd& slopes) noexcept;
+  /// Shape `j` gave its second part, of volume V2, to shape `other`, the last one; what remained has
+  /// volume V1. To be called when `columns` and `V` know both. False if there is no room.
+  [[nodiscard]] bool divide(int j, int other, double V1, double V2) noexcept;
+  /// Pivots until no mass is negative and, as far as single precision sees, no price positive. False
+  /// if that does not come about.
+  [[nodiscard]] bool settle() noexcept;
+  /// Whether a shape wanted to enter when none_enters() was asked last, so that settle() may go on.
+  [[nodiscard]] bool can_go_on() const noexcept { return wanting_ >= 0; }
+
+  [[nodiscard]] AtPlaces answer() const noexcept override;
+  [[nodiscard]] int pivots() const noexcept override { return pivots_; }
+  [[nodiscard]] bool none_enters(const LinkRows& rows, const Dozen& slopes,
+                                 double threshold) noexcept override;
+  void solve_normal(Eigen::VectorXd& x) noexcept override;
+
+ private:
+  /// False if it depends on those that are passive, or there is no place for it.
+  [[nodiscard]] bool enter_shape(int j) noexcept;
+  [[nodiscard]] bool is_used(std::size_t place) const noexcept {
+    return (now_.used >> place & 1U) != 0;
+  }
+
+  Exchanged now_;  // first: its members are the most strictly aligned
+  Problem problem_;
+  ShapeColumns* columns_;
+  const Eigen::VectorXd* V_;
+  int pivots_ = 0;
+  int wanting_ = -1;         ///< a shape to enter next
+  bool is_certain_ = false;  ///< that none wanted to, where settle() ended
+  Eigen::VectorXd slopes_;
+};
+
+}  // namespace shapeid::fast
