@@ -152,26 +152,26 @@ class ActiveSet {
   const Eigen::VectorXd* V_;
   PassiveSet* set_ = nullptr;
   double lambda_ = 0.0;
-  bool started_ = false;  ///< set_ holds the passive shapes
-  bool scaled_ = false;   ///< the columns know what prices are measured by
   std::vector<int> passive_;
   std::vector<double> masses_;       ///< of the passive shapes
   std::vector<double> stiffness_;    ///< lambda / V of the passive shapes, once started
   std::vector<double> tried_;        ///< masses to come back to, or of a guess
   std::vector<int> guessed_;         ///< its passive shapes
   std::vector<int> refused_;         ///< barred until the next step that is taken
-  bool ended_with_refused_ = false;  ///< so that some were not asked at the end
   std::vector<ShapeMass> entering_;  ///< on their way into a fresh factorisation
   Eigen::VectorXd coefficients_, Phi_, r_, slopes_;
   Eigen::VectorXd gradient_;  ///< of the passive shapes, if judged_ and there is one link
   Objective value_;
-  bool evaluated_ = false;      ///< Phi_, slopes_ and value_ are those of the masses
-  bool judged_ = false;         ///< largest_slope_ is that of the passive shapes at slopes_
   double largest_slope_ = 0.0;  ///< over its terms
-  int iterations_ = 0;
   std::vector<ShapeMass> saved_;
   Eigen::VectorXd saved_Phi_, saved_slopes_;
   Objective saved_value_;
+  int iterations_ = 0;
+  bool started_ = false;             ///< set_ holds the passive shapes
+  bool scaled_ = false;              ///< the columns know what prices are measured by
+  bool ended_with_refused_ = false;  ///< so that some were not asked at the end
+  bool evaluated_ = false;           ///< Phi_, slopes_ and value_ are those of the masses
+  bool judged_ = false;              ///< largest_slope_ is that of the passive shapes at slopes_
 };
 
 }  // namespace shapeid::fast

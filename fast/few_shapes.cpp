@@ -75,7 +75,8 @@ SHAPEID_WIDE double form(const TenRows& U, const LinkRows& link, std::size_t sha
   return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
 }
 
-/// The inverses of the diagonal, before it is known which of them is needed: nothing waits for them.
+/// The inverses of the diagonal, before it is known which of them is needed: nothing waits for
+/// them.
 [[gnu::always_inline]] inline void invert(const Exchanged& now, Dozen& inverse) noexcept {
   for (std::size_t p = 0; p < 3; ++p) inverse.part[p] = 1.0 / now.diagonal.part[p];
 }
@@ -205,8 +206,8 @@ AtPlaces FewShapes::answer() const noexcept {
 }
 
 bool FewShapes::none_enters(const LinkRows& rows, const Dozen& slopes, double threshold) noexcept {
-  return furthest_above(U_, now_.side, slopes, sizes_, threshold * rows.length(),
-                        place(shapes_)) <= 0.0;
+  return furthest_above(U_, now_.side, slopes, sizes_, threshold * rows.length(), place(shapes_)) <=
+         0.0;
 }
 
 void FewShapes::solve_normal(Eigen::VectorXd& x) noexcept {

@@ -47,7 +47,8 @@ using Ten = std::array<Dozen, 10>;
   }
 }
 
-/// Rows of [R c 0] and the sums of the absolute values in its columns. R is zero below its diagonal.
+/// Rows of [R c 0] and the sums of the absolute values in its columns. R is zero below its
+/// diagonal.
 SHAPEID_WIDE void read(const double* R, std::ptrdiff_t stride, Ten& rows,
                        std::array<Dozen, 11>& columns, Dozen& lengths) noexcept {
   for (std::size_t c = 0; c < 11; ++c) {
@@ -121,7 +122,8 @@ SHAPEID_WIDE void evaluate_masses(const Data& data, const int* shapes, const dou
   return ((any[0] | any[1]) | (any[2] | any[3])) != 0;
 }
 
-[[gnu::always_inline]] inline bool all_positive(const Dozen& a, const FourBits (&used)[3]) noexcept {
+[[gnu::always_inline]] inline bool all_positive(const Dozen& a,
+                                                const FourBits (&used)[3]) noexcept {
   FourBits any = {};
   for (std::size_t p = 0; p < 3; ++p) {
     any |= ~reinterpret_cast<FourBits>(a.part[p] > 0.0) & used[p];
@@ -224,8 +226,8 @@ void LinkRows::take(const Eigen::MatrixXd& R) noexcept {
 
 void LinkRows::evaluate(const ShapeColumns& columns, const std::vector<int>& passive,
                         const std::vector<double>& masses, Value& value) const noexcept {
-  evaluate_masses({rows_, columns_, columns.data()}, passive.data(), masses.data(),
-                  passive.size(), value);
+  evaluate_masses({rows_, columns_, columns.data()}, passive.data(), masses.data(), passive.size(),
+                  value);
 }
 
 void LinkRows::settle(const ShapeColumns& columns, const AtPlaces& passive, const Dozen& stiffness,

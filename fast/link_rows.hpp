@@ -48,14 +48,14 @@ class LinkRows {
   /// Masses that have been corrected.
   struct Settled {
     Value at;
-    Dozen m;                   ///< zero where no shape is
-    double density = 0.0;      ///< lambda sum_j m_j^2 / V_j
+    Dozen m;               ///< zero where no shape is
+    double density = 0.0;  ///< lambda sum_j m_j^2 / V_j
     int corrections = 0;
-    bool is_settled = false;   ///< masses are positive, and their slopes rounding
+    bool is_settled = false;  ///< masses are positive, and their slopes rounding
   };
-  /// Corrects the masses until each slope is at most `refined` of its terms; in `most` corrections or
-  /// not at all. Where the square of c - R Phi is below `exact` of || b ||^2, once more. `stiffness`:
-  /// lambda / V of each place.
+  /// Corrects the masses until each slope is at most `refined` of its terms; in `most` corrections
+  /// or not at all. Where the square of c - R Phi is below `exact` of || b ||^2, once more.
+  /// `stiffness`: lambda / V of each place.
   void settle(const ShapeColumns& columns, const AtPlaces& passive, const Dozen& stiffness,
               double refined, int most, double exact, Settled& settled) const noexcept;
 

@@ -194,11 +194,14 @@ struct Lane {
 
   [[nodiscard]] int shape() const noexcept { return chunk->shape[lane]; }
   [[nodiscard]] float* barrier() const noexcept { return chunk->barrier.data() + lane; }
-  [[nodiscard]] double scale() const noexcept { return static_cast<double>(chunk->scale.data()[lane]); }
+  [[nodiscard]] double scale() const noexcept {
+    return static_cast<double>(chunk->scale.data()[lane]);
+  }
 };
 
 /// The largest |g_i| / lengths_i: no slope is larger than this times the shape's bound.
-[[gnu::always_inline]] inline double largest_of(const Dozen& g, const Dozen& inverse_lengths) noexcept {
+[[gnu::always_inline]] inline double largest_of(const Dozen& g,
+                                                const Dozen& inverse_lengths) noexcept {
   Four most = {};
   for (std::size_t p = 0; p < 3; ++p) {
     Four size = g.part[p];
@@ -335,10 +338,10 @@ struct Parts {
   double sizes[2];               ///< what they are of the whole's volume
 };
 
-/// Of the shape at `place` one part has become a shape of its own, `j`, which enters at `other`. The
-/// whole's column is the sum of the parts' columns, each times its size, so that masses go over.
-/// `shared`: the stiffness of the whole, which both parts feel as long as they move together. False
-/// if the parts can hardly be told apart.
+/// Of the shape at `place` one part has become a shape of its own, `j`, which enters at `other`.
+/// The whole's column is the sum of the parts' columns, each times its size, so that masses go
+/// over. `shared`: the stiffness of the whole, which both parts feel as long as they move together.
+/// False if the parts can hardly be told apart.
 SHAPEID_WIDE bool split(Table& t, std::size_t place, std::size_t other, int j, const Parts& parts,
                         double bound, double shared, double stiffness) noexcept {
   Image image;

@@ -38,9 +38,9 @@ class LinkTable final : public Guess {
     Dozen sizes;                        ///< what bounds the columns of A
     std::array<int, most_passive> shape{};
     std::array<float*, most_passive> barrier{};  ///< what bars them
-    std::size_t places = 0;  ///< in use, with gaps
-    unsigned used = 0;       ///< a bit a place
-    int count = 0;           ///< of these
+    std::size_t places = 0;                      ///< in use, with gaps
+    unsigned used = 0;                           ///< a bit a place
+    int count = 0;                               ///< of these
   };
 
   /// What the table is about.
@@ -65,17 +65,17 @@ class LinkTable final : public Guess {
   /// passive shapes, and those alone.
   LinkTable(ShapeColumns& columns, const Eigen::VectorXd& V);
 
-  /// For these rows, whose scale `columns` knows, with the shapes `passive`, as far as their columns
-  /// do not depend on those before. False if there are too many.
+  /// For these rows, whose scale `columns` knows, with the shapes `passive`, as far as their
+  /// columns do not depend on those before. False if there are too many.
   [[nodiscard]] bool start(const LinkRows& rows, double lambda,
                            const std::vector<int>& passive) noexcept;
   /// The masses and slopes were corrected: the passive shapes of answer(), in that order.
   void correct(const std::vector<double>& masses, const Eigen::VectorXd& slopes) noexcept;
-  /// Shape `j` gave its second part, of volume V2, to shape `other`, the last one; what remained has
-  /// volume V1. To be called when `columns` and `V` know both. False if there is no room.
+  /// Shape `j` gave its second part, of volume V2, to shape `other`, the last one; what remained
+  /// has volume V1. To be called when `columns` and `V` know both. False if there is no room.
   [[nodiscard]] bool divide(int j, int other, double V1, double V2) noexcept;
-  /// Pivots until no mass is negative and, as far as single precision sees, no price positive. False
-  /// if that does not come about.
+  /// Pivots until no mass is negative and, as far as single precision sees, no price positive.
+  /// False if that does not come about.
   [[nodiscard]] bool settle() noexcept;
   /// Whether a shape wanted to enter when none_enters() was asked last, so that settle() may go on.
   [[nodiscard]] bool can_go_on() const noexcept { return wanting_ >= 0; }

@@ -22,10 +22,10 @@ MassSolver::MassSolver(int links, int most_shapes)
     : columns_(links, most_shapes),
       m_(Eigen::VectorXd::Zero(most_shapes)),
       V_(Eigen::VectorXd::Ones(most_shapes)),
-      table_(columns_, V_),
       vertex_(column_set(columns_)),
-      even_(columns_, V_),
-      method_(columns_, V_) {
+      table_(columns_, V_),
+      method_(columns_, V_),
+      even_(columns_, V_) {
   method_.use(*vertex_, 0.0);
 }
 
@@ -171,8 +171,8 @@ Outcome MassSolver::solve_damped() noexcept {
   return outcome;
 }
 
-// With as many passive shapes as rows mass only moves among them, which the method does in less time
-// than a table takes.
+// With as many passive shapes as rows mass only moves among them, which the method does in less
+// time than a table takes.
 bool MassSolver::has_table_to_divide() noexcept {
   if (lambda_ == 0.0 && passive().size() == 10) table_state_ = TableState::useless;
   if (table_state_ == TableState::none) static_cast<void>(has_table());

@@ -87,19 +87,21 @@ class MassSolver {
   void take_masses_out() noexcept;
   void put_masses_in() noexcept;
 
-  FewShapes few_;  ///< a first answer where a link has few shapes
-  ShapeColumns columns_;
-  Eigen::VectorXd m_, V_;
   /// Of one link: whether the table is that of the passive shapes, can be made, or is of no use
   /// until there is another triangle.
-  enum class TableState { none, stands, useless } table_state_ = TableState::none;
-  LinkTable table_;
-  double lambda_ = 0.0;
+  enum class TableState { none, stands, useless };
+
+  ShapeColumns columns_;
+  Eigen::VectorXd m_, V_;
   std::unique_ptr<ColumnSet> vertex_;  ///< passive shapes with independent columns
-  EvenDensity even_;                   ///< any number of them, for lambda > 0
-  ActiveSet method_;
+  double lambda_ = 0.0;
+  TableState table_state_ = TableState::none;
   bool is_new_ = false;    ///< the triangle
   bool at_vertex_ = true;  ///< where the next call may start, for lambda > 0
+  FewShapes few_;          ///< a first answer where a link has few shapes
+  LinkTable table_;        ///< or more of them, and as they are divided
+  ActiveSet method_;
+  EvenDensity even_;  ///< passive shapes, any number of them, for lambda > 0
 };
 
 }  // namespace shapeid::fast

@@ -71,7 +71,9 @@ class ShapeColumns {
     int chunk, lane;
   };
   /// Where a shape is priced.
-  [[nodiscard]] const Slot& slot(int j) const noexcept { return slots_[static_cast<std::size_t>(j)]; }
+  [[nodiscard]] const Slot& slot(int j) const noexcept {
+    return slots_[static_cast<std::size_t>(j)];
+  }
   /// What is priced: sixteen shapes at a time.
   [[nodiscard]] PriceChunk* chunks() noexcept { return chunks_.data(); }
   [[nodiscard]] int used_chunks() const noexcept { return used_chunks_; }

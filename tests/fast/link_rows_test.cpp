@@ -112,8 +112,9 @@ struct Three {
       for (int i = 0; i < 10; ++i) {
         U[static_cast<std::size_t>(i)][places[k]] = some.given.column(static_cast<int>(k))[i];
       }
-      sizes[places[k]] = some.given.column(static_cast<int>(k)).cwiseAbs().dot(
-          some.given.problem.Y.cwiseAbs().colwise().sum().transpose());
+      sizes[places[k]] = some.given.column(static_cast<int>(k))
+                             .cwiseAbs()
+                             .dot(some.given.problem.Y.cwiseAbs().colwise().sum().transpose());
     }
     const Eigen::MatrixXd A = (some.given.problem.Y * some.given.problem.U).leftCols(3);
     const Eigen::MatrixXd H = (A.transpose() * A).inverse();

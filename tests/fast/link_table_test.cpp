@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "shapeid/fast/active_set.hpp"
@@ -33,9 +34,9 @@ constexpr int most_divisions = 8;
 class Judged {
  public:
   explicit Judged(const TriangleCase& given)
-      : V_(VectorXd::Ones(given.shapes() + most_divisions)),
+      : table_(columns_, V_),
+        V_(VectorXd::Ones(given.shapes() + most_divisions)),
         columns_(1, given.shapes() + most_divisions),
-        table_(columns_, V_),
         vertex_(columns_),
         method_(columns_, V_) {
     for (int j = 0; j < given.shapes(); ++j) {
@@ -76,10 +77,10 @@ class Judged {
   }
 
  private:
-  VectorXd V_;
-  LinkRows rows_;
-  ShapeColumns columns_;
+  LinkRows rows_;  // first: their members are the most strictly aligned
   LinkTable table_;
+  VectorXd V_;
+  ShapeColumns columns_;
   OneLink vertex_;
   ActiveSet method_;
 };
@@ -121,12 +122,11 @@ TEST(LinkTable, IsSettledOftenWithLambda) {
   for (const bool warm : {false, true}) EXPECT_GE(settled(true, warm), 120);
 }
 
-// A table of other forces has other masses: either they can be corrected to the minimum, or they are
-// refused.
+// A table of other forces has other masses: either they can be corrected to the minimum, or they
+// are refused.
 RC_GTEST_PROP(LinkTable, OfOtherForcesIsCorrectedOrRefused, ()) {
-  const TriangleCase given =
-      some_case(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange(2, 40),
-                *rc::gen::arbitrary<bool>());
+  const TriangleCase given = some_case(*rc::gen::arbitrary<std::uint64_t>(),
+                                       *rc::gen::inRange(2, 40), *rc::gen::arbitrary<bool>());
   Judged judged(given);
   MatrixXd R = given.R;
   R(*rc::gen::inRange(0, 10), 10) += *rc::gen::element(1e-9, 1e-3, 1.0) * R.col(10).norm();
@@ -140,7 +140,8 @@ RC_GTEST_PROP(LinkTable, OfOtherForcesIsCorrectedOrRefused, ()) {
 TEST(LinkTable, OfAnotherWindowIsRefused) {
   int refused = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    const TriangleCase given = some_case(seed, 25, false), other = some_case(seed + 1000, 25, false);
+    const TriangleCase given = some_case(seed, 25, false),
+                       other = some_case(seed + 1000, 25, false);
     MatrixXd R = given.R;
     R.rightCols<1>() = other.R.rightCols<1>();
     Judged judged(given);
@@ -153,16 +154,16 @@ TEST(LinkTable, OfAnotherWindowIsRefused) {
 // inverse and the minimum of its passive shapes. With lambda the parts of a whole feel each other.
 RC_GTEST_PROP(LinkTable, KeepsInverseAndMinimumAsShapesAreDivided, ()) {
   const bool density_term = *rc::gen::arbitrary<bool>();
-  TriangleCase given = some_case(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange(1, 5),
-                                 density_term, 1e-3);
+  TriangleCase given =
+      some_case(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange(1, 5), density_term, 1e-3);
   // As strong as the rows, so that a term that is missing cannot hide.
   if (density_term) {
     const MatrixXd A = given.problem.Y * given.problem.U;
     given.problem.lambda = 0.3 * A.squaredNorm() * given.problem.V.mean();
   }
   Judged judged(given);
-  std::vector<int> all;
-  for (int j = 0; j < given.shapes(); ++j) all.push_back(j);
+  std::vector<int> all(static_cast<std::size_t>(given.shapes()));
+  std::iota(all.begin(), all.end(), 0);
   RC_PRE(judged.start(given.R, given.problem.lambda, all));
   test::Draw draw(*rc::gen::arbitrary<std::uint64_t>());
   const int divisions = *rc::gen::inRange(0, 4);
@@ -204,8 +205,8 @@ RC_GTEST_PROP(LinkTable, KeepsInverseAndMinimumAsShapesAreDivided, ()) {
   const MatrixXd inverse = (scaled.transpose() * scaled).inverse();
   for (Index i = 0; i < n; ++i) {
     for (Index k = 0; k < n; ++k) {
-      const double entry = at.inverse[places[static_cast<std::size_t>(i)]]
-                                     [places[static_cast<std::size_t>(k)]];
+      const double entry =
+          at.inverse[places[static_cast<std::size_t>(i)]][places[static_cast<std::size_t>(k)]];
       RC_ASSERT(test::scaled(entry * lengths[i] * lengths[k] - inverse(i, k),
                              inverse.norm() * condition * condition, n) < few_hundred_eps);
     }
@@ -214,8 +215,8 @@ RC_GTEST_PROP(LinkTable, KeepsInverseAndMinimumAsShapesAreDivided, ()) {
 
 TEST(LinkTable, HasRoomForADozenPassiveShapes) {
   const TriangleCase given = some_case(1, 20, true);
-  std::vector<int> passive;
-  for (int j = 0; j < static_cast<int>(LinkTable::most_passive); ++j) passive.push_back(j);
+  std::vector<int> passive(LinkTable::most_passive);
+  std::iota(passive.begin(), passive.end(), 0);
   Judged judged(given);
   EXPECT_TRUE(judged.start(given.R, given.problem.lambda, passive));
   passive.push_back(12);

@@ -331,8 +331,8 @@ TEST(FastMassEdges, MassesThatAreFarOffAreNoStart) {
 }
 
 /// Where the rows tell all shapes apart, the density term costs what refinement costs: nothing
-/// where it moves masses by less than their rounding, and one step where it moves them by its
-/// square root. With more shapes than FewShapes takes.
+/// where it moves masses by less than their rounding or pivots know it, and one step where it moves
+/// a vertex's masses by its square root. With more shapes than FewShapes takes.
 TEST(FastMassEdges, ADensityTermOfShapesToldApartCostsNextToNothing) {
   constexpr int shapes = 6, held = 7;
   // One link is settled by pivots, which know lambda; of more a vertex is damped, by a correction
