@@ -182,14 +182,15 @@ RC_GTEST_PROP(LinkTable, KeepsInverseAndMinimumAsShapesAreDivided, ()) {
   const auto n = static_cast<Index>(passive.size());
   RC_PRE(n == given.shapes());
   // The augmented rows, whose condition is not squared.
-  MatrixXd A(10 + n, n);
-  A.topRows(10) = (given.problem.Y * given.problem.U)(Eigen::all, passive);
+  const Index rows = given.problem.Y.rows();
+  MatrixXd A(rows + n, n);
+  A.topRows(rows) = (given.problem.Y * given.problem.U)(Eigen::all, passive);
   A.bottomRows(n) = (given.problem.lambda * given.problem.V(passive).cwiseInverse())
                         .cwiseSqrt()
                         .asDiagonal()
                         .toDenseMatrix();
-  VectorXd b = VectorXd::Zero(10 + n);
-  b.head(10) = given.problem.F;
+  VectorXd b = VectorXd::Zero(rows + n);
+  b.head(rows) = given.problem.F;
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(A);
   const VectorXd lengths = A.colwise().norm().transpose();
   const MatrixXd scaled = A * lengths.cwiseInverse().asDiagonal();
