@@ -49,6 +49,8 @@ class ActiveSet {
   [[nodiscard]] bool take(const Eigen::MatrixXd& R) noexcept;
   /// Back to the triangle before the last take().
   void take_back() noexcept;
+  /// Whether the passive shapes are factorised, so that shapes may enter and leave one by one.
+  [[nodiscard]] bool has_started() const noexcept { return started_; }
   [[nodiscard]] bool has_rows() const noexcept { return rows_->R != nullptr; }
 
   /// No passive shapes.

@@ -135,6 +135,7 @@ struct Limits {
   double refined;
   int most;
   double exact;
+  double unreached;  ///< square of what no parameter reaches
 };
 
 SHAPEID_WIDE void settle_masses(const Data& data, const AtPlaces& passive, double length,
@@ -179,7 +180,7 @@ SHAPEID_WIDE void settle_masses(const Data& data, const AtPlaces& passive, doubl
     const bool is_settled = !any_above(size, allowed, used);
     // Slopes are small beside || c ||. Where the rows are met almost exactly, masses have more
     // digits than that shows, and one more correction gains them.
-    const bool is_exact = settled.at.square < limits.exact * length * length;
+    const bool is_exact = settled.at.square + limits.unreached < limits.exact * length * length;
     if (is_settled && !(once_more && is_exact && any_above(size, Dozen{}, used))) break;
     if (is_settled) once_more = false;
     if (!is_settled && (settled.corrections == limits.most || !once_more)) return;
@@ -222,6 +223,7 @@ SHAPEID_WIDE double judge_masses(const Dozen& lengths, double length, const doub
 void LinkRows::take(const Eigen::MatrixXd& R) noexcept {
   read(R.data(), R.outerStride(), rows_, columns_, lengths_);
   length_ = R.col(10).norm();
+  unreached_ = R(10, 10);
 }
 
 void LinkRows::evaluate(const ShapeColumns& columns, const std::vector<int>& passive,
@@ -233,7 +235,7 @@ void LinkRows::evaluate(const ShapeColumns& columns, const std::vector<int>& pas
 void LinkRows::settle(const ShapeColumns& columns, const AtPlaces& passive, const Dozen& stiffness,
                       double refined, int most, double exact, Settled& settled) const noexcept {
   settle_masses({rows_, columns_, columns.data()}, passive, length_, stiffness,
-                {refined, most, exact}, settled);
+                {refined, most, exact, unreached_ * unreached_}, settled);
 }
 
 double LinkRows::judge(const ShapeColumns& columns, const std::vector<int>& passive,

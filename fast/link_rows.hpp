@@ -54,8 +54,8 @@ class LinkRows {
     bool is_settled = false;  ///< masses are positive, and their slopes rounding
   };
   /// Corrects the masses until each slope is at most `refined` of its terms; in `most` corrections
-  /// or not at all. Where the square of c - R Phi is below `exact` of || b ||^2, once more.
-  /// `stiffness`: lambda / V of each place.
+  /// or not at all. Where the square of the whole residual is below `exact` of || b ||^2, once
+  /// more. `stiffness`: lambda / V of each place.
   void settle(const ShapeColumns& columns, const AtPlaces& passive, const Dozen& stiffness,
               double refined, int most, double exact, Settled& settled) const noexcept;
 
@@ -71,6 +71,7 @@ class LinkRows {
   std::array<Dozen, 11> columns_;  ///< ten numbers each, then zero
   Dozen lengths_;
   double length_ = 0.0;
+  double unreached_ = 0.0;  ///< of the right-hand side
 };
 
 }  // namespace shapeid::fast

@@ -410,6 +410,7 @@ bool LinkTable::start(const LinkRows& rows, double lambda,
     now_.m.part[p] = now_.diagonal.part[p] = Four{1.0, 1.0, 1.0, 1.0};
   }
   now_.places = 0;
+  now_.g = Dozen{};
   now_.used = 0;
   now_.count = 0;
   fill(now_, rows.rows());
@@ -482,8 +483,9 @@ bool LinkTable::none_enters(const LinkRows& rows, const Dozen& slopes, double th
     return true;
   }
   std::copy_n(slopes.data(), 10, slopes_.data());
-  wanting_ = columns_->steepest(slopes_, threshold);
-  return wanting_ < 0;
+  const int j = columns_->steepest(slopes_, threshold);
+  if (j >= 0 && columns_->column(j).dot(slopes_) > 0.0) wanting_ = j;
+  return j < 0;
 }
 
 void LinkTable::solve_normal(Eigen::VectorXd& x) noexcept {

@@ -174,6 +174,7 @@ Outcome MassSolver::solve_damped() noexcept {
 // With as many passive shapes as rows mass only moves among them, which the method does in less
 // time than a table takes.
 bool MassSolver::has_table_to_divide() noexcept {
+  if (links() != 1 || !method_.has_rows()) return false;
   if (lambda_ == 0.0 && passive().size() == 10) table_state_ = TableState::useless;
   if (table_state_ == TableState::none) static_cast<void>(has_table());
   return table_state_ == TableState::stands;
@@ -183,11 +184,13 @@ bool MassSolver::divide(int j, const Column& first, double V1, const Column& sec
                         double V2) noexcept {
   const int other = shapes();
   if (!append(columns_.link(j), second, V2)) return false;
-  if (has_table_to_divide()) {
+  // Where nothing is factorised yet, masses are but a place to start at.
+  const bool by_table = has_table_to_divide();
+  if (by_table || (method_.has_rows() && !method_.has_started())) {
     columns_.replace(j, first);
     few_.put(j, first);
     V_[j] = V1;
-    if (!table_.divide(j, other, V1, V2)) table_state_ = TableState::useless;
+    if (by_table && !table_.divide(j, other, V1, V2)) table_state_ = TableState::useless;
     method_.divide(j, other, V2 / (V1 + V2));
     put_masses_in();
     SHAPEID_CONTRACT(why_changed());

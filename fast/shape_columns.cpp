@@ -48,12 +48,12 @@ struct Asked {
 /// Of the shapes of a chunk that are neither barred nor certainly below any threshold; `asked` has
 /// an entry a lane. Returns a bit a lane.
 SHAPEID_WIDE unsigned ask(const PriceChunk& chunk, const double* columns, const double* g,
-                          Asked* asked) noexcept {
+                          float below, Asked* asked) noexcept {
   Dozen b;
   load_ten(g, b);
   unsigned lanes = 0;
   for (int lane = 0; lane < chunk.used; ++lane) {
-    if (chunk.barrier.data()[lane] > 0.0F || chunk.last.data()[lane] <= -uncertain) continue;
+    if (chunk.barrier.data()[lane] > 0.0F || chunk.last.data()[lane] <= below) continue;
     lanes |= 1U << lane;
     Dozen a;
     load_ten(columns + std::ptrdiff_t{10} * chunk.shape[static_cast<std::size_t>(lane)], a);
@@ -194,6 +194,8 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
   if (!(threshold < 0.0 || most_possible > threshold)) return -1;
   const double factor = largest > 0.0 ? 1.0 / largest : 0.0;
   const double least = largest > 0.0 ? threshold / most_possible : 0.0;
+  // What is certainly below the threshold, also if that is negative.
+  const float below = static_cast<float>(std::max(std::min(least, 0.0), -2.0)) - uncertain;
   float most = uncertain;
   uncertain_.clear();
   Ten gl = Ten::Zero();
@@ -210,7 +212,7 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
       uncertain_.push_back(c);
       continue;
     }
-    if (here.price > -uncertain) uncertain_.push_back(c);
+    if (here.price > below) uncertain_.push_back(c);
     const int shape = chunk.shape[here.lane];
     best_.push_back({shape, here.price});
     if (here.price > most && here.price > least) {
@@ -220,7 +222,7 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
   }
   if (steepest_ < 0 && !uncertain_.empty()) {
     best_.clear();
-    steepest_ = steepest_in_double(g, threshold, Judged::by_lengths);
+    steepest_ = steepest_in_double(g, threshold, below, Judged::by_lengths);
   }
   return steepest_;
 }
@@ -263,13 +265,13 @@ int ShapeColumns::steepest_or_by_terms(const Eigen::VectorXd& g, double threshol
   }
   if (steepest_ >= 0) return steepest_;
   best_.clear();
-  steepest_ = steepest_in_double(g, threshold, Judged::by_lengths);
+  steepest_ = steepest_in_double(g, threshold, -uncertain, Judged::by_lengths);
   if (steepest_ >= 0) return steepest_;
   if (steepest_by_terms >= 0) {
     best_.swap(best_by_terms_);
     return steepest_ = steepest_by_terms;
   }
-  return steepest_ = steepest_in_double(g, threshold_by_terms, Judged::by_terms);
+  return steepest_ = steepest_in_double(g, threshold_by_terms, -uncertain, Judged::by_terms);
 }
 
 const std::vector<int>& ShapeColumns::steep_ones(Among among) noexcept {
@@ -290,14 +292,15 @@ const std::vector<int>& ShapeColumns::steep_ones(Among among) noexcept {
   return steep_ones_;
 }
 
-int ShapeColumns::steepest_in_double(const Eigen::VectorXd& g, double threshold,
+int ShapeColumns::steepest_in_double(const Eigen::VectorXd& g, double threshold, float below,
                                      Judged judged) const noexcept {
   int best = -1;
   double most = threshold;
   std::array<Asked, lanes> asked;
   for (const int c : uncertain_) {
     const PriceChunk& chunk = chunks_[static_cast<std::size_t>(c)];
-    unsigned left = ask(chunk, data(), g.data() + std::ptrdiff_t{10} * chunk.link, asked.data());
+    unsigned left =
+        ask(chunk, data(), g.data() + std::ptrdiff_t{10} * chunk.link, below, asked.data());
     for (; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
       const int j = chunk.shape[lane];

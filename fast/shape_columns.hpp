@@ -100,7 +100,7 @@ class ShapeColumns {
   enum class Judged { by_lengths, by_terms };
   void write(int j, const Column& u) noexcept;
   void set_scale(PriceChunk& chunk) noexcept;
-  [[nodiscard]] int steepest_in_double(const Eigen::VectorXd& g, double threshold,
+  [[nodiscard]] int steepest_in_double(const Eigen::VectorXd& g, double threshold, float below,
                                        Judged judged) const noexcept;
 
   int size_ = 0;

@@ -125,6 +125,24 @@ RC_GTEST_PROP(ShapeColumns, DoubleDecidesWhereSingleCannot, ()) {
   }
 }
 
+// A threshold below zero asks whether all are certainly negative: slopes that are nearer to zero
+// than it are found, however small all slopes are.
+RC_GTEST_PROP(ShapeColumns, NoneIsMissedAboveAThresholdBelowZero, ()) {
+  Market market = any_market(std::pow(10.0, *rc::gen::element(-18, -15, -13, -12, -9)));
+  for (Index i = 0; i < market.g.size(); ++i) market.g[i] = -std::abs(market.g[i]);
+  for (ShapeColumns::Column& u : market.columns) u = u.cwiseAbs().eval();
+  const double threshold = -*test::magnitude(1e-14, 1e-10);
+  ShapeColumns stored = market.stored();
+  const int best = market.steepest(), found = stored.steepest(market.g, threshold);
+  if (best < 0 || market.price(best) < threshold * (1.0 + single_rounding)) {
+    RC_ASSERT(found < 0);
+  } else if (market.price(best) > threshold * (1.0 - single_rounding)) {
+    RC_ASSERT(found >= 0);
+    RC_ASSERT(!market.barred[static_cast<std::size_t>(found)]);
+    RC_ASSERT(market.price(found) >= market.price(best) * (1.0 + single_rounding));
+  }
+}
+
 // Slopes R^T r with || r || no longer than said cannot have a price beyond one.
 RC_GTEST_PROP(ShapeColumns, PricesLieBetweenMinusOneAndOne, ()) {
   Market market = any_market(1.0);
