@@ -15,9 +15,6 @@ namespace {
 constexpr std::size_t dozen = FewShapes::most_shapes;
 using Exchanged = FewShapes::Exchanged;
 using TenRows = std::array<Dozen, 10>;
-using FourPlaces = std::uint64_t __attribute__((vector_size(32)));
-
-constexpr FourPlaces places[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
 
 /// A gain below the square of this share of || c || is rounding of H.
 constexpr double smallest_step = 1e-13;
@@ -25,9 +22,6 @@ constexpr double smallest_step = 1e-13;
 /// A column of which less than this share of its square is new counts as dependent: rounding of H
 /// may be a hundredth of it.
 constexpr double smallest_share = 1e-12;
-
-/// The bits of a number that hold a place among the dozen.
-constexpr std::uint64_t lanes = 15;
 
 /// H = A^T A and q = A^T c with A = R U, the square of || c ||, and what bounds the columns of A.
 SHAPEID_WIDE double form(const TenRows& U, const LinkRows& link, std::size_t shapes,
@@ -69,7 +63,7 @@ SHAPEID_WIDE double form(const TenRows& U, const LinkRows& link, std::size_t sha
     take_sign(size);
     const Four out = now.weight.part[p] * x * size;
     const Four marked =
-        reinterpret_cast<Four>((reinterpret_cast<FourPlaces>(out) & ~lanes) | places[p]);
+        reinterpret_cast<Four>((reinterpret_cast<FourBits>(out) & ~place_bits) | dozen_places[p]);
     most = marked > most ? marked : most;
   }
   return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
@@ -87,11 +81,11 @@ SHAPEID_WIDE double form(const TenRows& U, const LinkRows& link, std::size_t sha
 [[gnu::always_inline]] inline void exchange(Exchanged& now, std::size_t shapes, std::size_t k,
                                             double inverse) noexcept {
   Dozen row = now.H[k], column;
-  FourPlaces others[3];
+  FourBits others[3];
   const double step = inverse * now.x[k], same = now.side[k];
   for (std::size_t p = 0; p < 3; ++p) {
-    const auto is_k = places[p] == k;
-    others[p] = reinterpret_cast<FourPlaces>(~is_k);
+    const auto is_k = dozen_places[p] == k;
+    others[p] = reinterpret_cast<FourBits>(~is_k);
     Four &side = now.side.part[p], &x = now.x.part[p], &diagonal = now.diagonal.part[p];
     Four &weight = now.weight.part[p], &other = now.other_weight.part[p];
     column.part[p] = same * side * row.part[p];
@@ -106,7 +100,7 @@ SHAPEID_WIDE double form(const TenRows& U, const LinkRows& link, std::size_t sha
   for (std::size_t i = 0; i < shapes; ++i) {
     for (std::size_t p = 0; p < 3; ++p) {
       Four& entry = now.H[i].part[p];
-      entry = reinterpret_cast<Four>(reinterpret_cast<FourPlaces>(entry) & others[p]);
+      entry = reinterpret_cast<Four>(reinterpret_cast<FourBits>(entry) & others[p]);
       entry -= column[i] * row.part[p];
     }
   }
@@ -123,7 +117,7 @@ SHAPEID_WIDE bool settle(Exchanged& now, const Dozen& squares, std::size_t shape
     invert(now, inverse);
     const double most = furthest_out(now);
     if (!(most > smallest)) return true;
-    const std::size_t k = std::bit_cast<std::uint64_t>(most) & lanes;
+    const std::size_t k = std::bit_cast<std::uint64_t>(most) & place_bits;
     if (now.side[k] > 0.0 && !(now.diagonal[k] > smallest_share * squares[k])) {
       now.weight[k] = 0.0;  // it depends on the passive ones
     } else if (now.pivots == most_pivots) {
@@ -155,7 +149,7 @@ SHAPEID_WIDE double furthest_above(const TenRows& U, const Dozen& side, const Do
   Four most = Four{} + lowest;
   for (std::size_t p = 0; p < 3; ++p) {
     const Four above = slope.part[p] - threshold * sizes.part[p];
-    const auto asked = side.part[p] > 0.0 && places[p] < shapes;
+    const auto asked = side.part[p] > 0.0 && dozen_places[p] < shapes;
     const Four here = asked ? above : Four{} + lowest;
     most = here > most ? here : most;
   }

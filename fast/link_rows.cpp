@@ -195,10 +195,7 @@ SHAPEID_WIDE void settle_masses(const Data& data, const AtPlaces& passive, doubl
   }
   Dozen squares = m;
   for (std::size_t p = 0; p < 3; ++p) squares.part[p] *= m.part[p];
-  keep(squares, used);
-  Dozen felt = stiffness;
-  keep(felt, used);
-  settled.density = dot(felt, squares);
+  settled.density = dot(stiffness, squares);
   settled.is_settled = true;
 }
 

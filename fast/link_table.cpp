@@ -15,9 +15,6 @@ namespace {
 using Table = LinkTable::Exchanged;
 using Problem = LinkTable::Problem;
 using Ten = std::array<Dozen, 10>;
-using FourPlaces = std::uint64_t __attribute__((vector_size(32)));
-
-constexpr FourPlaces places[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
 
 /// A column of which less than this share of its bound's square is new counts as dependent:
 /// rounding of M may be a hundredth of it.
@@ -28,9 +25,6 @@ constexpr double smallest_price = 1e-13;
 
 /// What an answer is checked against (ActiveSet's allowed_slope).
 constexpr double allowed_rounding = 1e-10;
-
-/// The bits of a number that hold a place among the dozen.
-constexpr std::uint64_t lanes = 15;
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -47,13 +41,13 @@ constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// All bits at the places but one.
 struct Others {
-  FourPlaces part[3];
+  FourBits part[3];
 };
 
 [[gnu::always_inline]] inline Others others_than(std::size_t place) noexcept {
   Others others;
   for (std::size_t p = 0; p < 3; ++p) {
-    others.part[p] = reinterpret_cast<FourPlaces>(places[p] != place);
+    others.part[p] = reinterpret_cast<FourBits>(dozen_places[p] != place);
   }
   return others;
 }
@@ -69,7 +63,7 @@ struct Others {
 
 [[gnu::always_inline]] inline void clear_one(Dozen& a, const Others& others) noexcept {
   for (std::size_t p = 0; p < 3; ++p) {
-    a.part[p] = reinterpret_cast<Four>(reinterpret_cast<FourPlaces>(a.part[p]) & others.part[p]);
+    a.part[p] = reinterpret_cast<Four>(reinterpret_cast<FourBits>(a.part[p]) & others.part[p]);
   }
 }
 
@@ -167,8 +161,8 @@ struct Image {
 
 /// Whether a mass is zero or negative.
 [[gnu::always_inline]] inline bool some_below(const Table& t) noexcept {
-  FourPlaces below = {};
-  for (const Four& m : t.m.part) below |= reinterpret_cast<FourPlaces>(m <= 0.0);
+  FourBits below = {};
+  for (const Four& m : t.m.part) below |= reinterpret_cast<FourBits>(m <= 0.0);
   return ((below[0] | below[1]) | (below[2] | below[3])) != 0;
 }
 
@@ -180,11 +174,11 @@ struct Image {
     const Four m = t.m.part[p];
     const Four out = m > 0.0 ? Four{} - 1.0 : m * m / t.diagonal.part[p];
     const Four marked =
-        reinterpret_cast<Four>((reinterpret_cast<FourPlaces>(out) & ~lanes) | places[p]);
+        reinterpret_cast<Four>((reinterpret_cast<FourBits>(out) & ~place_bits) | dozen_places[p]);
     most = marked > most ? marked : most;
   }
   const double found = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
-  return std::bit_cast<std::uint64_t>(found) & lanes;
+  return std::bit_cast<std::uint64_t>(found) & place_bits;
 }
 
 /// A shape as pricing knows it.

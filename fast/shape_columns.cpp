@@ -45,8 +45,8 @@ struct Asked {
   double slope, terms;  ///< u . g, and the same of absolute values
 };
 
-/// Of the shapes of a chunk that are neither barred nor certainly below any threshold; `asked` has
-/// an entry a lane. Returns a bit a lane.
+/// Of the shapes of a chunk that are not barred and whose last price exceeds `below`, under which
+/// none is above the threshold; `asked` has an entry a lane. Returns a bit a lane.
 SHAPEID_WIDE unsigned ask(const PriceChunk& chunk, const double* columns, const double* g,
                           float below, Asked* asked) noexcept {
   Dozen b;

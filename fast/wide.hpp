@@ -49,6 +49,10 @@ struct Dozen {
   }
 };
 
+/// The places of a dozen, and the low bits of a number that can hold one.
+constexpr FourBits dozen_places[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
+constexpr std::uint64_t place_bits = 15;
+
 /// a += factor b
 [[gnu::always_inline]] inline void add(Dozen& a, double factor, const Dozen& b) noexcept {
   a.part[0] += factor * b.part[0];
