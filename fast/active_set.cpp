@@ -196,9 +196,10 @@ bool ActiveSet::damp(ColumnSet& set, double lambda) noexcept {
 // Whether they are the minimum is asked of the masses alone, as of any other answer, and more
 // strictly: where no correction reaches the last digits the method itself is called.
 bool ActiveSet::settles_at(Guess& guess) noexcept {
+  const bool is_damped = lambda_ > 0.0;
   const AtPlaces at = guess.answer();
   Dozen stiffness;
-  for (unsigned left = lambda_ > 0.0 ? at.used : 0U; left != 0; left &= left - 1) {
+  for (unsigned left = is_damped ? at.used : 0U; left != 0; left &= left - 1) {
     const auto place = static_cast<std::size_t>(std::countr_zero(left));
     stiffness[place] = lambda_ / (*V_)[at.shape[place]];
   }
@@ -206,31 +207,24 @@ bool ActiveSet::settles_at(Guess& guess) noexcept {
   rows_->link.settle(*columns_, at, stiffness, refined_slope, most_refinements, met_exactly,
                      settled);
   iterations_ = guess.pivots() + 1 + settled.corrections;  // one to see that nothing is left to do
-  const double value = settled.at.square + settled.density;
-  const double threshold = lambda_ > 0.0 ? -certainly_held : smallest_slope;
-  if (!settled.is_settled || !std::isfinite(value) ||
-      !guess.none_enters(rows_->link, settled.at.slopes, threshold)) {
+  if (!settled.is_settled || !std::isfinite(settled.at.square + settled.density) ||
+      !guess.none_enters(settled.at.slopes, is_damped ? -certainly_held : smallest_slope) ||
+      (is_damped && !tells_apart(guess, at, settled.m))) {
     return false;
   }
-  guessed_.clear();
-  tried_.clear();
+  passive_.clear();
+  masses_.clear();
+  stiffness_.clear();
   for (unsigned left = at.used; left != 0; left &= left - 1) {
     const auto place = static_cast<std::size_t>(std::countr_zero(left));
-    guessed_.push_back(at.shape[place]);
-    tried_.push_back(settled.m[place]);
-  }
-  if (lambda_ > 0.0 && (guessed_.size() > 10 || !tells_apart(guess, guessed_, tried_))) {
-    return false;
-  }
-  passive_.swap(guessed_);
-  masses_.swap(tried_);
-  stiffness_.assign(passive_.size(), 0.0);
-  if (lambda_ > 0.0) {
-    for (std::size_t i = 0; i < passive_.size(); ++i) stiffness_[i] = lambda_ / (*V_)[passive_[i]];
+    passive_.push_back(at.shape[place]);
+    masses_.push_back(settled.m[place]);
+    stiffness_.push_back(stiffness[place]);
   }
   at_masses_ = settled.at;
   started_ = false;
   take_value(settled.density);
+  guess.correct(settled.m, settled.at.slopes);
   return true;
 }
 
@@ -250,6 +244,17 @@ bool ActiveSet::settle(NormalEquations& normal) noexcept {
 // Hager's estimate of a condition: from any signs, by those of what they lead to.
 bool ActiveSet::tells_apart(NormalEquations& normal) noexcept {
   return tells_apart(normal, passive_, masses_);
+}
+
+bool ActiveSet::tells_apart(Guess& guess, const AtPlaces& at, const Dozen& m) noexcept {
+  guessed_.clear();
+  tried_.clear();
+  for (unsigned left = at.used; left != 0; left &= left - 1) {
+    const auto place = static_cast<std::size_t>(std::countr_zero(left));
+    guessed_.push_back(at.shape[place]);
+    tried_.push_back(m[place]);
+  }
+  return guessed_.size() <= 10 && tells_apart(guess, guessed_, tried_);
 }
 
 bool ActiveSet::tells_apart(NormalEquations& normal, const std::vector<int>& passive,

@@ -135,6 +135,7 @@ class ActiveSet {
   void evaluate() noexcept;
   /// Whether the rows determine the passive masses.
   [[nodiscard]] bool tells_apart(NormalEquations& normal) noexcept;
+  [[nodiscard]] bool tells_apart(Guess& guess, const AtPlaces& at, const Dozen& m) noexcept;
   [[nodiscard]] bool tells_apart(NormalEquations& normal, const std::vector<int>& passive,
                                  const std::vector<double>& masses) noexcept;
   [[nodiscard]] bool settle(NormalEquations& normal) noexcept;

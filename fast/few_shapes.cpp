@@ -23,137 +23,358 @@ constexpr double smallest_step = 1e-13;
 /// may be a hundredth of it.
 constexpr double smallest_share = 1e-12;
 
-/// H = A^T A and q = A^T c with A = R U, the square of || c ||, and what bounds the columns of A.
-SHAPEID_WIDE double form(const TenRows& U, const LinkRows& link, std::size_t shapes,
-                         std::array<Dozen, dozen>& H, Dozen& q, Dozen& sizes) noexcept {
-  TenRows A;
-  Dozen sum, size;
-  double square = 0.0;
-  for (std::size_t i = 0; i < 10; ++i) {
-    const Dozen& r = link.rows()[i];
-    Dozen row;
-    for (std::size_t l = i; l < 10; ++l) add(row, r[l], U[l]);
-    const double c = r[10];
-    add(sum, c, row);
-    square += c * c;
-    A[i] = row;
-    Dozen u = U[i];
-    for (Four& part : u.part) take_sign(part);
-    add(size, link.lengths()[i], u);
-  }
-  q = sum;
-  sizes = size;
-  for (std::size_t k = 0; k < shapes; ++k) {
-    Dozen row;
-    for (const Dozen& a : A) add(row, a[k], a);
-    H[k] = row;
-  }
-  return square;
-}
+/// The problem's data.
+struct Data {
+  const TenRows& U;  ///< a shape a lane
+  const LinkRows& link;
+  std::size_t shapes;
+};
 
-/// What is out of place by most, and by how much: a passive shape of negative mass m by m^2 h,
-/// another of positive slope s by s^2 / h, with h the square of its column. (What is left of the
-/// column is the better measure, but would have to be divided by first.) The low bits of each carry
-/// its number, so that one maximum finds both.
-[[gnu::always_inline]] inline double furthest_out(const Exchanged& now) noexcept {
-  Four most = {};
-  for (std::size_t p = 0; p < 3; ++p) {
-    const Four x = now.x.part[p];
-    Four size = x;
-    take_sign(size);
-    const Four out = now.weight.part[p] * x * size;
-    const Four marked =
-        reinterpret_cast<Four>((reinterpret_cast<FourBits>(out) & ~place_bits) | dozen_places[p]);
-    most = marked > most ? marked : most;
+/// What works on a dozen numbers, of which four shapes need but the first four: `parts` of them.
+/// What is written beyond is zero.
+template <std::size_t parts>
+struct Work {
+  [[gnu::always_inline]] static void add(Dozen& a, double factor, const Dozen& b) noexcept {
+    for (std::size_t p = 0; p < parts; ++p) a.part[p] += factor * b.part[p];
   }
-  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
-}
 
-/// The inverses of the diagonal, before it is known which of them is needed: nothing waits for
-/// them.
-[[gnu::always_inline]] inline void invert(const Exchanged& now, Dozen& inverse) noexcept {
-  for (std::size_t p = 0; p < 3; ++p) inverse.part[p] = 1.0 / now.diagonal.part[p];
-}
-
-/// The exchange of x_k and its slope in  slope = q - H x,  for either direction. Column k is row k
-/// but for the signs of the rows on the other side. Entries k are set among their neighbours: what
-/// is written in part is slow to read as a whole.
-[[gnu::always_inline]] inline void exchange(Exchanged& now, std::size_t shapes, std::size_t k,
-                                            double inverse) noexcept {
-  Dozen row = now.H[k], column;
-  FourBits others[3];
-  const double step = inverse * now.x[k], same = now.side[k];
-  for (std::size_t p = 0; p < 3; ++p) {
-    const auto is_k = dozen_places[p] == k;
-    others[p] = reinterpret_cast<FourBits>(~is_k);
-    Four &side = now.side.part[p], &x = now.x.part[p], &diagonal = now.diagonal.part[p];
-    Four &weight = now.weight.part[p], &other = now.other_weight.part[p];
-    column.part[p] = same * side * row.part[p];
-    row.part[p] = is_k ? Four{} + inverse : inverse * row.part[p];
-    x = is_k ? Four{} + step : x - step * column.part[p];
-    diagonal = is_k ? Four{} + inverse : diagonal - column.part[p] * row.part[p];
-    side = is_k ? -side : side;
-    const Four before = weight;
-    weight = is_k ? other : weight;
-    other = is_k ? before : other;
-  }
-  for (std::size_t i = 0; i < shapes; ++i) {
-    for (std::size_t p = 0; p < 3; ++p) {
-      Four& entry = now.H[i].part[p];
-      entry = reinterpret_cast<Four>(reinterpret_cast<FourBits>(entry) & others[p]);
-      entry -= column[i] * row.part[p];
+  /// x at one place.
+  [[gnu::always_inline]] static void set(Dozen& a, std::size_t place, double x) noexcept {
+    for (std::size_t p = 0; p < parts; ++p) {
+      a.part[p] = dozen_places[p] == place ? Four{} + x : a.part[p];
     }
   }
-  now.H[k] = row;
-  ++now.pivots;
-}
 
-/// Pivots until nothing is out of place by more than `smallest`; false if `most_pivots` were too
-/// few. `squares`: the diagonal of H.
-SHAPEID_WIDE bool settle(Exchanged& now, const Dozen& squares, std::size_t shapes, double smallest,
-                         int most_pivots) noexcept {
-  while (true) {
-    Dozen inverse;
-    invert(now, inverse);
-    const double most = furthest_out(now);
-    if (!(most > smallest)) return true;
-    const std::size_t k = std::bit_cast<std::uint64_t>(most) & place_bits;
-    if (now.side[k] > 0.0 && !(now.diagonal[k] > smallest_share * squares[k])) {
-      now.weight[k] = 0.0;  // it depends on the passive ones
-    } else if (now.pivots == most_pivots) {
-      return false;
-    } else {
-      exchange(now, shapes, k, inverse[k]);
+  [[gnu::always_inline]] static double dot(const Dozen& a, const Dozen& b) noexcept {
+    Four sum = a.part[0] * b.part[0];
+    for (std::size_t p = 1; p < parts; ++p) sum += a.part[p] * b.part[p];
+    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+  }
+
+  [[gnu::always_inline]] static double largest(const Four (&x)[parts]) noexcept {
+    Four most = x[0];
+    for (std::size_t p = 1; p < parts; ++p) most = x[p] > most ? x[p] : most;
+    return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+  }
+
+  /// H = A^T A and q = A^T c with A = R U, and what bounds the columns of A. Returns the square of
+  /// || c ||.
+  [[gnu::always_inline]] static double form(const Data& data, std::array<Dozen, dozen>& H, Dozen& q,
+                                            Dozen& sizes) noexcept {
+    TenRows A;
+    Dozen sum, size;
+    double square = 0.0;
+    for (std::size_t i = 0; i < 10; ++i) {
+      const Dozen& r = data.link.rows()[i];
+      Dozen row;
+      for (std::size_t l = i; l < 10; ++l) add(row, r[l], data.U[l]);
+      const double c = r[10];
+      add(sum, c, row);
+      square += c * c;
+      A[i] = row;
+      Dozen u = data.U[i];
+      for (Four& part : u.part) take_sign(part);
+      add(size, data.link.lengths()[i], u);
     }
+    q = sum;
+    sizes = size;
+    for (std::size_t k = 0; k < data.shapes; ++k) {
+      Dozen row;
+      for (const Dozen& a : A) add(row, a[k], a);
+      H[k] = row;
+    }
+    return square;
+  }
+
+  /// What is out of place by most, and by how much: a passive shape of negative mass m by m^2 h,
+  /// another of positive slope s by s^2 / h, with h the square of its column. (What is left of the
+  /// column is the better measure, but would have to be divided by first.) The low bits of each
+  /// carry its number, so that one maximum finds both.
+  [[gnu::always_inline]] static double furthest_out(const Exchanged& now) noexcept {
+    Four marked[parts];
+    for (std::size_t p = 0; p < parts; ++p) {
+      const Four x = now.x.part[p];
+      Four size = x;
+      take_sign(size);
+      const Four out = now.weight.part[p] * x * size;
+      marked[p] =
+          reinterpret_cast<Four>((reinterpret_cast<FourBits>(out) & ~place_bits) | dozen_places[p]);
+    }
+    return std::max(largest(marked), 0.0);
+  }
+
+  /// The exchange of x_k and its slope in  slope = q - H x,  for either direction. Column k is row
+  /// k but for the signs of the rows on the other side. Entries k are set among their neighbours:
+  /// what is written in part is slow to read as a whole.
+  [[gnu::always_inline]] static void exchange(Exchanged& now, std::size_t shapes, std::size_t k,
+                                              double inverse) noexcept {
+    Dozen row = now.H[k], column;
+    FourBits others[parts];
+    const double step = inverse * now.x[k], same = now.side[k];
+    for (std::size_t p = 0; p < parts; ++p) {
+      const auto is_k = dozen_places[p] == k;
+      others[p] = reinterpret_cast<FourBits>(~is_k);
+      Four &side = now.side.part[p], &x = now.x.part[p], &diagonal = now.diagonal.part[p];
+      Four &weight = now.weight.part[p], &other = now.other_weight.part[p];
+      column.part[p] = same * side * row.part[p];
+      row.part[p] = is_k ? Four{} + inverse : inverse * row.part[p];
+      x = is_k ? Four{} + step : x - step * column.part[p];
+      diagonal = is_k ? Four{} + inverse : diagonal - column.part[p] * row.part[p];
+      side = is_k ? -side : side;
+      const Four before = weight;
+      weight = is_k ? other : weight;
+      other = is_k ? before : other;
+    }
+    for (std::size_t i = 0; i < shapes; ++i) {
+      for (std::size_t p = 0; p < parts; ++p) {
+        Four& entry = now.H[i].part[p];
+        entry = reinterpret_cast<Four>(reinterpret_cast<FourBits>(entry) & others[p]);
+        entry -= column[i] * row.part[p];
+      }
+    }
+    now.H[k] = row;
+    now.passive ^= 1U << k;
+    ++now.pivots;
+  }
+
+  /// Pivots until nothing is out of place by more than `smallest`; false if `most_pivots` were too
+  /// few.
+  [[gnu::always_inline]] static bool pivot(Exchanged& now, std::size_t shapes, double smallest,
+                                           int most_pivots) noexcept {
+    for (std::size_t p = 0; p < parts; ++p) {
+      const Four square = now.squares.part[p], inverse = square > 0.0 ? 1.0 / square : Four{};
+      const auto is_passive = now.side.part[p] < 0.0;
+      now.weight.part[p] = is_passive ? -square : inverse;
+      now.other_weight.part[p] = is_passive ? inverse : -square;
+    }
+    while (true) {
+      // Before it is known which of them is needed: nothing waits for them.
+      Dozen inverse;
+      for (std::size_t p = 0; p < parts; ++p) inverse.part[p] = 1.0 / now.diagonal.part[p];
+      const double most = furthest_out(now);
+      if (!(most > smallest)) return true;
+      const std::size_t k = std::bit_cast<std::uint64_t>(most) & place_bits;
+      if (now.side[k] > 0.0 && !(now.diagonal[k] > smallest_share * now.squares[k])) {
+        now.weight[k] = 0.0;  // it depends on the passive ones
+      } else if (now.pivots == most_pivots) {
+        return false;
+      } else {
+        exchange(now, shapes, k, inverse[k]);
+      }
+    }
+  }
+
+  /// The passive shapes, as far as their columns do not depend on those before.
+  [[gnu::always_inline]] static void enter(Exchanged& now, std::size_t shapes,
+                                           const std::vector<int>& passive) noexcept {
+    for (const int j : passive) {
+      const auto k = static_cast<std::size_t>(j);
+      if (now.squares[k] > 0.0 && now.diagonal[k] > smallest_share * now.squares[k]) {
+        exchange(now, shapes, k, 1.0 / now.diagonal[k]);
+      }
+    }
+  }
+
+  /// A^T a and c^T a (the eleventh entry of `s`) of column `k` of A. Two sums each, so that one
+  /// addition need not wait for the other.
+  [[gnu::always_inline]] static void products_with(const Data& data, std::size_t k, Dozen& s,
+                                                   Dozen& h) noexcept {
+    Dozen a, odd_a, odd_s, odd_h;
+    for (std::size_t i = 0; i < 10; i += 2) {
+      fast::add(a, data.U[i][k], data.link.columns()[i]);
+      fast::add(odd_a, data.U[i + 1][k], data.link.columns()[i + 1]);
+    }
+    fast::add(a, 1.0, odd_a);
+    for (std::size_t i = 0; i < 10; i += 2) {
+      fast::add(s, a[i], data.link.rows()[i]);
+      fast::add(odd_s, a[i + 1], data.link.rows()[i + 1]);
+    }
+    fast::add(s, 1.0, odd_s);
+    for (std::size_t i = 0; i < 10; i += 2) {
+      add(h, s[i], data.U[i]);
+      add(odd_h, s[i + 1], data.U[i + 1]);
+    }
+    add(h, 1.0, odd_h);
+  }
+
+  /// What a column that is not passive has in the table.
+  struct Image {
+    Dozen row;
+    double left, slope;  ///< of its square, and of the objective
+  };
+
+  /// From its products with the columns (those of passive shapes count), with the stiffness in its
+  /// `square`, and with the forces.
+  [[gnu::always_inline]] static Image image_of(const Exchanged& now, const Dozen& products,
+                                               double square, double forces) noexcept {
+    Dozen inside, row;
+    for (std::size_t p = 0; p < parts; ++p) {
+      inside.part[p] = now.side.part[p] < 0.0 ? products.part[p] : Four{};
+    }
+    for (unsigned left = now.passive; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      add(row, inside[i], now.H[i]);
+    }
+    const double left = square - dot(inside, row), slope = forces - dot(inside, now.x);
+    for (std::size_t p = 0; p < parts; ++p) {
+      row.part[p] = products.part[p] - inside.part[p] - row.part[p];
+    }
+    return {row, left, slope};
+  }
+
+  /// Place k has another column, and is not passive.
+  [[gnu::always_inline]] static void appear(Exchanged& now, const Data& data, std::size_t k,
+                                            double stiffness) noexcept {
+    Dozen s, h;
+    products_with(data, k, s, h);
+    const double square = h[k] + stiffness;
+    Image image = image_of(now, h, square, s[10]);
+    for (std::size_t i = 0; i < data.shapes; ++i) set(now.H[i], k, now.side[i] * image.row[i]);
+    set(image.row, k, image.left);
+    now.H[k] = image.row;
+    set(now.diagonal, k, image.left);
+    set(now.x, k, image.slope);
+    set(now.squares, k, square);
+  }
+
+  using Cut = FewShapes::Cut;
+
+  /// Neither part is passive, and pivots may choose.
+  [[gnu::always_inline]] static void start_without(Exchanged& now, const Data& data,
+                                                   const Cut& cut) noexcept {
+    if (now.side[cut.whole] < 0.0) {
+      exchange(now, cut.part, cut.whole, 1.0 / now.diagonal[cut.whole]);
+    }
+    appear(now, data, cut.whole, cut.remaining);
+    appear(now, data, cut.part, cut.leaving);
+  }
+
+  /// The whole's column is the sum of the parts' columns, those of U, each times its size. So the
+  /// new part becomes passive beside the whole, and then masses go over: unless the whole is not
+  /// passive, or the part depends on what is.
+  [[gnu::always_inline]] static void split(Exchanged& now, const Data& data,
+                                           const Cut& cut) noexcept {
+    if (!(now.side[cut.whole] < 0.0)) return start_without(now, data, cut);
+    Dozen s, h;
+    products_with(data, cut.part, s, h);
+    const double square = h[cut.part] + cut.leaving, both = h[cut.whole];
+    // || a ||^2 = || s_1 a_1 + s_2 a_2 ||^2, solved for that of a_1.
+    const double remaining =
+        (now.squares[cut.whole] - cut.goes * (2.0 * cut.remains * both + cut.goes * square)) /
+        (cut.remains * cut.remains);
+    set(h, cut.whole, cut.remains * both + cut.goes * h[cut.part] + cut.shared);
+    Image image = image_of(now, h, square, s[10]);
+    if (!(image.left > smallest_share * square && remaining > 0.0)) {
+      return start_without(now, data, cut);
+    }
+    set(image.row, cut.part, image.left);
+    now.H[cut.part] = image.row;
+    set(now.diagonal, cut.part, image.left);
+    set(now.x, cut.part, image.slope);
+    set(now.squares, cut.part, square);
+    set(now.squares, cut.whole, remaining);
+    exchange(now, data.shapes, cut.part, 1.0 / image.left);
+    add(now.H[cut.part], cut.goes, now.H[cut.whole]);
+    for (Four& part : now.H[cut.whole].part) part *= cut.remains;
+    Dozen remain, go;
+    for (std::size_t p = 0; p < parts; ++p) remain.part[p] += 1.0;
+    set(remain, cut.whole, cut.remains);
+    set(go, cut.part, cut.goes);
+    const auto turn = [&](Dozen& entries) {
+      const double whole = entries[cut.whole];
+      for (std::size_t p = 0; p < parts; ++p) {
+        entries.part[p] = remain.part[p] * entries.part[p] + whole * go.part[p];
+      }
+    };
+    for (std::size_t i = 0; i < data.shapes; ++i) turn(now.H[i]);
+    turn(now.x);
+    set(now.diagonal, cut.whole, now.H[cut.whole][cut.whole]);
+    set(now.diagonal, cut.part, now.H[cut.part][cut.part]);
+  }
+
+  /// Of the shapes that are not passive: the largest of slope - threshold x size.
+  [[gnu::always_inline]] static double furthest_above(const Exchanged& now, const Data& data,
+                                                      const Dozen& slopes, const Dozen& sizes,
+                                                      double threshold) noexcept {
+    Dozen slope, odd;
+    for (std::size_t i = 0; i < 10; i += 2) {
+      add(slope, slopes[i], data.U[i]);
+      add(odd, slopes[i + 1], data.U[i + 1]);
+    }
+    constexpr double lowest = -std::numeric_limits<double>::max();
+    Four above[parts];
+    for (std::size_t p = 0; p < parts; ++p) {
+      const auto asked = now.side.part[p] > 0.0 && dozen_places[p] < data.shapes;
+      above[p] = asked ? slope.part[p] + odd.part[p] - threshold * sizes.part[p] : Four{} + lowest;
+    }
+    return largest(above);
+  }
+};
+
+constexpr std::size_t parts_for(std::size_t shapes) noexcept { return (shapes + 3) / 4; }
+
+SHAPEID_WIDE double form(const Data& data, std::array<Dozen, dozen>& H, Dozen& q,
+                         Dozen& sizes) noexcept {
+  switch (parts_for(data.shapes)) {
+    case 0:
+    case 1:
+      return Work<1>::form(data, H, q, sizes);
+    case 2:
+      return Work<2>::form(data, H, q, sizes);
+    default:
+      return Work<3>::form(data, H, q, sizes);
   }
 }
 
-/// The passive shapes, as far as their columns do not depend on those before.
-SHAPEID_WIDE void start(Exchanged& now, const Dozen& squares, std::size_t shapes,
+SHAPEID_WIDE void enter(Exchanged& now, std::size_t shapes,
                         const std::vector<int>& passive) noexcept {
-  for (const int j : passive) {
-    const auto k = static_cast<std::size_t>(j);
-    if (squares[k] > 0.0 && now.diagonal[k] > smallest_share * squares[k]) {
-      exchange(now, shapes, k, 1.0 / now.diagonal[k]);
-    }
+  switch (parts_for(shapes)) {
+    case 0:
+    case 1:
+      return Work<1>::enter(now, shapes, passive);
+    case 2:
+      return Work<2>::enter(now, shapes, passive);
+    default:
+      return Work<3>::enter(now, shapes, passive);
   }
 }
 
-/// Of the shapes with side 1: the largest of slope - threshold x size.
-SHAPEID_WIDE double furthest_above(const TenRows& U, const Dozen& side, const Dozen& slopes,
-                                   const Dozen& sizes, double threshold,
-                                   std::size_t shapes) noexcept {
-  Dozen slope;
-  for (std::size_t i = 0; i < 10; ++i) add(slope, slopes[i], U[i]);
-  constexpr double lowest = -std::numeric_limits<double>::max();
-  Four most = Four{} + lowest;
-  for (std::size_t p = 0; p < 3; ++p) {
-    const Four above = slope.part[p] - threshold * sizes.part[p];
-    const auto asked = side.part[p] > 0.0 && dozen_places[p] < shapes;
-    const Four here = asked ? above : Four{} + lowest;
-    most = here > most ? here : most;
+SHAPEID_WIDE bool pivot(Exchanged& now, std::size_t shapes, double smallest,
+                        int most_pivots) noexcept {
+  switch (parts_for(shapes)) {
+    case 0:
+    case 1:
+      return Work<1>::pivot(now, shapes, smallest, most_pivots);
+    case 2:
+      return Work<2>::pivot(now, shapes, smallest, most_pivots);
+    default:
+      return Work<3>::pivot(now, shapes, smallest, most_pivots);
   }
-  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+}
+
+SHAPEID_WIDE void split(Exchanged& now, const Data& data, const FewShapes::Cut& cut) noexcept {
+  switch (parts_for(data.shapes)) {
+    case 0:
+    case 1:
+      return Work<1>::split(now, data, cut);
+    case 2:
+      return Work<2>::split(now, data, cut);
+    default:
+      return Work<3>::split(now, data, cut);
+  }
+}
+
+SHAPEID_WIDE double furthest_above(const Exchanged& now, const Data& data, const Dozen& slopes,
+                                   const Dozen& sizes, double threshold) noexcept {
+  switch (parts_for(data.shapes)) {
+    case 0:
+    case 1:
+      return Work<1>::furthest_above(now, data, slopes, sizes, threshold);
+    case 2:
+      return Work<2>::furthest_above(now, data, slopes, sizes, threshold);
+    default:
+      return Work<3>::furthest_above(now, data, slopes, sizes, threshold);
+  }
 }
 
 }  // namespace
@@ -169,39 +390,63 @@ void FewShapes::put(int j, const ShapeColumns::Column& u) noexcept {
   for (int i = 0; i < 10; ++i) U_[place(i)][place(j)] = u[i];
 }
 
-bool FewShapes::guess(const Eigen::VectorXd& V, double lambda, const LinkRows& rows,
+bool FewShapes::start(const LinkRows& rows, double lambda,
                       const std::vector<int>& passive) noexcept {
+  if (!fits()) return false;
   const std::size_t shapes = place(shapes_);
-  const double square = form(U_, rows, shapes, now_.H, now_.x, sizes_);
-  Dozen squares;
+  rows_ = &rows;
+  lambda_ = lambda;
+  const double square = form({U_, rows, shapes}, now_.H, now_.x, sizes_);
   for (std::size_t j = 0; j < dozen; ++j) {
-    if (lambda > 0.0 && j < shapes) now_.H[j][j] += lambda / V[static_cast<Eigen::Index>(j)];
-    squares[j] = j < shapes ? now_.H[j][j] : 0.0;
-    now_.diagonal[j] = squares[j] > 0.0 ? squares[j] : 1.0;
-    now_.weight[j] = squares[j] > 0.0 ? 1.0 / squares[j] : 0.0;
-    now_.other_weight[j] = -squares[j];
+    if (lambda > 0.0 && j < shapes) now_.H[j][j] += lambda / (*V_)[static_cast<Eigen::Index>(j)];
+    now_.squares[j] = j < shapes ? now_.H[j][j] : 0.0;
+    now_.diagonal[j] = now_.squares[j] > 0.0 ? now_.squares[j] : 1.0;
   }
   for (Four& side : now_.side.part) side = Four{1.0, 1.0, 1.0, 1.0};
-  if (square > 0.0) start(now_, squares, shapes, passive);  // without forces there is no mass
+  now_.passive = 0;
+  if (square > 0.0) enter(now_, shapes, passive);  // without forces there is no mass
   now_.pivots = 0;
   // What is not out of place at all still carries a number in its low bits: hence the minimum.
-  const double smallest =
-      std::max(smallest_step * smallest_step * square, std::numeric_limits<double>::min());
-  return settle(now_, squares, shapes, smallest, 4 * shapes_);
+  smallest_ = std::max(smallest_step * smallest_step * square, std::numeric_limits<double>::min());
+  return true;
 }
+
+bool FewShapes::divide(int j, int other, double V1, double V2) noexcept {
+  const double V = V1 + V2;
+  split(now_, {U_, *rows_, place(shapes_)},
+        {.whole = place(j),
+         .part = place(other),
+         .remains = V1 / V,
+         .goes = V2 / V,
+         .shared = lambda_ / V,
+         .remaining = lambda_ / V1,
+         .leaving = lambda_ / V2});
+  Dozen u;
+  for (const int part : {j, other}) {
+    for (std::size_t i = 0; i < 10; ++i) u[i] = std::abs(U_[i][place(part)]);
+    sizes_[place(part)] = dot(u, rows_->lengths());
+  }
+  now_.pivots = 0;
+  return true;
+}
+
+bool FewShapes::settle() noexcept { return pivot(now_, place(shapes_), smallest_, 4 * shapes_); }
 
 AtPlaces FewShapes::answer() const noexcept {
   static constexpr std::array<int, dozen> numbers = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
-  unsigned used = 0;
-  for (std::size_t j = 0; j < place(shapes_); ++j) {
-    used |= static_cast<unsigned>(std::signbit(now_.side[j])) << j;
-  }
-  return {&U_, now_.H.data(), numbers.data(), &now_.x, &sizes_, used};
+  return {&U_, now_.H.data(), numbers.data(), &now_.x, &sizes_, now_.passive};
 }
 
-bool FewShapes::none_enters(const LinkRows& rows, const Dozen& slopes, double threshold) noexcept {
-  return furthest_above(U_, now_.side, slopes, sizes_, threshold * rows.length(), place(shapes_)) <=
-         0.0;
+bool FewShapes::none_enters(const Dozen& slopes, double threshold) noexcept {
+  return furthest_above(now_, {U_, *rows_, place(shapes_)}, slopes, sizes_,
+                        threshold * rows_->length()) <= 0.0;
+}
+
+void FewShapes::correct(const Dozen& masses, const Dozen&) noexcept {
+  for (unsigned left = now_.passive; left != 0; left &= left - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(left));
+    now_.x[k] = masses[k];
+  }
 }
 
 void FewShapes::solve_normal(Eigen::VectorXd& x) noexcept {
@@ -212,10 +457,7 @@ void FewShapes::solve_normal(Eigen::VectorXd& x) noexcept {
   }
   entry = 0;
   for (int i = 0; i < shapes_; ++i) {
-    if (!is_passive(i)) continue;
-    double sum = 0.0;
-    for (std::size_t j = 0; j < dozen; ++j) sum += now_.H[place(i)][j] * right[j];
-    x[entry++] = sum;
+    if (is_passive(i)) x[entry++] = dot(now_.H[place(i)], right);
   }
 }
 

@@ -26,10 +26,22 @@ class FewShapes final : public Guess {
     std::array<Dozen, most_shapes> H;  ///< of the passive shapes the inverse
     Dozen diagonal;                    ///< of H
     Dozen x;                           ///< masses of the passive shapes, slopes of the others
+    Dozen squares;                     ///< the diagonal of H as it was
     Dozen side;                        ///< -1 for passive shapes, 1 for the others
     Dozen weight, other_weight;        ///< of x^2 on this side, signed as `side`; on the other side
+    unsigned passive = 0;              ///< a bit a shape
     int pivots = 0;
   };
+  /// A division.
+  struct Cut {
+    std::size_t whole, part;    ///< one part takes the place of the whole, the other is the last
+    double remains, goes;       ///< what they are of the whole's volume
+    double shared;              ///< stiffness of the whole: parts that move together feel it
+    double remaining, leaving;  ///< the parts' own
+  };
+
+  /// `V` (m^3, an entry a shape) must outlive the object.
+  explicit FewShapes(const Eigen::VectorXd& V) : V_(&V) {}
 
   /// No shapes.
   void clear() noexcept;
@@ -37,30 +49,34 @@ class FewShapes final : public Guess {
   void put(int j, const ShapeColumns::Column& u) noexcept;
   /// Whether there are no more shapes than can be dealt with.
   [[nodiscard]] bool fits() const noexcept { return shapes_ <= most_shapes; }
+  [[nodiscard]] bool is_passive(int j) const noexcept { return (now_.passive >> j & 1U) != 0; }
 
-  /// For the triangle of one link, from the shapes in `passive` on; only if they fit. False if no
-  /// answer is found within four pivots a shape.
-  [[nodiscard]] bool guess(const Eigen::VectorXd& V, double lambda, const LinkRows& rows,
-                           const std::vector<int>& passive) noexcept;
-
-  [[nodiscard]] bool is_passive(int j) const noexcept { return now_.side[place(j)] < 0.0; }
-  /// Pivots of the last guess, those to its start left out.
-  [[nodiscard]] int pivots() const noexcept override { return now_.pivots; }
+  [[nodiscard]] bool start(const LinkRows& rows, double lambda,
+                           const std::vector<int>& passive) noexcept override;
+  [[nodiscard]] bool divide(int j, int other, double V1, double V2) noexcept override;
+  /// Four pivots a shape at most.
+  [[nodiscard]] bool settle() noexcept override;
+  /// False: what the check sees is beyond these pivots.
+  [[nodiscard]] bool can_go_on() const noexcept override { return false; }
 
   [[nodiscard]] AtPlaces answer() const noexcept override;
-  [[nodiscard]] bool none_enters(const LinkRows& rows, const Dozen& slopes,
-                                 double threshold) noexcept override;
-
+  [[nodiscard]] int pivots() const noexcept override { return now_.pivots; }
+  [[nodiscard]] bool none_enters(const Dozen& slopes, double threshold) noexcept override;
+  void correct(const Dozen& masses, const Dozen& slopes) noexcept override;
   /// Entries in the order of the shapes.
   void solve_normal(Eigen::VectorXd& x) noexcept override;
 
  private:
   static std::size_t place(int j) noexcept { return static_cast<std::size_t>(j); }
 
-  int shapes_ = 0;
-  std::array<Dozen, 10> U_;
+  std::array<Dozen, 10> U_;  // first: these are the most strictly aligned
   Exchanged now_;
   Dozen sizes_;  ///< sum_i |u_ij| lengths_i
+  const Eigen::VectorXd* V_;
+  const LinkRows* rows_ = nullptr;
+  double lambda_ = 0.0;
+  double smallest_ = 0.0;  ///< gain that is followed
+  int shapes_ = 0;
 };
 
 }  // namespace shapeid::fast

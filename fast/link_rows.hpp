@@ -29,6 +29,8 @@ class LinkRows {
 
   /// Ten rows: R, then c, then zero.
   [[nodiscard]] const std::array<Dozen, 10>& rows() const noexcept { return rows_; }
+  /// Eleven columns: ten numbers each, then zero. The last is c.
+  [[nodiscard]] const std::array<Dozen, 11>& columns() const noexcept { return columns_; }
   /// Sums of the absolute values in each column of R: upper bounds of their lengths. Not finite if
   /// a number in R's columns is not.
   [[nodiscard]] const Dozen& lengths() const noexcept { return lengths_; }
@@ -68,7 +70,7 @@ class LinkRows {
 
  private:
   std::array<Dozen, 10> rows_;
-  std::array<Dozen, 11> columns_;  ///< ten numbers each, then zero
+  std::array<Dozen, 11> columns_;
   Dozen lengths_;
   double length_ = 0.0;
   double unreached_ = 0.0;  ///< of the right-hand side

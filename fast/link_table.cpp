@@ -39,28 +39,6 @@ constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
   return static_cast<std::size_t>(std::countr_one(t.used));
 }
 
-/// All bits at the places but one.
-struct Others {
-  FourBits part[3];
-};
-
-[[gnu::always_inline]] inline Others others_than(std::size_t place) noexcept {
-  Others others;
-  for (std::size_t p = 0; p < 3; ++p) {
-    others.part[p] = reinterpret_cast<FourBits>(dozen_places[p] != place);
-  }
-  return others;
-}
-
-/// a at the others, x at the one.
-[[gnu::always_inline]] inline Dozen with(const Dozen& a, const Others& others, double x) noexcept {
-  Dozen b;
-  for (std::size_t p = 0; p < 3; ++p) {
-    b.part[p] = others.part[p] != 0 ? a.part[p] : Four{} + x;
-  }
-  return b;
-}
-
 [[gnu::always_inline]] inline void clear_one(Dozen& a, const Others& others) noexcept {
   for (std::size_t p = 0; p < 3; ++p) {
     a.part[p] = reinterpret_cast<Four>(reinterpret_cast<FourBits>(a.part[p]) & others.part[p]);
@@ -383,6 +361,7 @@ LinkTable::LinkTable(ShapeColumns& columns, const Eigen::VectorXd& V)
 
 bool LinkTable::start(const LinkRows& rows, double lambda,
                       const std::vector<int>& passive) noexcept {
+  rows_ = &rows;
   pivots_ = 0;
   wanting_ = -1;
   problem_.U = columns_->data();
@@ -417,12 +396,12 @@ bool LinkTable::enter_shape(int j) noexcept {
   return enter_one(now_, problem_, lane(*columns_, j));
 }
 
-void LinkTable::correct(const std::vector<double>& masses, const Eigen::VectorXd& slopes) noexcept {
-  std::size_t i = 0;
-  for (unsigned left = now_.used; left != 0; left &= left - 1) {
-    now_.m[at(std::countr_zero(left))] = masses[i++];
+void LinkTable::correct(const Dozen& masses, const Dozen& slopes) noexcept {
+  for (std::size_t p = 0; p < 3; ++p) {
+    const Four m = masses.part[p];
+    now_.m.part[p] = m > 0.0 ? m : now_.m.part[p];
   }
-  load_ten(slopes.data(), now_.g);
+  now_.g = slopes;
 }
 
 bool LinkTable::divide(int j, int other, double V1, double V2) noexcept {
@@ -469,11 +448,11 @@ AtPlaces LinkTable::answer() const noexcept {
 // Where certainly no shape wanted to enter at the slopes of the table, it is enough that these are
 // the same to what an answer is checked against. As many passive shapes as rows were not asked at
 // all: their slopes are to be nothing.
-bool LinkTable::none_enters(const LinkRows& rows, const Dozen& slopes, double threshold) noexcept {
+bool LinkTable::none_enters(const Dozen& slopes, double threshold) noexcept {
   Dozen apart = slopes;
   if (!is_full(now_, problem_)) add(apart, -1.0, now_.g);
   if (is_certain_ && threshold > 0.0 &&
-      largest_of(apart, problem_.inverse_lengths) <= allowed_rounding * rows.length()) {
+      largest_of(apart, problem_.inverse_lengths) <= allowed_rounding * rows_->length()) {
     return true;
   }
   std::copy_n(slopes.data(), 10, slopes_.data());

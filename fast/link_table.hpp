@@ -65,25 +65,17 @@ class LinkTable final : public Guess {
   /// passive shapes, and those alone.
   LinkTable(ShapeColumns& columns, const Eigen::VectorXd& V);
 
-  /// For these rows, whose scale `columns` knows, with the shapes `passive`, as far as their
-  /// columns do not depend on those before. False if there are too many.
+  /// `columns` know the scale of these rows.
   [[nodiscard]] bool start(const LinkRows& rows, double lambda,
-                           const std::vector<int>& passive) noexcept;
-  /// The masses and slopes were corrected: the passive shapes of answer(), in that order.
-  void correct(const std::vector<double>& masses, const Eigen::VectorXd& slopes) noexcept;
-  /// Shape `j` gave its second part, of volume V2, to shape `other`, the last one; what remained
-  /// has volume V1. To be called when `columns` and `V` know both. False if there is no room.
-  [[nodiscard]] bool divide(int j, int other, double V1, double V2) noexcept;
-  /// Pivots until no mass is negative and, as far as single precision sees, no price positive.
-  /// False if that does not come about.
-  [[nodiscard]] bool settle() noexcept;
-  /// Whether a shape wanted to enter when none_enters() was asked last, so that settle() may go on.
-  [[nodiscard]] bool can_go_on() const noexcept { return wanting_ >= 0; }
+                           const std::vector<int>& passive) noexcept override;
+  [[nodiscard]] bool divide(int j, int other, double V1, double V2) noexcept override;
+  [[nodiscard]] bool settle() noexcept override;
+  [[nodiscard]] bool can_go_on() const noexcept override { return wanting_ >= 0; }
 
   [[nodiscard]] AtPlaces answer() const noexcept override;
   [[nodiscard]] int pivots() const noexcept override { return pivots_; }
-  [[nodiscard]] bool none_enters(const LinkRows& rows, const Dozen& slopes,
-                                 double threshold) noexcept override;
+  [[nodiscard]] bool none_enters(const Dozen& slopes, double threshold) noexcept override;
+  void correct(const Dozen& masses, const Dozen& slopes) noexcept override;
   void solve_normal(Eigen::VectorXd& x) noexcept override;
 
  private:
@@ -97,6 +89,7 @@ class LinkTable final : public Guess {
   Problem problem_;
   ShapeColumns* columns_;
   const Eigen::VectorXd* V_;
+  const LinkRows* rows_ = nullptr;
   int pivots_ = 0;
   int wanting_ = -1;         ///< a shape to enter next
   bool is_certain_ = false;  ///< that none wanted to, where settle() ended

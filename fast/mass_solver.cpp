@@ -1,6 +1,8 @@
 #include "shapeid/fast/mass_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <utility>
@@ -16,6 +18,10 @@ std::unique_ptr<ColumnSet> column_set(const ShapeColumns& columns) {
   return std::make_unique<ManyLinks>(columns);
 }
 
+/// Where this share of the passive shapes stays passive from one triangle to the next, all are
+/// worth starting from; elsewhere only those that have the other share of all mass.
+constexpr double enough_stay = 0.5, heavy_share = 0.1;
+
 }  // namespace
 
 MassSolver::MassSolver(int links, int most_shapes)
@@ -23,9 +29,12 @@ MassSolver::MassSolver(int links, int most_shapes)
       m_(Eigen::VectorXd::Zero(most_shapes)),
       V_(Eigen::VectorXd::Ones(most_shapes)),
       vertex_(column_set(columns_)),
+      few_(V_),
       table_(columns_, V_),
       method_(columns_, V_),
       even_(columns_, V_) {
+  before_.reserve(static_cast<std::size_t>(most_shapes));
+  heavy_.reserve(static_cast<std::size_t>(most_shapes));
   method_.use(*vertex_, 0.0);
 }
 
@@ -46,32 +55,31 @@ bool MassSolver::append(int link, const Column& u, double V) noexcept {
 
 void MassSolver::set_lambda(double lambda) noexcept {
   lambda_ = lambda;
-  table_state_ = TableState::useless;
+  guess_ = nullptr;
   if (lambda > 0.0) even_.set_lambda(lambda);
   method_.use(*vertex_, 0.0);
   at_vertex_ = true;
 }
 
 void MassSolver::forget_masses() noexcept {
-  table_state_ = TableState::useless;
+  guess_ = nullptr;
   take_masses_out();
   method_.clear();
   at_vertex_ = true;
 }
 
 void MassSolver::start_at(int j, double mass) noexcept {
-  table_state_ = TableState::useless;
+  guess_ = nullptr;
   method_.start_at(j, mass);
   m_[j] = mass;
 }
 
 Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
-  const TableState before = std::exchange(table_state_, TableState::useless);
-  if (!method_.take(R)) {
-    table_state_ = before;
-    return Outcome::not_finite;
+  if (!method_.take(R)) return Outcome::not_finite;
+  if (has_guess(worth_starting_from()) && guess_is_right()) {
+    see_what_stayed();
+    return Outcome::solved;
   }
-  if (guess_is_right()) return Outcome::solved;
   is_new_ = true;
   const Outcome outcome = solve_by_method();
   is_new_ = false;
@@ -80,8 +88,7 @@ Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
 }
 
 Outcome MassSolver::solve_again() noexcept {
-  if (table_state_ == TableState::stands && settles_at_table()) return Outcome::solved;
-  table_state_ = TableState::useless;
+  if (guess_ != nullptr && guess_is_right()) return Outcome::solved;
   return solve_by_method();
 }
 
@@ -94,43 +101,52 @@ Outcome MassSolver::solve_by_method() noexcept {
   return outcome;
 }
 
-// A new triangle of one link: most answers are found by pivots, of few shapes on their own normal
-// equations, of more in the link's parameters.
-bool MassSolver::guess_is_right() noexcept {
+// Most answers for one link are found by pivots: of few shapes on their own normal equations, of
+// more in the link's parameters.
+bool MassSolver::has_guess(const std::vector<int>& start) noexcept {
+  guess_ = nullptr;
   if (links() != 1) return false;
-  if (few_.fits()) {
-    if (!few_.guess(V_, lambda_, method_.link_rows(), passive()) || !settles_at(few_)) return false;
-    table_state_ = TableState::none;
-    return true;
+  if (!few_.fits()) method_.scale_prices();
+  Guess& guess = few_.fits() ? static_cast<Guess&>(few_) : table_;
+  if (guess.start(method_.link_rows(), lambda_, start)) guess_ = &guess;
+  return guess_ != nullptr;
+}
+
+// Windows with noise may have half of their passive shapes in common: of these, those that are
+// heavy are.
+const std::vector<int>& MassSolver::worth_starting_from() noexcept {
+  before_ = passive();
+  if (most_stay_) return before_;
+  const double enough = heavy_share * m().sum();
+  heavy_.clear();
+  for (const int j : before_) {
+    if (m_[j] > enough) heavy_.push_back(j);
   }
-  if (!has_table()) return false;
-  return settles_at_table();
+  return heavy_;
 }
 
-bool MassSolver::has_table() noexcept {
-  method_.scale_prices();
-  const bool stands = table_.start(method_.link_rows(), lambda_, passive());
-  table_state_ = stands ? TableState::stands : TableState::useless;
-  return stands;
+void MassSolver::see_what_stayed() noexcept {
+  const auto stayed =
+      std::count_if(before_.begin(), before_.end(), [this](int j) { return m_[j] > 0.0; });
+  if (!before_.empty()) {
+    most_stay_ = static_cast<double>(stayed) >= enough_stay * static_cast<double>(before_.size());
+  }
 }
 
-bool MassSolver::settles_at_table() noexcept {
+bool MassSolver::guess_is_right() noexcept {
   constexpr int most_rounds = 4;  // one is enough where single precision can tell
-  for (int round = 0; round < most_rounds && table_.settle(); ++round) {
-    if (settles_at(table_)) {
-      table_.correct(method_.masses(), method_.slopes());
-      return true;
-    }
-    if (!table_.can_go_on()) break;
+  for (int round = 0; round < most_rounds && guess_->settle(); ++round) {
+    if (settles_at_guess()) return true;
+    if (!guess_->can_go_on()) break;
   }
-  table_state_ = TableState::useless;
+  guess_ = nullptr;
   return false;
 }
 
-bool MassSolver::settles_at(Guess& guess) noexcept {
+bool MassSolver::settles_at_guess() noexcept {
   for (const int j : passive()) m_[j] = 0.0;
   method_.use(*vertex_, lambda_);
-  const bool is_right = method_.settles_at(guess);
+  const bool is_right = method_.settles_at(*guess_);
   if (is_right) at_vertex_ = true;
   put_masses_in();
   return is_right;
@@ -172,12 +188,14 @@ Outcome MassSolver::solve_damped() noexcept {
 }
 
 // With as many passive shapes as rows mass only moves among them, which the method does in less
-// time than a table takes.
-bool MassSolver::has_table_to_divide() noexcept {
-  if (links() != 1 || !method_.has_rows()) return false;
-  if (lambda_ == 0.0 && passive().size() == 10) table_state_ = TableState::useless;
-  if (table_state_ == TableState::none) static_cast<void>(has_table());
-  return table_state_ == TableState::stands;
+// time than a table takes. Called when the shape to be divided is still whole.
+bool MassSolver::has_guess_to_divide() noexcept {
+  if (guess_ == nullptr) return false;
+  if (lambda_ == 0.0 && passive().size() == 10) {
+    guess_ = nullptr;
+    return false;
+  }
+  return guess_ != &few_ || few_.fits() || has_guess(passive());
 }
 
 bool MassSolver::divide(int j, const Column& first, double V1, const Column& second,
@@ -185,12 +203,12 @@ bool MassSolver::divide(int j, const Column& first, double V1, const Column& sec
   const int other = shapes();
   if (!append(columns_.link(j), second, V2)) return false;
   // Where nothing is factorised yet, masses are but a place to start at.
-  const bool by_table = has_table_to_divide();
-  if (by_table || (method_.has_rows() && !method_.has_started())) {
+  const bool by_guess = has_guess_to_divide();
+  if (by_guess || (method_.has_rows() && !method_.has_started())) {
     columns_.replace(j, first);
     few_.put(j, first);
     V_[j] = V1;
-    if (by_table && !table_.divide(j, other, V1, V2)) table_state_ = TableState::useless;
+    if (by_guess && !guess_->divide(j, other, V1, V2)) guess_ = nullptr;
     method_.divide(j, other, V2 / (V1 + V2));
     put_masses_in();
     SHAPEID_CONTRACT(why_changed());

@@ -76,30 +76,30 @@ class MassSolver {
   [[nodiscard]] double gap(double mass_bound) const noexcept;
 
  private:
+  [[nodiscard]] bool has_guess(const std::vector<int>& start) noexcept;
+  [[nodiscard]] bool has_guess_to_divide() noexcept;
   [[nodiscard]] bool guess_is_right() noexcept;
-  [[nodiscard]] bool settles_at(Guess& guess) noexcept;
-  [[nodiscard]] bool settles_at_table() noexcept;
-  [[nodiscard]] bool has_table() noexcept;
-  [[nodiscard]] bool has_table_to_divide() noexcept;
+  [[nodiscard]] const std::vector<int>& worth_starting_from() noexcept;
+  void see_what_stayed() noexcept;
+  [[nodiscard]] bool settles_at_guess() noexcept;
   [[nodiscard]] Outcome solve_by_method() noexcept;
   [[nodiscard]] Outcome solve_damped() noexcept;
   void give(int j, double mass) noexcept;
   void take_masses_out() noexcept;
   void put_masses_in() noexcept;
 
-  /// Of one link: whether the table is that of the passive shapes, can be made, or is of no use
-  /// until there is another triangle.
-  enum class TableState { none, stands, useless };
-
   ShapeColumns columns_;
   Eigen::VectorXd m_, V_;
   std::unique_ptr<ColumnSet> vertex_;  ///< passive shapes with independent columns
   double lambda_ = 0.0;
-  TableState table_state_ = TableState::none;
-  bool is_new_ = false;    ///< the triangle
-  bool at_vertex_ = true;  ///< where the next call may start, for lambda > 0
-  FewShapes few_;          ///< a first answer where a link has few shapes
-  LinkTable table_;        ///< or more of them, and as they are divided
+  Guess* guess_ = nullptr;   ///< that of the passive shapes, of one link, if there is one
+  std::vector<int> before_;  ///< passive shapes of the last triangle
+  std::vector<int> heavy_;   ///< of these
+  bool most_stay_ = true;    ///< passive, from one triangle to the next
+  bool is_new_ = false;      ///< the triangle
+  bool at_vertex_ = true;    ///< where the next call may start, for lambda > 0
+  FewShapes few_;            ///< a first answer where a link has few shapes
+  LinkTable table_;          ///< or more of them, and as they are divided
   ActiveSet method_;
   EvenDensity even_;  ///< passive shapes, any number of them, for lambda > 0
 };

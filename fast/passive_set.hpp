@@ -63,17 +63,33 @@ class NormalEquations {
   virtual void solve_normal(Eigen::VectorXd& x) noexcept = 0;
 };
 
-/// A guess at the answer for one link, to be corrected and checked by the one who asks
+/// A guess at the answer for one link, by pivots: to be corrected and checked by the one who asks
 /// (ActiveSet::settles_at). Solving the normal equations is for its passive shapes, in their order.
 class Guess : public NormalEquations {
  public:
+  /// For these rows, which must stay as they are until the next start, with the shapes `passive`,
+  /// as far as their columns do not depend on those before. False if there are too many: then only
+  /// start() may follow.
+  [[nodiscard]] virtual bool start(const LinkRows& rows, double lambda,
+                                   const std::vector<int>& passive) noexcept = 0;
+  /// Shape `j` gave its second part, of volume V2, to shape `other`, the last one; what remained
+  /// has volume V1. To be called when columns and volumes of both are known. False if it cannot be
+  /// followed: then only start() may follow.
+  [[nodiscard]] virtual bool divide(int j, int other, double V1, double V2) noexcept = 0;
+  /// Pivots until no mass is negative and no shape wants to enter, as far as can be seen. False if
+  /// that does not come about.
+  [[nodiscard]] virtual bool settle() noexcept = 0;
+  /// Whether a shape wanted to enter when none_enters() was asked last, so that settle() may go on.
+  [[nodiscard]] virtual bool can_go_on() const noexcept = 0;
+
   /// The passive shapes and their masses: positive, but for rounding.
   [[nodiscard]] virtual AtPlaces answer() const noexcept = 0;
   /// Pivots that led to it.
   [[nodiscard]] virtual int pivots() const noexcept = 0;
-  /// Whether no shape that is not passive has a price above `threshold` at these slopes of `rows`.
-  [[nodiscard]] virtual bool none_enters(const LinkRows& rows, const Dozen& slopes,
-                                         double threshold) noexcept = 0;
+  /// Whether no shape that is not passive has a price above `threshold` at these slopes.
+  [[nodiscard]] virtual bool none_enters(const Dozen& slopes, double threshold) noexcept = 0;
+  /// The masses of answer() were corrected, in its places, and the slopes with them.
+  virtual void correct(const Dozen& masses, const Dozen& slopes) noexcept = 0;
 };
 
 /// A passive set whose columns are those of the shapes: for lambda = 0. Solving the normal

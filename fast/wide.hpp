@@ -37,9 +37,11 @@ using EightBits = std::uint32_t __attribute__((vector_size(32)));
   x = reinterpret_cast<Eight>(reinterpret_cast<EightBits>(x) & ~(std::uint32_t{1} << 31U));
 }
 
-/// A dozen doubles.
+/// A dozen doubles; zero, to begin with.
 struct Dozen {
-  Four part[3] = {};
+  Four part[3];
+  // As an initialiser GCC makes a string instruction of it, which takes longer than a pivot.
+  [[gnu::always_inline]] Dozen() noexcept { part[0] = part[1] = part[2] = Four{}; }
   double& operator[](std::size_t i) noexcept { return reinterpret_cast<double*>(part)[i]; }
   double operator[](std::size_t i) const noexcept {
     return reinterpret_cast<const double*>(part)[i];
@@ -52,6 +54,28 @@ struct Dozen {
 /// The places of a dozen, and the low bits of a number that can hold one.
 constexpr FourBits dozen_places[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
 constexpr std::uint64_t place_bits = 15;
+
+/// All bits at the places but one.
+struct Others {
+  FourBits part[3];
+};
+
+[[gnu::always_inline]] inline Others others_than(std::size_t place) noexcept {
+  Others others;
+  for (std::size_t p = 0; p < 3; ++p) {
+    others.part[p] = reinterpret_cast<FourBits>(dozen_places[p] != place);
+  }
+  return others;
+}
+
+/// a at the others, x at the one.
+[[gnu::always_inline]] inline Dozen with(const Dozen& a, const Others& others, double x) noexcept {
+  Dozen b;
+  for (std::size_t p = 0; p < 3; ++p) {
+    b.part[p] = others.part[p] != 0 ? a.part[p] : Four{} + x;
+  }
+  return b;
+}
 
 /// a += factor b
 [[gnu::always_inline]] inline void add(Dozen& a, double factor, const Dozen& b) noexcept {

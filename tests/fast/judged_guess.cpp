@@ -1,0 +1,211 @@
+#include "shapeid/tests/fast/judged_guess.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <numeric>
+
+#include "shapeid/reference/mass_solver.hpp"
+#include "shapeid/tests/support/qp_generators.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+
+namespace shapeid::test {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+JudgedGuess::JudgedGuess(GuessBy by, const TriangleCase& given)
+    : V_(VectorXd::Ones(given.shapes() + most_divisions)),
+      columns_(1, given.shapes() + most_divisions),
+      few_(V_),
+      table_(columns_, V_),
+      guess_(by == GuessBy::few_shapes ? static_cast<fast::Guess*>(&few_) : &table_),
+      vertex_(columns_),
+      method_(columns_, V_) {
+  for (int j = 0; j < given.shapes(); ++j) {
+    static_cast<void>(columns_.append(0, given.column(j)));
+    few_.put(j, given.column(j));
+  }
+  V_.head(given.shapes()) = given.problem.V;
+  method_.use(vertex_, given.problem.lambda);
+  static_cast<void>(method_.take(given.R));
+  method_.scale_prices();
+}
+
+bool JudgedGuess::start(const MatrixXd& R, double lambda, const std::vector<int>& passive) {
+  rows_.take(R);
+  return guess_->start(rows_, lambda, passive);
+}
+
+bool JudgedGuess::settles() {
+  while (guess_->settle()) {
+    if (method_.settles_at(*guess_)) return true;
+    if (!guess_->can_go_on()) return false;
+  }
+  return false;
+}
+
+bool JudgedGuess::divide(const TriangleCase& divided, int j) {
+  const int other = divided.shapes() - 1;
+  static_cast<void>(columns_.append(0, divided.column(other)));
+  columns_.replace(j, divided.column(j));
+  for (const int part : {j, other}) few_.put(part, divided.column(part));
+  V_.head(divided.shapes()) = divided.problem.V;
+  return guess_->divide(j, other, divided.problem.V[j], divided.problem.V[other]);
+}
+
+VectorXd JudgedGuess::masses() const {
+  VectorXd m = VectorXd::Zero(columns_.size());
+  for (std::size_t i = 0; i < method_.passive().size(); ++i) {
+    m[method_.passive()[i]] = method_.masses()[i];
+  }
+  return m;
+}
+
+TriangleCase link_case(std::uint64_t seed, int shapes, bool density_term, double noise) {
+  return body_case(seed, {.shapes_a_link = shapes, .noise = noise, .density_term = density_term});
+}
+
+int settled_guesses(GuessBy by, int most_shapes, bool density_term, bool warm) {
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    const int shapes = 1 + static_cast<int>(seed % static_cast<std::uint64_t>(most_shapes));
+    const TriangleCase given = link_case(seed, shapes, density_term);
+    std::vector<int> start;
+    for (int j = 0; warm && j < given.shapes() && start.size() < 8; ++j) {
+      if ((seed >> (j % 8)) % 2 == 1) start.push_back(j);
+    }
+    JudgedGuess judged(by, given);
+    if (!judged.start(given.R, given.problem.lambda, start) || !judged.settles()) continue;
+    ++count;
+    const VectorXd m = reference::solve_masses(given.problem).m;
+    EXPECT_LT(scaled_objective_difference(given.problem, judged.masses(), m), few_hundred_eps);
+    EXPECT_LT(reference::kkt_residual(given.problem, judged.masses()).worst(), 1e-13);
+    if (density_term) {
+      EXPECT_LT(scaled_mass_difference(given.problem, judged.masses(), m), few_hundred_eps);
+    }
+  }
+  return count;
+}
+
+int refused_guesses(GuessBy by, int shapes) {
+  int refused = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const TriangleCase given = link_case(seed, shapes, false),
+                       other = link_case(seed + 1000, shapes, false);
+    MatrixXd R = given.R;
+    R.rightCols<1>() = other.R.rightCols<1>();
+    JudgedGuess judged(by, given);
+    if (judged.start(R, 0.0) && !judged.settles()) ++refused;
+  }
+  return refused;
+}
+
+void check_guess_of_other_forces(GuessBy by, int most_shapes) {
+  const TriangleCase given =
+      link_case(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange(2, most_shapes + 1),
+                *rc::gen::arbitrary<bool>());
+  JudgedGuess judged(by, given);
+  MatrixXd R = given.R;
+  R(*rc::gen::inRange(0, 10), 10) += *rc::gen::element(1e-9, 1e-3, 1.0) * R.col(10).norm();
+  RC_PRE(judged.start(R, given.problem.lambda));
+  if (!judged.settles()) return;
+  const VectorXd wanted = reference::solve_masses(given.problem).m;
+  RC_ASSERT(scaled_objective_difference(given.problem, judged.masses(), wanted) < few_hundred_eps);
+}
+
+namespace {
+
+/// Columns of A = Y U over those of the square root of lambda V^-1: their condition is not squared.
+struct Columns {
+  MatrixXd A;
+  VectorXd lengths;
+
+  explicit Columns(const MassProblem& problem)
+      : A(problem.Y.rows() + problem.U.cols(), problem.U.cols()) {
+    A << problem.Y * problem.U,
+        (problem.lambda * problem.V.cwiseInverse()).cwiseSqrt().asDiagonal().toDenseMatrix();
+    lengths = A.colwise().norm().transpose();
+  }
+  [[nodiscard]] MatrixXd scaled() const { return A * lengths.cwiseInverse().asDiagonal(); }
+  [[nodiscard]] double condition() const {
+    const VectorXd sizes = scaled().jacobiSvd().singularValues();
+    return sizes[0] / sizes[sizes.size() - 1];
+  }
+};
+
+/// Of what a division goes through: its new part beside the whole.
+double condition_beside_whole(const MassProblem& before, const MassProblem& divided, int j) {
+  MassProblem between = divided;
+  between.U.col(j) = before.U.col(j);
+  between.V[j] = before.V[j];
+  return Columns(between).condition();
+}
+
+}  // namespace
+
+void check_divided_guess(GuessBy by, int most_shapes) {
+  const bool density_term = *rc::gen::arbitrary<bool>();
+  TriangleCase given = link_case(*rc::gen::arbitrary<std::uint64_t>(),
+                                 *rc::gen::inRange(1, most_shapes + 1), density_term, 1e-3);
+  // As strong as the rows, so that a term that is missing cannot hide.
+  if (density_term) {
+    const MatrixXd A = given.problem.Y * given.problem.U;
+    given.problem.lambda = 0.3 * A.squaredNorm() * given.problem.V.mean();
+  }
+  JudgedGuess judged(by, given);
+  std::vector<int> all(static_cast<std::size_t>(given.shapes()));
+  std::iota(all.begin(), all.end(), 0);
+  RC_PRE(judged.start(given.R, given.problem.lambda, all));
+  Draw draw(*rc::gen::arbitrary<std::uint64_t>());
+  const int divisions = *rc::gen::inRange(0, 4);
+  double condition = 1.0;
+  for (int k = 0; k < divisions; ++k) {
+    const MassProblem before = given.problem;
+    const int j = *rc::gen::inRange(0, given.shapes());
+    divide(given, j, draw);
+    condition = std::max(condition, condition_beside_whole(before, given.problem, j));
+    RC_PRE(judged.divide(given, j));
+  }
+  const fast::AtPlaces at = judged.guess().answer();
+  std::vector<std::size_t> places(static_cast<std::size_t>(given.shapes()));
+  RC_PRE(std::popcount(at.used) == given.shapes());
+  for (unsigned left = at.used; left != 0; left &= left - 1) {
+    const auto place = static_cast<std::size_t>(std::countr_zero(left));
+    places[static_cast<std::size_t>(at.shape[place])] = place;
+  }
+  const Columns columns(given.problem);
+  condition = std::max(condition, columns.condition());
+  RC_PRE(condition < 1e4);
+  const Index n = given.shapes();
+  VectorXd b = VectorXd::Zero(columns.A.rows());
+  b.head(given.problem.F.size()) = given.problem.F;
+  const VectorXd m = Eigen::ColPivHouseholderQR<MatrixXd>(columns.A).solve(b);
+  VectorXd found(n);
+  for (Index i = 0; i < n; ++i) found[i] = (*at.m)[places[static_cast<std::size_t>(i)]];
+  // Masses in units of their columns. The condition is squared; each of n pivots rounds n numbers;
+  // and shapes do not enter by size, so that numbers may grow on the way.
+  constexpr double growth = 10.0;
+  const double size = growth * condition * condition;
+  RC_ASSERT(scaled(((found - m).cwiseProduct(columns.lengths)).norm(), b.norm() * size, n * n) <
+            few_hundred_eps);
+  const MatrixXd scaled_columns = columns.scaled();
+  const MatrixXd inverse = (scaled_columns.transpose() * scaled_columns).inverse();
+  for (Index i = 0; i < n; ++i) {
+    for (Index k = 0; k < n; ++k) {
+      const double entry =
+          at.inverse[places[static_cast<std::size_t>(i)]][places[static_cast<std::size_t>(k)]];
+      RC_ASSERT(scaled(entry * columns.lengths[i] * columns.lengths[k] - inverse(i, k),
+                       inverse.norm() * size, n * n) < few_hundred_eps);
+    }
+  }
+}
+
+}  // namespace shapeid::test
