@@ -196,6 +196,7 @@ bool ActiveSet::damp(ColumnSet& set, double lambda) noexcept {
 // Whether they are the minimum is asked of the masses alone, as of any other answer, and more
 // strictly: where no correction reaches the last digits the method itself is called.
 bool ActiveSet::settles_at(Guess& guess) noexcept {
+  static const Dozen no_stiffness;  // what has just been written two at a time is slow to read
   const bool is_damped = lambda_ > 0.0;
   const AtPlaces at = guess.answer();
   Dozen stiffness;
@@ -204,8 +205,8 @@ bool ActiveSet::settles_at(Guess& guess) noexcept {
     stiffness[place] = lambda_ / (*V_)[at.shape[place]];
   }
   LinkRows::Settled settled;
-  rows_->link.settle(*columns_, at, stiffness, refined_slope, most_refinements, met_exactly,
-                     settled);
+  rows_->link.settle(*columns_, at, is_damped ? stiffness : no_stiffness, refined_slope,
+                     most_refinements, met_exactly, settled);
   iterations_ = guess.pivots() + 1 + settled.corrections;  // one to see that nothing is left to do
   if (!settled.is_settled || !std::isfinite(settled.at.square + settled.density) ||
       !guess.none_enters(settled.at.slopes, is_damped ? -certainly_held : smallest_slope) ||

@@ -57,12 +57,12 @@ struct Work {
     return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
   }
 
-  /// H = A^T A and q = A^T c with A = R U, and what bounds the columns of A. Returns the square of
-  /// || c ||.
-  [[gnu::always_inline]] static double form(const Data& data, std::array<Dozen, dozen>& H, Dozen& q,
+  /// H = A^T A and q = A^T c with A = R U, nothing exchanged, and what bounds the columns of A.
+  /// Returns the square of || c ||.
+  [[gnu::always_inline]] static double form(const Data& data, Exchanged& now,
                                             Dozen& sizes) noexcept {
     TenRows A;
-    Dozen sum, size;
+    Dozen sum, size, squares;
     double square = 0.0;
     for (std::size_t i = 0; i < 10; ++i) {
       const Dozen& r = data.link.rows()[i];
@@ -71,19 +71,30 @@ struct Work {
       const double c = r[10];
       add(sum, c, row);
       square += c * c;
+      for (std::size_t p = 0; p < parts; ++p) squares.part[p] += row.part[p] * row.part[p];
       A[i] = row;
       Dozen u = data.U[i];
       for (Four& part : u.part) take_sign(part);
       add(size, data.link.lengths()[i], u);
     }
-    q = sum;
+    now.x = sum;
+    now.squares = squares;
     sizes = size;
     for (std::size_t k = 0; k < data.shapes; ++k) {
       Dozen row;
       for (const Dozen& a : A) add(row, a[k], a);
-      H[k] = row;
+      now.H[k] = row;
     }
+    for (std::size_t p = 0; p < 3; ++p) now.side.part[p] = Four{} + 1.0;
+    now.passive = 0;
     return square;
+  }
+
+  /// The density term's part of H.
+  [[gnu::always_inline]] static void stiffen(Exchanged& now, const Dozen& stiffness,
+                                             std::size_t shapes) noexcept {
+    for (std::size_t k = 0; k < shapes; ++k) set(now.H[k], k, now.H[k][k] + stiffness[k]);
+    for (std::size_t p = 0; p < parts; ++p) now.squares.part[p] += stiffness.part[p];
   }
 
   /// What is out of place by most, and by how much: a passive shape of negative mass m by m^2 h,
@@ -167,6 +178,10 @@ struct Work {
   /// The passive shapes, as far as their columns do not depend on those before.
   [[gnu::always_inline]] static void enter(Exchanged& now, std::size_t shapes,
                                            const std::vector<int>& passive) noexcept {
+    for (std::size_t p = 0; p < 3; ++p) {
+      const Four square = now.squares.part[p];
+      now.diagonal.part[p] = square > 0.0 ? square : Four{} + 1.0;
+    }
     for (const int j : passive) {
       const auto k = static_cast<std::size_t>(j);
       if (now.squares[k] > 0.0 && now.diagonal[k] > smallest_share * now.squares[k]) {
@@ -313,17 +328,20 @@ struct Work {
 
 constexpr std::size_t parts_for(std::size_t shapes) noexcept { return (shapes + 3) / 4; }
 
-SHAPEID_WIDE double form(const Data& data, std::array<Dozen, dozen>& H, Dozen& q,
-                         Dozen& sizes) noexcept {
+SHAPEID_WIDE double form(const Data& data, Exchanged& now, Dozen& sizes) noexcept {
   switch (parts_for(data.shapes)) {
     case 0:
     case 1:
-      return Work<1>::form(data, H, q, sizes);
+      return Work<1>::form(data, now, sizes);
     case 2:
-      return Work<2>::form(data, H, q, sizes);
+      return Work<2>::form(data, now, sizes);
     default:
-      return Work<3>::form(data, H, q, sizes);
+      return Work<3>::form(data, now, sizes);
   }
+}
+
+SHAPEID_WIDE void stiffen(Exchanged& now, const Dozen& stiffness, std::size_t shapes) noexcept {
+  Work<3>::stiffen(now, stiffness, shapes);
 }
 
 SHAPEID_WIDE void enter(Exchanged& now, std::size_t shapes,
@@ -396,15 +414,16 @@ bool FewShapes::start(const LinkRows& rows, double lambda,
   const std::size_t shapes = place(shapes_);
   rows_ = &rows;
   lambda_ = lambda;
-  const double square = form({U_, rows, shapes}, now_.H, now_.x, sizes_);
-  for (std::size_t j = 0; j < dozen; ++j) {
-    if (lambda > 0.0 && j < shapes) now_.H[j][j] += lambda / (*V_)[static_cast<Eigen::Index>(j)];
-    now_.squares[j] = j < shapes ? now_.H[j][j] : 0.0;
-    now_.diagonal[j] = now_.squares[j] > 0.0 ? now_.squares[j] : 1.0;
+  const double square = form({U_, rows, shapes}, now_, sizes_);
+  if (lambda > 0.0) {
+    Dozen stiffness;
+    for (std::size_t j = 0; j < shapes; ++j) {
+      stiffness[j] = lambda / (*V_)[static_cast<Eigen::Index>(j)];
+    }
+    stiffen(now_, stiffness, shapes);
   }
-  for (Four& side : now_.side.part) side = Four{1.0, 1.0, 1.0, 1.0};
-  now_.passive = 0;
-  if (square > 0.0) enter(now_, shapes, passive);  // without forces there is no mass
+  static const std::vector<int> none;
+  enter(now_, shapes, square > 0.0 ? passive : none);  // without forces there is no mass
   now_.pivots = 0;
   // What is not out of place at all still carries a number in its low bits: hence the minimum.
   smallest_ = std::max(smallest_step * smallest_step * square, std::numeric_limits<double>::min());
@@ -421,10 +440,13 @@ bool FewShapes::divide(int j, int other, double V1, double V2) noexcept {
          .shared = lambda_ / V,
          .remaining = lambda_ / V1,
          .leaving = lambda_ / V2});
-  Dozen u;
   for (const int part : {j, other}) {
-    for (std::size_t i = 0; i < 10; ++i) u[i] = std::abs(U_[i][place(part)]);
-    sizes_[place(part)] = dot(u, rows_->lengths());
+    double even = 0.0, odd = 0.0;
+    for (std::size_t i = 0; i < 10; i += 2) {
+      even += std::abs(U_[i][place(part)]) * rows_->lengths()[i];
+      odd += std::abs(U_[i + 1][place(part)]) * rows_->lengths()[i + 1];
+    }
+    sizes_[place(part)] = even + odd;
   }
   now_.pivots = 0;
   return true;

@@ -91,7 +91,7 @@ struct Data {
     add(other, r[i + 1], data.rows[i + 1]);
   }
   add(g, 1.0, other);
-  g.part[2] = Four{g.part[2][0], g.part[2][1], 0.0, 0.0};
+  keep_two(g.part[2]);
   value.slopes = g;
 }
 

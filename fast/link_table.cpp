@@ -100,6 +100,7 @@ struct Image {
     add(t.M[i], f[i], s);
     add(t.C[i], f[i], x);
   }
+  t.K[place] = Dozen{};
   for (std::size_t q = 0; q < t.places; ++q) add(t.K[q], h[q], x);
 }
 
@@ -109,7 +110,8 @@ struct Image {
   Dozen c;
   c.part[0] = Four{C[0][place], C[1][place], C[2][place], C[3][place]};
   c.part[1] = Four{C[4][place], C[5][place], C[6][place], C[7][place]};
-  c.part[2] = Four{C[8][place], C[9][place], 0.0, 0.0};
+  c.part[2] = Four{C[8][place], C[9][place], C[8][place], C[9][place]};
+  keep_two(c.part[2]);
   return c;
 }
 
@@ -132,7 +134,6 @@ struct Image {
     add(t.K[q], h[q], k);
     clear_one(t.K[q], others);
   }
-  t.K[place] = Dozen{};
   t.used &= ~(1U << place);
   --t.count;
 }
@@ -159,18 +160,6 @@ struct Image {
   return std::bit_cast<std::uint64_t>(found) & place_bits;
 }
 
-/// A shape as pricing knows it.
-struct Lane {
-  PriceChunk* chunk = nullptr;
-  std::size_t lane = 0;
-
-  [[nodiscard]] int shape() const noexcept { return chunk->shape[lane]; }
-  [[nodiscard]] float* barrier() const noexcept { return chunk->barrier.data() + lane; }
-  [[nodiscard]] double scale() const noexcept {
-    return static_cast<double>(chunk->scale.data()[lane]);
-  }
-};
-
 /// The largest |g_i| / lengths_i: no slope is larger than this times the shape's bound.
 [[gnu::always_inline]] inline double largest_of(const Dozen& g,
                                                 const Dozen& inverse_lengths) noexcept {
@@ -187,8 +176,6 @@ struct Lane {
 /// The steepest shape by single precision, and its price.
 [[gnu::always_inline]] inline float steepest(const Dozen& g, const Problem& problem,
                                              Lane& lane) noexcept {
-  using Numbers = std::int32_t __attribute__((vector_size(32)));
-  constexpr Numbers lane_numbers[] = {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10, 11, 12, 13, 14, 15}};
   float gl[12];
   for (std::size_t p = 0; p < 3; ++p) {
     using FourFloats = float __attribute__((vector_size(16)));
@@ -196,7 +183,7 @@ struct Lane {
     for (std::size_t k = 0; k < 4; ++k) gl[4 * p + k] = single[k];
   }
   Eight most[2] = {Eight{} - barred, Eight{} - barred};
-  Numbers number[2] = {lane_numbers[0], lane_numbers[1]};
+  EightNumbers number[2] = {lane_numbers[0], lane_numbers[1]};
   for (int c = 0; c < problem.count; ++c) {
     const PriceChunk& chunk = problem.chunks[c];
     Eight prices[2];
@@ -218,7 +205,7 @@ struct Lane {
   for (std::size_t p = 0; p < 2; ++p) {
     marked[p] = reinterpret_cast<Eight>((reinterpret_cast<EightBits>(most[p]) & ~15U) |
                                         reinterpret_cast<EightBits>(lane_numbers[p]));
-    *reinterpret_cast<Numbers*>(numbers + 8 * p) = number[p];
+    *reinterpret_cast<EightNumbers*>(numbers + 8 * p) = number[p];
   }
   const Eight m = marked[0] > marked[1] ? marked[0] : marked[1];
   const float best = std::max(std::max(std::max(m[0], m[1]), std::max(m[2], m[3])),
@@ -240,15 +227,15 @@ struct Lane {
   const double scale = lane.scale();
   if (!(image.left * scale * scale > problem.smallest_left)) return false;
   enter_at(t, image, place, j, column);
-  t.barrier[place] = lane.barrier();
+  t.lane[place] = lane;
   t.sizes[place] = problem.largest / scale;
-  *lane.barrier() = barred;
+  lane.bar(barred);
   return true;
 }
 
 [[gnu::always_inline]] inline void leave(Table& t, std::size_t place) noexcept {
   take_out(t, place);
-  *t.barrier[place] = 0.0F;
+  t.lane[place].bar(0.0F);
 }
 
 SHAPEID_WIDE void leave_one(Table& t, std::size_t place) noexcept { leave(t, place); }
@@ -284,7 +271,7 @@ SHAPEID_WIDE Stop pivot(Table& t, const Problem& problem, int most_pivots, int& 
   return Stop::endless;
 }
 
-/// M and g of rows [R c]: four rows of M at a time, from the rows of R that reach them.
+/// M of rows [R c]: four rows of M at a time, from the rows of R that reach them.
 template <std::size_t first, std::size_t count>
 [[gnu::always_inline]] inline void fill_rows(Table& t, const Ten& rows) noexcept {
   Dozen sum[count];
@@ -292,13 +279,28 @@ template <std::size_t first, std::size_t count>
     for (std::size_t k = 0; k < count; ++k) add(sum[k], rows[i][first + k], rows[i]);
   }
   for (std::size_t k = 0; k < count; ++k) {
-    t.g[first + k] = sum[k][10];
-    sum[k].part[2] = Four{sum[k].part[2][0], sum[k].part[2][1], 0.0, 0.0};
+    keep_two(sum[k].part[2]);
     t.M[first + k] = sum[k];
   }
 }
 
-SHAPEID_WIDE void fill(Table& t, const Ten& rows) noexcept {
+/// No passive shapes. K is written as they enter.
+SHAPEID_WIDE void fill(Table& t, const Ten& rows, const Dozen& lengths,
+                       Dozen& inverse_lengths) noexcept {
+  for (std::size_t p = 0; p < 3; ++p) {
+    const Four length = lengths.part[p];
+    inverse_lengths.part[p] = length > 0.0 ? 1.0 / length : Four{};
+    t.m.part[p] = t.diagonal.part[p] = Four{} + 1.0;
+  }
+  for (Dozen& row : t.C) row = Dozen{};
+  keep_two(inverse_lengths.part[2]);
+  Dozen g;
+  for (const Dozen& row : rows) add(g, row[10], row);
+  keep_two(g.part[2]);
+  t.g = g;
+  t.places = 0;
+  t.used = 0;
+  t.count = 0;
   fill_rows<0, 4>(t, rows);
   fill_rows<4, 4>(t, rows);
   fill_rows<8, 2>(t, rows);
@@ -372,21 +374,8 @@ bool LinkTable::start(const LinkRows& rows, double lambda,
   problem_.inverse_unit = columns_->inverse_unit();
   problem_.inverse_length = rows.length() > 0.0 ? 1.0 / rows.length() : 0.0;
   problem_.smallest_left = smallest_share * problem_.largest * problem_.largest;
-  for (std::size_t k = 0; k < 10; ++k) {
-    const double length = rows.lengths()[k];
-    problem_.inverse_lengths[k] = length > 0.0 ? 1.0 / length : 0.0;
-  }
   columns_->unbar_all();
-  now_.C.fill(Dozen{});
-  now_.K.fill(Dozen{});
-  for (std::size_t p = 0; p < 3; ++p) {
-    now_.m.part[p] = now_.diagonal.part[p] = Four{1.0, 1.0, 1.0, 1.0};
-  }
-  now_.places = 0;
-  now_.g = Dozen{};
-  now_.used = 0;
-  now_.count = 0;
-  fill(now_, rows.rows());
+  fill(now_, rows.rows(), rows.lengths(), problem_.inverse_lengths);
   if (passive.size() > most_passive) return false;
   for (const int j : passive) static_cast<void>(enter_shape(j));
   return true;
@@ -419,8 +408,8 @@ bool LinkTable::divide(int j, int other, double V1, double V2) noexcept {
             lambda > 0.0 ? lambda / V2 : 0.0)) {
     now_.sizes[free] = bound;
     now_.sizes[place] = columns_->bound(j);
-    now_.barrier[free] = lane(*columns_, other).barrier();
-    *now_.barrier[free] = barred;
+    now_.lane[free] = lane(*columns_, other);
+    now_.lane[free].bar(barred);
     return true;
   }
   leave_one(now_, place);

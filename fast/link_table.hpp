@@ -9,6 +9,7 @@
 
 #include "shapeid/fast/link_rows.hpp"
 #include "shapeid/fast/passive_set.hpp"
+#include "shapeid/fast/price_chunk.hpp"
 #include "shapeid/fast/shape_columns.hpp"
 #include "shapeid/fast/wide.hpp"
 
@@ -37,7 +38,7 @@ class LinkTable final : public Guess {
     Dozen g, m, diagonal;               ///< `diagonal`: of K
     Dozen sizes;                        ///< what bounds the columns of A
     std::array<int, most_passive> shape{};
-    std::array<float*, most_passive> barrier{};  ///< what bars them
+    std::array<Lane, most_passive> lane{};  ///< where they are priced
     std::size_t places = 0;                      ///< in use, with gaps
     unsigned used = 0;                           ///< a bit a place
     int count = 0;                               ///< of these

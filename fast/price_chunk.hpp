@@ -22,8 +22,11 @@ constexpr float no_price = 2.0F, impossible = 4.0F;
 /// of terms whose sizes add up to one (operands, product, additions); the rest is for the scale.
 constexpr float uncertain = 13.0F / (1 << 24);
 
+using EightNumbers = std::int32_t __attribute__((vector_size(32)));
+constexpr EightNumbers lane_numbers[] = {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10, 11, 12, 13, 14, 15}};
+
 /// Sixteen shapes of one link. Missing ones are barred.
-struct PriceChunk {
+struct alignas(64) PriceChunk {
   static constexpr int lanes = 16;
   using Prices = Eigen::Array<float, lanes, 1>;
   Eigen::Array<float, lanes, 10> U;
@@ -35,6 +38,29 @@ struct PriceChunk {
   int used;
 };
 
+/// A shape of a chunk.
+struct Lane {
+  PriceChunk* chunk = nullptr;
+  std::size_t lane = 0;
+
+  [[nodiscard]] int shape() const noexcept { return chunk->shape[lane]; }
+  [[nodiscard]] double scale() const noexcept {
+    return static_cast<double>(chunk->scale.data()[lane]);
+  }
+  /// Writes the barrier among those of its neighbours: what is written in part is slow to read as a
+  /// whole, and pricing reads it next.
+  [[gnu::always_inline]] void bar(float barrier) const noexcept {
+    for (std::ptrdiff_t p = 0; p < 2; ++p) {
+      float* eight = chunk->barrier.data() + 8 * p;
+      Eight all;
+      load(eight, all);
+      all = lane_numbers[p] == static_cast<int>(lane) ? Eight{} + barrier : all;
+      store(all, eight);
+    }
+  }
+};
+
+/// The best price of a chunk.
 struct Best {
   float price;
   std::size_t lane;
@@ -60,12 +86,11 @@ struct Best {
 /// is written into the last four bits of its price, which single precision cannot vouch for anyway:
 /// then one maximum finds both.
 [[gnu::always_inline]] inline Best best_of(const Eight* prices) noexcept {
-  using Bits = std::uint32_t __attribute__((vector_size(32)));
-  constexpr Bits lanes[] = {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10, 11, 12, 13, 14, 15}};
   Eight most[2];
   for (std::ptrdiff_t p = 0; p < 2; ++p) {
     const Eight possible = prices[p] <= no_price ? prices[p] : Eight{} + impossible;
-    most[p] = reinterpret_cast<Eight>((reinterpret_cast<Bits>(possible) & ~15U) | lanes[p]);
+    most[p] = reinterpret_cast<Eight>((reinterpret_cast<EightBits>(possible) & ~15U) |
+                                      reinterpret_cast<EightBits>(lane_numbers[p]));
   }
   const Eight m = most[0] > most[1] ? most[0] : most[1];
   const float best = std::max(std::max(std::max(m[0], m[1]), std::max(m[2], m[3])),

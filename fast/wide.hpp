@@ -37,11 +37,20 @@ using EightBits = std::uint32_t __attribute__((vector_size(32)));
   x = reinterpret_cast<Eight>(reinterpret_cast<EightBits>(x) & ~(std::uint32_t{1} << 31U));
 }
 
-/// A dozen doubles; zero, to begin with.
+/// A dozen doubles; zero, to begin with. Zeroed and copied four at a time, so that what is read next
+/// was written as a whole: as members GCC makes a string instruction of the zeros and copies two at
+/// a time, and either takes as long as half a pivot.
 struct Dozen {
   Four part[3];
-  // As an initialiser GCC makes a string instruction of it, which takes longer than a pivot.
   [[gnu::always_inline]] Dozen() noexcept { part[0] = part[1] = part[2] = Four{}; }
+  [[gnu::always_inline]] Dozen(const Dozen& other) noexcept {
+    for (std::size_t p = 0; p < 3; ++p) part[p] = other.part[p];
+  }
+  [[gnu::always_inline]] Dozen& operator=(const Dozen& other) noexcept {
+    for (std::size_t p = 0; p < 3; ++p) part[p] = other.part[p];
+    return *this;
+  }
+  ~Dozen() = default;
   double& operator[](std::size_t i) noexcept { return reinterpret_cast<double*>(part)[i]; }
   double operator[](std::size_t i) const noexcept {
     return reinterpret_cast<const double*>(part)[i];
@@ -88,6 +97,11 @@ struct Others {
 [[gnu::always_inline]] inline double dot(const Dozen& a, const Dozen& b) noexcept {
   const Four sum = a.part[0] * b.part[0] + a.part[1] * b.part[1] + a.part[2] * b.part[2];
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
+/// Keeps the first two, in a register; the others become zero.
+[[gnu::always_inline]] inline void keep_two(Four& x) noexcept {
+  x = __builtin_shufflevector(x, Four{}, 0, 1, 4, 5);
 }
 
 /// The ten numbers from here on, and two zeros.
