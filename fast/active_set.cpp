@@ -118,15 +118,17 @@ void ActiveSet::clear() noexcept {
   evaluated_ = false;
 }
 
-void ActiveSet::divide(int j, int other, double share) noexcept {
+double ActiveSet::divide(int j, int other, double share) noexcept {
   const auto at = std::find(passive_.begin(), passive_.end(), j) - passive_.begin();
   started_ = false;
   evaluated_ = false;
-  if (at == std::ssize(passive_)) return;
+  if (at == std::ssize(passive_)) return 0.0;
   double& mass = masses_[static_cast<std::size_t>(at)];
+  const double part = share * mass;
+  mass -= part;
   passive_.push_back(other);
-  masses_.push_back(share * mass);
-  masses_[static_cast<std::size_t>(at)] -= masses_.back();
+  masses_.push_back(part);
+  return part;
 }
 
 void ActiveSet::start_at(int j, double mass) noexcept {

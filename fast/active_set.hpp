@@ -56,8 +56,8 @@ class ActiveSet {
   /// No passive shapes.
   void clear() noexcept;
   /// Shape `j`, if it is passive, gives `share` of its mass to shape `other`, which is not; where
-  /// the next run starts.
-  void divide(int j, int other, double share) noexcept;
+  /// the next run starts. Returns what it gives, kg.
+  double divide(int j, int other, double share) noexcept;
   /// Shape `j` has this mass (kg, > 0) where the next run starts.
   void start_at(int j, double mass) noexcept;
 

@@ -23,6 +23,9 @@ constexpr double smallest_step = 1e-13;
 /// may be a hundredth of it.
 constexpr double smallest_share = 1e-12;
 
+/// A column of which more than this share of its square is left is judged by what is left.
+constexpr double telling_share = 1e-4;
+
 /// The problem's data.
 struct Data {
   const TenRows& U;  ///< a shape a lane
@@ -97,17 +100,20 @@ struct Work {
     for (std::size_t p = 0; p < parts; ++p) now.squares.part[p] += stiffness.part[p];
   }
 
-  /// What is out of place by most, and by how much: a passive shape of negative mass m by m^2 h,
-  /// another of positive slope s by s^2 / h, with h the square of its column. (What is left of the
-  /// column is the better measure, but would have to be divided by first.) The low bits of each
-  /// carry its number, so that one maximum finds both.
-  [[gnu::always_inline]] static double furthest_out(const Exchanged& now) noexcept {
+  /// What is out of place by most, and what is gained by its exchange: of a passive shape with
+  /// negative mass m m^2 / K, of another with positive slope s s^2 / d, with d what is left of its
+  /// square; or s^2 over all of it where hardly anything is left, which a small s then makes too
+  /// much of. The low bits of each carry its number, so that one maximum finds both.
+  [[gnu::always_inline]] static double furthest_out(const Exchanged& now,
+                                                    const Dozen& inverse) noexcept {
     Four marked[parts];
     for (std::size_t p = 0; p < parts; ++p) {
       const Four x = now.x.part[p];
       Four size = x;
       take_sign(size);
-      const Four out = now.weight.part[p] * x * size;
+      const auto has_much_left = now.diagonal.part[p] > telling_share * now.squares.part[p];
+      const Four gain = has_much_left ? inverse.part[p] : now.weight.part[p];
+      const Four out = (now.side.part[p] < 0.0 ? -inverse.part[p] : gain) * x * size;
       marked[p] =
           reinterpret_cast<Four>((reinterpret_cast<FourBits>(out) & ~place_bits) | dozen_places[p]);
     }
@@ -126,15 +132,11 @@ struct Work {
       const auto is_k = dozen_places[p] == k;
       others[p] = reinterpret_cast<FourBits>(~is_k);
       Four &side = now.side.part[p], &x = now.x.part[p], &diagonal = now.diagonal.part[p];
-      Four &weight = now.weight.part[p], &other = now.other_weight.part[p];
       column.part[p] = same * side * row.part[p];
       row.part[p] = is_k ? Four{} + inverse : inverse * row.part[p];
       x = is_k ? Four{} + step : x - step * column.part[p];
       diagonal = is_k ? Four{} + inverse : diagonal - column.part[p] * row.part[p];
       side = is_k ? -side : side;
-      const Four before = weight;
-      weight = is_k ? other : weight;
-      other = is_k ? before : other;
     }
     for (std::size_t i = 0; i < shapes; ++i) {
       for (std::size_t p = 0; p < parts; ++p) {
@@ -153,20 +155,17 @@ struct Work {
   [[gnu::always_inline]] static bool pivot(Exchanged& now, std::size_t shapes, double smallest,
                                            int most_pivots) noexcept {
     for (std::size_t p = 0; p < parts; ++p) {
-      const Four square = now.squares.part[p], inverse = square > 0.0 ? 1.0 / square : Four{};
-      const auto is_passive = now.side.part[p] < 0.0;
-      now.weight.part[p] = is_passive ? -square : inverse;
-      now.other_weight.part[p] = is_passive ? inverse : -square;
+      const Four square = now.squares.part[p];
+      now.weight.part[p] = square > 0.0 ? 1.0 / square : Four{};
     }
     while (true) {
-      // Before it is known which of them is needed: nothing waits for them.
       Dozen inverse;
       for (std::size_t p = 0; p < parts; ++p) inverse.part[p] = 1.0 / now.diagonal.part[p];
-      const double most = furthest_out(now);
+      const double most = furthest_out(now, inverse);
       if (!(most > smallest)) return true;
       const std::size_t k = std::bit_cast<std::uint64_t>(most) & place_bits;
       if (now.side[k] > 0.0 && !(now.diagonal[k] > smallest_share * now.squares[k])) {
-        now.weight[k] = 0.0;  // it depends on the passive ones
+        set(now.weight, k, 0.0);  // it depends on the passive ones
       } else if (now.pivots == most_pivots) {
         return false;
       } else {

@@ -28,7 +28,7 @@ class FewShapes final : public Guess {
     Dozen x;                           ///< masses of the passive shapes, slopes of the others
     Dozen squares;                     ///< the diagonal of H as it was
     Dozen side;                        ///< -1 for passive shapes, 1 for the others
-    Dozen weight, other_weight;        ///< of x^2 on this side, signed as `side`; on the other side
+    Dozen weight;                      ///< the inverse of `squares`, or zero: does not enter
     unsigned passive = 0;              ///< a bit a shape
     int pivots = 0;
   };

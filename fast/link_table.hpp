@@ -39,9 +39,9 @@ class LinkTable final : public Guess {
     Dozen sizes;                        ///< what bounds the columns of A
     std::array<int, most_passive> shape{};
     std::array<Lane, most_passive> lane{};  ///< where they are priced
-    std::size_t places = 0;                      ///< in use, with gaps
-    unsigned used = 0;                           ///< a bit a place
-    int count = 0;                               ///< of these
+    std::size_t places = 0;                 ///< in use, with gaps
+    unsigned used = 0;                      ///< a bit a place
+    int count = 0;                          ///< of these
   };
 
   /// What the table is about.

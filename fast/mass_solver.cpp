@@ -209,8 +209,8 @@ bool MassSolver::divide(int j, const Column& first, double V1, const Column& sec
     few_.put(j, first);
     V_[j] = V1;
     if (by_guess && !guess_->divide(j, other, V1, V2)) guess_ = nullptr;
-    method_.divide(j, other, V2 / (V1 + V2));
-    put_masses_in();
+    m_[other] = method_.divide(j, other, V2 / (V1 + V2));
+    m_[j] -= m_[other];
     SHAPEID_CONTRACT(why_changed());
     return true;
   }

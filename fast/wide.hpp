@@ -37,9 +37,9 @@ using EightBits = std::uint32_t __attribute__((vector_size(32)));
   x = reinterpret_cast<Eight>(reinterpret_cast<EightBits>(x) & ~(std::uint32_t{1} << 31U));
 }
 
-/// A dozen doubles; zero, to begin with. Zeroed and copied four at a time, so that what is read next
-/// was written as a whole: as members GCC makes a string instruction of the zeros and copies two at
-/// a time, and either takes as long as half a pivot.
+/// A dozen doubles; zero, to begin with. Zeroed and copied four at a time, so that what is read
+/// next was written as a whole: as members GCC makes a string instruction of the zeros and copies
+/// two at a time, and either takes as long as half a pivot.
 struct Dozen {
   Four part[3];
   [[gnu::always_inline]] Dozen() noexcept { part[0] = part[1] = part[2] = Four{}; }
