@@ -198,7 +198,6 @@ bool ActiveSet::damp(ColumnSet& set, double lambda) noexcept {
 // Whether they are the minimum is asked of the masses alone, as of any other answer, and more
 // strictly: where no correction reaches the last digits the method itself is called.
 bool ActiveSet::settles_at(Guess& guess) noexcept {
-  static const Dozen no_stiffness;  // what has just been written two at a time is slow to read
   const bool is_damped = lambda_ > 0.0;
   const AtPlaces at = guess.answer();
   Dozen stiffness;
@@ -207,7 +206,7 @@ bool ActiveSet::settles_at(Guess& guess) noexcept {
     stiffness[place] = lambda_ / (*V_)[at.shape[place]];
   }
   LinkRows::Settled settled;
-  rows_->link.settle(*columns_, at, is_damped ? stiffness : no_stiffness, refined_slope,
+  rows_->link.settle(*columns_, at, is_damped ? stiffness : no_stiffness_, refined_slope,
                      most_refinements, met_exactly, settled);
   iterations_ = guess.pivots() + 1 + settled.corrections;  // one to see that nothing is left to do
   if (!settled.is_settled || !std::isfinite(settled.at.square + settled.density) ||
@@ -215,14 +214,16 @@ bool ActiveSet::settles_at(Guess& guess) noexcept {
       (is_damped && !tells_apart(guess, at, settled.m))) {
     return false;
   }
-  passive_.clear();
-  masses_.clear();
-  stiffness_.clear();
-  for (unsigned left = at.used; left != 0; left &= left - 1) {
+  const auto n = static_cast<std::size_t>(std::popcount(at.used));
+  passive_.resize(n);
+  masses_.resize(n);
+  stiffness_.resize(n);
+  std::size_t i = 0;
+  for (unsigned left = at.used; left != 0; left &= left - 1, ++i) {
     const auto place = static_cast<std::size_t>(std::countr_zero(left));
-    passive_.push_back(at.shape[place]);
-    masses_.push_back(settled.m[place]);
-    stiffness_.push_back(stiffness[place]);
+    passive_[i] = at.shape[place];
+    masses_[i] = settled.m[place];
+    stiffness_[i] = stiffness[place];
   }
   at_masses_ = settled.at;
   started_ = false;

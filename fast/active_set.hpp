@@ -148,6 +148,7 @@ class ActiveSet {
   [[nodiscard]] bool passes_check() noexcept;
 
   LinkRows::Value at_masses_;      ///< if evaluated_ and there is one link
+  const Dozen no_stiffness_;       ///< zeros that were written long ago, and are quick to read
   std::array<Rows, 2> both_rows_;  // first: its members are the most strictly aligned
   Rows* rows_ = both_rows_.data();
   Rows* other_rows_ = rows_ + 1;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "shapeid/fast/wide.hpp"
 
@@ -60,6 +61,28 @@ struct Work {
     return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
   }
 
+  /// Four rows of A^T A from their diagonal on, and what they are as columns.
+  template <std::size_t b>
+  [[gnu::always_inline]] static void multiply(const TenRows& A,
+                                              std::array<Dozen, dozen>& H) noexcept {
+    Four sum[parts][4] = {};
+    for (const Dozen& a : A) {
+      for (std::size_t r = 0; r < 4; ++r) {
+        const double factor = a[4 * b + r];
+        for (std::size_t p = b; p < parts; ++p) sum[p][r] += factor * a.part[p];
+      }
+    }
+    for (std::size_t p = parts; p < 3; ++p) {
+      for (std::size_t r = 0; r < 4; ++r) H[4 * b + r].part[p] = Four{};
+    }
+    for (std::size_t p = b; p < parts; ++p) {
+      for (std::size_t r = 0; r < 4; ++r) H[4 * b + r].part[p] = sum[p][r];
+      if (p == b) continue;
+      transpose(sum[p]);
+      for (std::size_t r = 0; r < 4; ++r) H[4 * p + r].part[b] = sum[p][r];
+    }
+  }
+
   /// H = A^T A and q = A^T c with A = R U, nothing exchanged, and what bounds the columns of A.
   /// Returns the square of || c ||.
   [[gnu::always_inline]] static double form(const Data& data, Exchanged& now,
@@ -83,11 +106,9 @@ struct Work {
     now.x = sum;
     now.squares = squares;
     sizes = size;
-    for (std::size_t k = 0; k < data.shapes; ++k) {
-      Dozen row;
-      for (const Dozen& a : A) add(row, a[k], a);
-      now.H[k] = row;
-    }
+    multiply<0>(A, now.H);
+    if constexpr (parts > 1) multiply<1>(A, now.H);
+    if constexpr (parts > 2) multiply<2>(A, now.H);
     for (std::size_t p = 0; p < 3; ++p) now.side.part[p] = Four{} + 1.0;
     now.passive = 0;
     return square;
@@ -176,7 +197,7 @@ struct Work {
 
   /// The passive shapes, as far as their columns do not depend on those before.
   [[gnu::always_inline]] static void enter(Exchanged& now, std::size_t shapes,
-                                           const std::vector<int>& passive) noexcept {
+                                           std::span<const int> passive) noexcept {
     for (std::size_t p = 0; p < 3; ++p) {
       const Four square = now.squares.part[p];
       now.diagonal.part[p] = square > 0.0 ? square : Four{} + 1.0;
@@ -343,8 +364,7 @@ SHAPEID_WIDE void stiffen(Exchanged& now, const Dozen& stiffness, std::size_t sh
   Work<3>::stiffen(now, stiffness, shapes);
 }
 
-SHAPEID_WIDE void enter(Exchanged& now, std::size_t shapes,
-                        const std::vector<int>& passive) noexcept {
+SHAPEID_WIDE void enter(Exchanged& now, std::size_t shapes, std::span<const int> passive) noexcept {
   switch (parts_for(shapes)) {
     case 0:
     case 1:
@@ -421,8 +441,8 @@ bool FewShapes::start(const LinkRows& rows, double lambda,
     }
     stiffen(now_, stiffness, shapes);
   }
-  static const std::vector<int> none;
-  enter(now_, shapes, square > 0.0 ? passive : none);  // without forces there is no mass
+  // Without forces there is no mass.
+  enter(now_, shapes, square > 0.0 ? std::span(passive) : std::span<const int>());
   now_.pivots = 0;
   // What is not out of place at all still carries a number in its low bits: hence the minimum.
   smallest_ = std::max(smallest_step * smallest_step * square, std::numeric_limits<double>::min());

@@ -11,18 +11,6 @@ namespace {
 
 using Ten = std::array<Dozen, 10>;
 
-/// Columns of a block of four by four become its rows.
-[[gnu::always_inline]] inline void transpose(Four (&block)[4]) noexcept {
-  const Four a = __builtin_shufflevector(block[0], block[1], 0, 4, 2, 6);
-  const Four b = __builtin_shufflevector(block[0], block[1], 1, 5, 3, 7);
-  const Four c = __builtin_shufflevector(block[2], block[3], 0, 4, 2, 6);
-  const Four d = __builtin_shufflevector(block[2], block[3], 1, 5, 3, 7);
-  block[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
-  block[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
-  block[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
-  block[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
-}
-
 /// Four columns from x on become parts of four rows, and their absolute values are added to `sum`.
 /// `count`: columns that are there; `down`: rows.
 [[gnu::always_inline]] inline void take_block(const double* x, std::ptrdiff_t stride, int count,
@@ -36,7 +24,8 @@ using Ten = std::array<Dozen, 10>;
     } else if (down == 4) {
       load(column, block[k]);
     } else {
-      block[k] = Four{column[0], column[1], 0.0, 0.0};
+      block[k] = Four{column[0], column[1], column[0], column[1]};
+      keep_two(block[k]);
     }
   }
   transpose(block);

@@ -76,8 +76,9 @@ void MassSolver::start_at(int j, double mass) noexcept {
 
 Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
   if (!method_.take(R)) return Outcome::not_finite;
-  if (has_guess(worth_starting_from()) && guess_is_right()) {
-    see_what_stayed();
+  const bool has_few = few_.fits();  // which enter at little cost
+  if (has_guess(has_few ? passive() : worth_starting_from()) && guess_is_right()) {
+    if (!has_few) see_what_stayed();
     return Outcome::solved;
   }
   is_new_ = true;

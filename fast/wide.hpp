@@ -104,6 +104,18 @@ struct Others {
   x = __builtin_shufflevector(x, Four{}, 0, 1, 4, 5);
 }
 
+/// Columns of a block of four by four become its rows.
+[[gnu::always_inline]] inline void transpose(Four (&block)[4]) noexcept {
+  const Four a = __builtin_shufflevector(block[0], block[1], 0, 4, 2, 6);
+  const Four b = __builtin_shufflevector(block[0], block[1], 1, 5, 3, 7);
+  const Four c = __builtin_shufflevector(block[2], block[3], 0, 4, 2, 6);
+  const Four d = __builtin_shufflevector(block[2], block[3], 1, 5, 3, 7);
+  block[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  block[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  block[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  block[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
 /// The ten numbers from here on, and two zeros.
 [[gnu::always_inline]] inline void load_ten(const double* x, Dozen& dozen) noexcept {
   load(x, dozen.part[0]);
