@@ -46,6 +46,7 @@ struct Dozen {
   [[gnu::always_inline]] Dozen(const Dozen& other) noexcept {
     for (std::size_t p = 0; p < 3; ++p) part[p] = other.part[p];
   }
+  // Onto itself it changes nothing. NOLINTNEXTLINE(bugprone-unhandled-self-assignment)
   [[gnu::always_inline]] Dozen& operator=(const Dozen& other) noexcept {
     for (std::size_t p = 0; p < 3; ++p) part[p] = other.part[p];
     return *this;

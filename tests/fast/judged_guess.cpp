@@ -23,10 +23,10 @@ using Eigen::VectorXd;
 
 JudgedGuess::JudgedGuess(GuessBy by, const TriangleCase& given)
     : V_(VectorXd::Ones(given.shapes() + most_divisions)),
+      guess_(by == GuessBy::few_shapes ? static_cast<fast::Guess*>(&few_) : &table_),
       columns_(1, given.shapes() + most_divisions),
       few_(V_),
       table_(columns_, V_),
-      guess_(by == GuessBy::few_shapes ? static_cast<fast::Guess*>(&few_) : &table_),
       vertex_(columns_),
       method_(columns_, V_) {
   for (int j = 0; j < given.shapes(); ++j) {

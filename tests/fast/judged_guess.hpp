@@ -35,11 +35,11 @@ class JudgedGuess {
 
  private:
   Eigen::VectorXd V_;
+  fast::Guess* guess_;
   fast::ShapeColumns columns_;
   fast::LinkRows rows_;
   fast::FewShapes few_;
   fast::LinkTable table_;
-  fast::Guess* guess_;
   fast::OneLink vertex_;
   fast::ActiveSet method_;
 };
