@@ -186,7 +186,8 @@ struct Work {
       if (!(most > smallest)) return true;
       const std::size_t k = std::bit_cast<std::uint64_t>(most) & place_bits;
       if (now.side[k] > 0.0 && !(now.diagonal[k] > smallest_share * now.squares[k])) {
-        set(now.weight, k, 0.0);  // it depends on the passive ones
+        set(now.weight, k, 0.0);  // it depends on the passive ones; that is a turn, too
+        ++now.pivots;
       } else if (now.pivots == most_pivots) {
         return false;
       } else {
@@ -210,11 +211,16 @@ struct Work {
     }
   }
 
-  /// A^T a and c^T a (the eleventh entry of `s`) of column `k` of A. Two sums each, so that one
-  /// addition need not wait for the other.
-  [[gnu::always_inline]] static void products_with(const Data& data, std::size_t k, Dozen& s,
-                                                   Dozen& h) noexcept {
-    Dozen a, odd_a, odd_s, odd_h;
+  /// What a column has in common with the others.
+  struct Products {
+    Dozen columns;  ///< A^T a
+    double square;  ///< || a ||^2, which is never negative
+    double forces;  ///< c^T a
+  };
+
+  /// Of column `k` of A. Two sums each, so that one addition need not wait for the other.
+  [[gnu::always_inline]] static Products products_with(const Data& data, std::size_t k) noexcept {
+    Dozen a, s, h, odd_a, odd_s, odd_h;
     for (std::size_t i = 0; i < 10; i += 2) {
       fast::add(a, data.U[i][k], data.link.columns()[i]);
       fast::add(odd_a, data.U[i + 1][k], data.link.columns()[i + 1]);
@@ -230,6 +236,7 @@ struct Work {
       add(odd_h, s[i + 1], data.U[i + 1]);
     }
     add(h, 1.0, odd_h);
+    return {h, fast::dot(a, a), s[10]};
   }
 
   /// What a column that is not passive has in the table.
@@ -260,10 +267,9 @@ struct Work {
   /// Place k has another column, and is not passive.
   [[gnu::always_inline]] static void appear(Exchanged& now, const Data& data, std::size_t k,
                                             double stiffness) noexcept {
-    Dozen s, h;
-    products_with(data, k, s, h);
-    const double square = h[k] + stiffness;
-    Image image = image_of(now, h, square, s[10]);
+    const Products with = products_with(data, k);
+    const double square = with.square + stiffness;
+    Image image = image_of(now, with.columns, square, with.forces);
     for (std::size_t i = 0; i < data.shapes; ++i) set(now.H[i], k, now.side[i] * image.row[i]);
     set(image.row, k, image.left);
     now.H[k] = image.row;
@@ -290,15 +296,15 @@ struct Work {
   [[gnu::always_inline]] static void split(Exchanged& now, const Data& data,
                                            const Cut& cut) noexcept {
     if (!(now.side[cut.whole] < 0.0)) return start_without(now, data, cut);
-    Dozen s, h;
-    products_with(data, cut.part, s, h);
-    const double square = h[cut.part] + cut.leaving, both = h[cut.whole];
-    // || a ||^2 = || s_1 a_1 + s_2 a_2 ||^2, solved for that of a_1.
+    Products with = products_with(data, cut.part);
+    const double square = with.square + cut.leaving, both = with.columns[cut.whole];
+    // || a ||^2 = || s_1 a_1 + s_2 a_2 ||^2, each with its stiffness, solved for that of a_1: to as
+    // many digits as a measure needs.
     const double remaining =
         (now.squares[cut.whole] - cut.goes * (2.0 * cut.remains * both + cut.goes * square)) /
         (cut.remains * cut.remains);
-    set(h, cut.whole, cut.remains * both + cut.goes * h[cut.part] + cut.shared);
-    Image image = image_of(now, h, square, s[10]);
+    set(with.columns, cut.whole, cut.remains * both + cut.goes * with.square + cut.shared);
+    Image image = image_of(now, with.columns, square, with.forces);
     if (!(image.left > smallest_share * square && remaining > 0.0)) {
       return start_without(now, data, cut);
     }
@@ -346,18 +352,19 @@ struct Work {
   }
 };
 
-constexpr std::size_t parts_for(std::size_t shapes) noexcept { return (shapes + 3) / 4; }
+/// use(Work) with as many parts as the shapes need.
+template <typename Use>
+[[gnu::always_inline]] inline auto by_parts(std::size_t shapes, Use use) noexcept {
+  if (shapes <= 4) return use(Work<1>());
+  if (shapes <= 8) return use(Work<2>());
+  return use(Work<3>());
+}
 
 SHAPEID_WIDE double form(const Data& data, Exchanged& now, Dozen& sizes) noexcept {
-  switch (parts_for(data.shapes)) {
-    case 0:
-    case 1:
-      return Work<1>::form(data, now, sizes);
-    case 2:
-      return Work<2>::form(data, now, sizes);
-    default:
-      return Work<3>::form(data, now, sizes);
-  }
+  return by_parts(
+      data.shapes, [&](auto work) __attribute__((always_inline)) {
+        return decltype(work)::form(data, now, sizes);
+      });
 }
 
 SHAPEID_WIDE void stiffen(Exchanged& now, const Dozen& stiffness, std::size_t shapes) noexcept {
@@ -365,53 +372,31 @@ SHAPEID_WIDE void stiffen(Exchanged& now, const Dozen& stiffness, std::size_t sh
 }
 
 SHAPEID_WIDE void enter(Exchanged& now, std::size_t shapes, std::span<const int> passive) noexcept {
-  switch (parts_for(shapes)) {
-    case 0:
-    case 1:
-      return Work<1>::enter(now, shapes, passive);
-    case 2:
-      return Work<2>::enter(now, shapes, passive);
-    default:
-      return Work<3>::enter(now, shapes, passive);
-  }
+  by_parts(
+      shapes, [&](auto work)
+                  __attribute__((always_inline)) { decltype(work)::enter(now, shapes, passive); });
 }
 
 SHAPEID_WIDE bool pivot(Exchanged& now, std::size_t shapes, double smallest,
                         int most_pivots) noexcept {
-  switch (parts_for(shapes)) {
-    case 0:
-    case 1:
-      return Work<1>::pivot(now, shapes, smallest, most_pivots);
-    case 2:
-      return Work<2>::pivot(now, shapes, smallest, most_pivots);
-    default:
-      return Work<3>::pivot(now, shapes, smallest, most_pivots);
-  }
+  return by_parts(
+      shapes, [&](auto work) __attribute__((always_inline)) {
+        return decltype(work)::pivot(now, shapes, smallest, most_pivots);
+      });
 }
 
 SHAPEID_WIDE void split(Exchanged& now, const Data& data, const FewShapes::Cut& cut) noexcept {
-  switch (parts_for(data.shapes)) {
-    case 0:
-    case 1:
-      return Work<1>::split(now, data, cut);
-    case 2:
-      return Work<2>::split(now, data, cut);
-    default:
-      return Work<3>::split(now, data, cut);
-  }
+  by_parts(
+      data.shapes, [&](auto work)
+                       __attribute__((always_inline)) { decltype(work)::split(now, data, cut); });
 }
 
 SHAPEID_WIDE double furthest_above(const Exchanged& now, const Data& data, const Dozen& slopes,
                                    const Dozen& sizes, double threshold) noexcept {
-  switch (parts_for(data.shapes)) {
-    case 0:
-    case 1:
-      return Work<1>::furthest_above(now, data, slopes, sizes, threshold);
-    case 2:
-      return Work<2>::furthest_above(now, data, slopes, sizes, threshold);
-    default:
-      return Work<3>::furthest_above(now, data, slopes, sizes, threshold);
-  }
+  return by_parts(
+      data.shapes, [&](auto work) __attribute__((always_inline)) {
+        return decltype(work)::furthest_above(now, data, slopes, sizes, threshold);
+      });
 }
 
 }  // namespace
@@ -471,7 +456,7 @@ bool FewShapes::divide(int j, int other, double V1, double V2) noexcept {
   return true;
 }
 
-bool FewShapes::settle() noexcept { return pivot(now_, place(shapes_), smallest_, 4 * shapes_); }
+bool FewShapes::settle() noexcept { return fits() && pivot(now_, place(shapes_), smallest_, 4 * shapes_); }
 
 AtPlaces FewShapes::answer() const noexcept {
   static constexpr std::array<int, dozen> numbers = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
@@ -484,6 +469,7 @@ bool FewShapes::none_enters(const Dozen& slopes, double threshold) noexcept {
 }
 
 void FewShapes::correct(const Dozen& masses, const Dozen&) noexcept {
+  now_.pivots = 0;
   for (unsigned left = now_.passive; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));
     now_.x[k] = masses[k];

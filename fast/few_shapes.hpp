@@ -1,4 +1,5 @@
-// A first answer where a link has few shapes: the base link of a robot that is watched online.
+// A first answer where a link has few shapes, as they are divided too: the base link of a robot
+// that is watched online.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +29,7 @@ class FewShapes final : public Guess {
     Dozen x;                           ///< masses of the passive shapes, slopes of the others
     Dozen squares;                     ///< the diagonal of H as it was
     Dozen side;                        ///< -1 for passive shapes, 1 for the others
-    Dozen weight;                      ///< the inverse of `squares`, or zero: does not enter
+    Dozen weight;                      ///< of a slope's square, where hardly anything is left
     unsigned passive = 0;              ///< a bit a shape
     int pivots = 0;
   };
@@ -49,7 +50,6 @@ class FewShapes final : public Guess {
   void put(int j, const ShapeColumns::Column& u) noexcept;
   /// Whether there are no more shapes than can be dealt with.
   [[nodiscard]] bool fits() const noexcept { return shapes_ <= most_shapes; }
-  [[nodiscard]] bool is_passive(int j) const noexcept { return (now_.passive >> j & 1U) != 0; }
 
   [[nodiscard]] bool start(const LinkRows& rows, double lambda,
                            const std::vector<int>& passive) noexcept override;
@@ -67,6 +67,7 @@ class FewShapes final : public Guess {
   void solve_normal(Eigen::VectorXd& x) noexcept override;
 
  private:
+  [[nodiscard]] bool is_passive(int j) const noexcept { return (now_.passive >> j & 1U) != 0; }
   static std::size_t place(int j) noexcept { return static_cast<std::size_t>(j); }
 
   std::array<Dozen, 10> U_;  // first: these are the most strictly aligned

@@ -39,6 +39,28 @@ constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
   return static_cast<std::size_t>(std::countr_one(t.used));
 }
 
+/// All bits at the places but one.
+struct Others {
+  FourBits part[3];
+};
+
+[[gnu::always_inline]] inline Others others_than(std::size_t place) noexcept {
+  Others others;
+  for (std::size_t p = 0; p < 3; ++p) {
+    others.part[p] = reinterpret_cast<FourBits>(dozen_places[p] != place);
+  }
+  return others;
+}
+
+/// a at the others, x at the one.
+[[gnu::always_inline]] inline Dozen with(const Dozen& a, const Others& others, double x) noexcept {
+  Dozen b;
+  for (std::size_t p = 0; p < 3; ++p) {
+    b.part[p] = others.part[p] != 0 ? a.part[p] : Four{} + x;
+  }
+  return b;
+}
+
 [[gnu::always_inline]] inline void clear_one(Dozen& a, const Others& others) noexcept {
   for (std::size_t p = 0; p < 3; ++p) {
     a.part[p] = reinterpret_cast<Four>(reinterpret_cast<FourBits>(a.part[p]) & others.part[p]);
@@ -391,10 +413,10 @@ void LinkTable::correct(const Dozen& masses, const Dozen& slopes) noexcept {
     now_.m.part[p] = m > 0.0 ? m : now_.m.part[p];
   }
   now_.g = slopes;
+  pivots_ = 0;
 }
 
 bool LinkTable::divide(int j, int other, double V1, double V2) noexcept {
-  pivots_ = 0;
   wanting_ = -1;
   std::size_t place = 0;
   while (place < most_passive && !(is_used(place) && now_.shape[place] == j)) ++place;

@@ -30,7 +30,8 @@ class LinkTable final : public Guess {
   /// More passive shapes are not dealt with.
   static constexpr std::size_t most_passive = 12;
 
-  /// What is exchanged. Places that no shape has: zero, and in `m` and `diagonal` one.
+  /// What is exchanged. Places that no shape has: zero, and in `m` and `diagonal` one;
+  /// rows of K are written as shapes enter.
   struct Exchanged {
     std::array<Dozen, 10> M, C;
     std::array<Dozen, 10> U;            ///< a place's column in each lane, until it is used anew

@@ -45,6 +45,11 @@ void MassSolver::clear() noexcept {
 }
 
 bool MassSolver::append(int link, const Column& u, double V) noexcept {
+  guess_ = nullptr;  // which knows nothing of it
+  return add(link, u, V);
+}
+
+bool MassSolver::add(int link, const Column& u, double V) noexcept {
   const int j = columns_.size();
   if (!columns_.append(link, u)) return false;
   few_.put(j, u);
@@ -76,20 +81,22 @@ void MassSolver::start_at(int j, double mass) noexcept {
 
 Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
   if (!method_.take(R)) return Outcome::not_finite;
-  const bool has_few = few_.fits();  // which enter at little cost
-  if (has_guess(has_few ? passive() : worth_starting_from()) && guess_is_right()) {
-    if (!has_few) see_what_stayed();
-    return Outcome::solved;
+  const bool has_many = links() == 1 && !few_.fits();  // few enter at little cost
+  if (!start_guess(has_many ? worth_starting_from() : passive()) || !try_guess()) {
+    is_new_ = true;
+    const Outcome outcome = solve_by_method();
+    is_new_ = false;
+    if (outcome != Outcome::solved) {
+      method_.take_back();
+      return outcome;
+    }
   }
-  is_new_ = true;
-  const Outcome outcome = solve_by_method();
-  is_new_ = false;
-  if (outcome != Outcome::solved) method_.take_back();
-  return outcome;
+  if (has_many) see_what_stayed();
+  return Outcome::solved;
 }
 
 Outcome MassSolver::solve_again() noexcept {
-  if (guess_ != nullptr && guess_is_right()) return Outcome::solved;
+  if (guess_ != nullptr && try_guess()) return Outcome::solved;
   return solve_by_method();
 }
 
@@ -104,7 +111,7 @@ Outcome MassSolver::solve_by_method() noexcept {
 
 // Most answers for one link are found by pivots: of few shapes on their own normal equations, of
 // more in the link's parameters.
-bool MassSolver::has_guess(const std::vector<int>& start) noexcept {
+bool MassSolver::start_guess(const std::vector<int>& start) noexcept {
   guess_ = nullptr;
   if (links() != 1) return false;
   if (!few_.fits()) method_.scale_prices();
@@ -134,7 +141,7 @@ void MassSolver::see_what_stayed() noexcept {
   }
 }
 
-bool MassSolver::guess_is_right() noexcept {
+bool MassSolver::try_guess() noexcept {
   constexpr int most_rounds = 4;  // one is enough where single precision can tell
   for (int round = 0; round < most_rounds && guess_->settle(); ++round) {
     if (settles_at_guess()) return true;
@@ -190,21 +197,21 @@ Outcome MassSolver::solve_damped() noexcept {
 
 // With as many passive shapes as rows mass only moves among them, which the method does in less
 // time than a table takes. Called when the shape to be divided is still whole.
-bool MassSolver::has_guess_to_divide() noexcept {
+bool MassSolver::keep_guess_to_divide() noexcept {
   if (guess_ == nullptr) return false;
   if (lambda_ == 0.0 && passive().size() == 10) {
     guess_ = nullptr;
     return false;
   }
-  return guess_ != &few_ || few_.fits() || has_guess(passive());
+  return guess_ != &few_ || few_.fits() || start_guess(passive());
 }
 
 bool MassSolver::divide(int j, const Column& first, double V1, const Column& second,
                         double V2) noexcept {
   const int other = shapes();
-  if (!append(columns_.link(j), second, V2)) return false;
+  if (!add(columns_.link(j), second, V2)) return false;
   // Where nothing is factorised yet, masses are but a place to start at.
-  const bool by_guess = has_guess_to_divide();
+  const bool by_guess = keep_guess_to_divide();
   if (by_guess || (method_.has_rows() && !method_.has_started())) {
     columns_.replace(j, first);
     few_.put(j, first);

@@ -76,9 +76,10 @@ class MassSolver {
   [[nodiscard]] double gap(double mass_bound) const noexcept;
 
  private:
-  [[nodiscard]] bool has_guess(const std::vector<int>& start) noexcept;
-  [[nodiscard]] bool has_guess_to_divide() noexcept;
-  [[nodiscard]] bool guess_is_right() noexcept;
+  [[nodiscard]] bool add(int link, const Column& u, double V) noexcept;
+  [[nodiscard]] bool start_guess(const std::vector<int>& start) noexcept;
+  [[nodiscard]] bool keep_guess_to_divide() noexcept;
+  [[nodiscard]] bool try_guess() noexcept;
   [[nodiscard]] const std::vector<int>& worth_starting_from() noexcept;
   void see_what_stayed() noexcept;
   [[nodiscard]] bool settles_at_guess() noexcept;
@@ -95,11 +96,12 @@ class MassSolver {
   Guess* guess_ = nullptr;   ///< that of the passive shapes, of one link, if there is one
   std::vector<int> before_;  ///< passive shapes of the last triangle
   std::vector<int> heavy_;   ///< of these
-  bool most_stay_ = true;    ///< passive, from one triangle to the next
-  bool is_new_ = false;      ///< the triangle
-  bool at_vertex_ = true;    ///< where the next call may start, for lambda > 0
-  FewShapes few_;            ///< a first answer where a link has few shapes
-  LinkTable table_;          ///< or more of them, and as they are divided
+  bool most_stay_ =
+      true;  ///< passive from one triangle to the next; known when shapes are cleared, too
+  bool is_new_ = false;    ///< the triangle
+  bool at_vertex_ = true;  ///< where the next call may start, for lambda > 0
+  FewShapes few_;          ///< a guess where a link has few shapes
+  LinkTable table_;        ///< and where it has more
   ActiveSet method_;
   EvenDensity even_;  ///< passive shapes, any number of them, for lambda > 0
 };

@@ -65,28 +65,6 @@ struct Dozen {
 constexpr FourBits dozen_places[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
 constexpr std::uint64_t place_bits = 15;
 
-/// All bits at the places but one.
-struct Others {
-  FourBits part[3];
-};
-
-[[gnu::always_inline]] inline Others others_than(std::size_t place) noexcept {
-  Others others;
-  for (std::size_t p = 0; p < 3; ++p) {
-    others.part[p] = reinterpret_cast<FourBits>(dozen_places[p] != place);
-  }
-  return others;
-}
-
-/// a at the others, x at the one.
-[[gnu::always_inline]] inline Dozen with(const Dozen& a, const Others& others, double x) noexcept {
-  Dozen b;
-  for (std::size_t p = 0; p < 3; ++p) {
-    b.part[p] = others.part[p] != 0 ? a.part[p] : Four{} + x;
-  }
-  return b;
-}
-
 /// a += factor b
 [[gnu::always_inline]] inline void add(Dozen& a, double factor, const Dozen& b) noexcept {
   a.part[0] += factor * b.part[0];

@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 
 JudgedGuess::JudgedGuess(GuessBy by, const TriangleCase& given)
     : V_(VectorXd::Ones(given.shapes() + most_divisions)),
-      guess_(by == GuessBy::few_shapes ? static_cast<fast::Guess*>(&few_) : &table_),
+      by_(by),
       columns_(1, given.shapes() + most_divisions),
       few_(V_),
       table_(columns_, V_),
@@ -41,13 +41,13 @@ JudgedGuess::JudgedGuess(GuessBy by, const TriangleCase& given)
 
 bool JudgedGuess::start(const MatrixXd& R, double lambda, const std::vector<int>& passive) {
   rows_.take(R);
-  return guess_->start(rows_, lambda, passive);
+  return guess().start(rows_, lambda, passive);
 }
 
 bool JudgedGuess::settles() {
-  while (guess_->settle()) {
-    if (method_.settles_at(*guess_)) return true;
-    if (!guess_->can_go_on()) return false;
+  while (guess().settle()) {
+    if (method_.settles_at(guess())) return true;
+    if (!guess().can_go_on()) return false;
   }
   return false;
 }
@@ -58,7 +58,7 @@ bool JudgedGuess::divide(const TriangleCase& divided, int j) {
   columns_.replace(j, divided.column(j));
   for (const int part : {j, other}) few_.put(part, divided.column(part));
   V_.head(divided.shapes()) = divided.problem.V;
-  return guess_->divide(j, other, divided.problem.V[j], divided.problem.V[other]);
+  return guess().divide(j, other, divided.problem.V[j], divided.problem.V[other]);
 }
 
 VectorXd JudgedGuess::masses() const {

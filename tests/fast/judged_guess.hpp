@@ -31,11 +31,13 @@ class JudgedGuess {
   [[nodiscard]] bool divide(const TriangleCase& divided, int j);
   /// Those of the method: kg, an entry a shape.
   [[nodiscard]] Eigen::VectorXd masses() const;
-  [[nodiscard]] fast::Guess& guess() { return *guess_; }
+  [[nodiscard]] fast::Guess& guess() {
+    return by_ == GuessBy::few_shapes ? static_cast<fast::Guess&>(few_) : table_;
+  }
 
  private:
   Eigen::VectorXd V_;
-  fast::Guess* guess_;
+  GuessBy by_;
   fast::ShapeColumns columns_;
   fast::LinkRows rows_;
   fast::FewShapes few_;

@@ -287,6 +287,57 @@ TEST(FastMassEdges, ALinkTakesItsShapesOneByOne) {
   EXPECT_EQ(solver.iterations(), useful + 1);
 }
 
+/// A shape that came after the answer is asked by the next call, however many there were. (A guess
+/// that stood from the answer before did not know of it: a review's finding.)
+TEST(FastMassEdges, ShapesThatCameAfterAnAnswerAreAsked) {
+  MatrixXd R = MatrixXd::Zero(11, 11);
+  R(0, 0) = R(1, 1) = 1.0;
+  R(0, 10) = 2.0;
+  R(1, 10) = 1.0;
+  for (const int before : {1, 3, 4, 8, 11, 12, 13}) {
+    MassSolver solver(1, before + 1);
+    for (int j = 0; j < before; ++j) {
+      ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(0), 1.0));
+    }
+    ASSERT_EQ(solver.solve(R), Outcome::solved);
+    ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(1), 1.0));
+    ASSERT_EQ(solver.solve_again(), Outcome::solved);
+    EXPECT_EQ(solver.m()[before], 1.0) << before;
+    EXPECT_EQ(solver.gap(5.0), 0.0) << before;
+  }
+}
+
+/// The same where a shape was divided in between.
+TEST(FastMassEdges, ShapesThatCameAfterADivisionAreAsked) {
+  for (const bool density_term : {false, true}) {
+    for (int shapes = 2; shapes <= 13; ++shapes) {
+      test::TriangleCase given =
+          test::body_case(static_cast<std::uint64_t>(shapes),
+                          {.shapes_a_link = shapes, .noise = 1e-2, .density_term = density_term});
+      const test::TriangleCase other = test::body_case(77, {.shapes_a_link = 1});
+      MassSolver solver(1, shapes + 2), fresh(1, shapes + 2);
+      test::load(given, solver);
+      ASSERT_EQ(solver.solve(given.R), Outcome::solved);
+      Eigen::Index heaviest = 0;
+      solver.m().maxCoeff(&heaviest);
+      const int j = static_cast<int>(heaviest);
+      test::Draw draw(5);
+      test::divide(given, j, draw);
+      ASSERT_TRUE(solver.divide(j, given.column(j), given.problem.V[j], given.column(shapes),
+                                given.problem.V[shapes]));
+      test::load(given, fresh);
+      for (MassSolver* each : {&solver, &fresh}) {
+        ASSERT_TRUE(each->append(0, other.column(0), other.problem.V[0]));
+      }
+      ASSERT_EQ(solver.solve_again(), Outcome::solved);
+      ASSERT_EQ(fresh.solve(given.R), Outcome::solved);
+      EXPECT_LE(std::abs(solver.value().total() - fresh.value().total()),
+                1e-13 * given.R.col(10).squaredNorm())
+          << shapes;
+    }
+  }
+}
+
 /// Of shapes that the rows do not tell apart all whose target is negative leave at one step.
 TEST(FastMassEdges, ManyLeaveAtOnce) {
   constexpr int pairs = 7;  // more shapes than FewShapes takes
