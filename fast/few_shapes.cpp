@@ -184,12 +184,11 @@ struct Work {
       for (std::size_t p = 0; p < parts; ++p) inverse.part[p] = 1.0 / now.diagonal.part[p];
       const double most = furthest_out(now, inverse);
       if (!(most > smallest)) return true;
+      if (now.pivots >= most_pivots) return false;
       const std::size_t k = std::bit_cast<std::uint64_t>(most) & place_bits;
       if (now.side[k] > 0.0 && !(now.diagonal[k] > smallest_share * now.squares[k])) {
         set(now.weight, k, 0.0);  // it depends on the passive ones; that is a turn, too
         ++now.pivots;
-      } else if (now.pivots == most_pivots) {
-        return false;
       } else {
         exchange(now, shapes, k, inverse[k]);
       }
@@ -456,7 +455,9 @@ bool FewShapes::divide(int j, int other, double V1, double V2) noexcept {
   return true;
 }
 
-bool FewShapes::settle() noexcept { return fits() && pivot(now_, place(shapes_), smallest_, 4 * shapes_); }
+bool FewShapes::settle() noexcept {
+  return fits() && pivot(now_, place(shapes_), smallest_, 4 * shapes_);
+}
 
 AtPlaces FewShapes::answer() const noexcept {
   static constexpr std::array<int, dozen> numbers = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};

@@ -120,8 +120,8 @@ bool MassSolver::start_guess(const std::vector<int>& start) noexcept {
   return guess_ != nullptr;
 }
 
-// Windows with noise may have half of their passive shapes in common: of these, those that are
-// heavy are.
+// Where windows have little in common, shapes that enter to leave again cost more than they save;
+// heavy ones are the likeliest to stay.
 const std::vector<int>& MassSolver::worth_starting_from() noexcept {
   before_ = passive();
   if (most_stay_) return before_;

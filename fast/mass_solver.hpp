@@ -96,12 +96,11 @@ class MassSolver {
   Guess* guess_ = nullptr;   ///< that of the passive shapes, of one link, if there is one
   std::vector<int> before_;  ///< passive shapes of the last triangle
   std::vector<int> heavy_;   ///< of these
-  bool most_stay_ =
-      true;  ///< passive from one triangle to the next; known when shapes are cleared, too
-  bool is_new_ = false;    ///< the triangle
-  bool at_vertex_ = true;  ///< where the next call may start, for lambda > 0
-  FewShapes few_;          ///< a guess where a link has few shapes
-  LinkTable table_;        ///< and where it has more
+  bool most_stay_ = true;    ///< passive from one triangle to the next; clear() keeps it
+  bool is_new_ = false;      ///< the triangle
+  bool at_vertex_ = true;    ///< where the next call may start, for lambda > 0
+  FewShapes few_;            ///< a guess where a link has few shapes
+  LinkTable table_;          ///< and where it has more
   ActiveSet method_;
   EvenDensity even_;  ///< passive shapes, any number of them, for lambda > 0
 };

@@ -44,7 +44,9 @@ RC_GTEST_PROP(FewShapes, OfOtherForcesAreCorrectedOrRefused, ()) {
 TEST(FewShapes, OfAnotherWindowAreRefused) { EXPECT_GE(test::refused_guesses(by_few, 9), 80); }
 
 RC_GTEST_PROP(FewShapes, KeepInverseAndMinimumAsTheyAreDivided, ()) {
-  test::check_divided_guess(by_few, 9);
+  // Each of a dozen pivots rounds a dozen numbers, and as shapes do not enter by size these may
+  // grow on the way. (LinkTable, whose columns are left when they enter, needs no more than one.)
+  test::check_divided_guess(by_few, 9, 100.0);
 }
 
 // A shape that is held, or one whose part depends on what is passive: pivots start without it.

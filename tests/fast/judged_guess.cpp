@@ -151,7 +151,7 @@ double condition_beside_whole(const MassProblem& before, const MassProblem& divi
 
 }  // namespace
 
-void check_divided_guess(GuessBy by, int most_shapes) {
+void check_divided_guess(GuessBy by, int most_shapes, double growth) {
   const bool density_term = *rc::gen::arbitrary<bool>();
   TriangleCase given = link_case(*rc::gen::arbitrary<std::uint64_t>(),
                                  *rc::gen::inRange(1, most_shapes + 1), density_term, 1e-3);
@@ -190,11 +190,9 @@ void check_divided_guess(GuessBy by, int most_shapes) {
   const VectorXd m = Eigen::ColPivHouseholderQR<MatrixXd>(columns.A).solve(b);
   VectorXd found(n);
   for (Index i = 0; i < n; ++i) found[i] = (*at.m)[places[static_cast<std::size_t>(i)]];
-  // Masses in units of their columns. The condition is squared; each of n pivots rounds n numbers;
-  // and shapes do not enter by size, so that numbers may grow on the way.
-  constexpr double growth = 10.0;
+  // Masses in units of their columns. The condition is squared.
   const double size = growth * condition * condition;
-  RC_ASSERT(scaled(((found - m).cwiseProduct(columns.lengths)).norm(), b.norm() * size, n * n) <
+  RC_ASSERT(scaled(((found - m).cwiseProduct(columns.lengths)).norm(), b.norm() * size, n) <
             few_hundred_eps);
   const MatrixXd scaled_columns = columns.scaled();
   const MatrixXd inverse = (scaled_columns.transpose() * scaled_columns).inverse();
@@ -203,7 +201,7 @@ void check_divided_guess(GuessBy by, int most_shapes) {
       const double entry =
           at.inverse[places[static_cast<std::size_t>(i)]][places[static_cast<std::size_t>(k)]];
       RC_ASSERT(scaled(entry * columns.lengths[i] * columns.lengths[k] - inverse(i, k),
-                       inverse.norm() * size, n * n) < few_hundred_eps);
+                       inverse.norm() * size, n) < few_hundred_eps);
     }
   }
 }

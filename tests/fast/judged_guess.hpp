@@ -62,6 +62,7 @@ void check_guess_of_other_forces(GuessBy by, int most_shapes);
 
 /// A property: when some shapes have been divided, and none was allowed to leave, there stand the
 /// inverse and the minimum of the passive shapes. With lambda the parts of a whole feel each other.
-void check_divided_guess(GuessBy by, int most_shapes);
+/// `growth`: of rounding on the way, beside the condition's square.
+void check_divided_guess(GuessBy by, int most_shapes, double growth);
 
 }  // namespace shapeid::test

@@ -39,7 +39,7 @@ RC_GTEST_PROP(LinkTable, OfOtherForcesIsCorrectedOrRefused, ()) {
 TEST(LinkTable, OfAnotherWindowIsRefused) { EXPECT_GE(test::refused_guesses(by_table, 25), 80); }
 
 RC_GTEST_PROP(LinkTable, KeepsInverseAndMinimumAsShapesAreDivided, ()) {
-  test::check_divided_guess(by_table, 4);
+  test::check_divided_guess(by_table, 4, 1.0);
 }
 
 TEST(LinkTable, HasRoomForADozenPassiveShapes) {
