@@ -121,8 +121,8 @@ void ActiveSet::clear() noexcept {
 double ActiveSet::divide(int j, int other, double share) noexcept {
   const auto at = std::find(passive_.begin(), passive_.end(), j) - passive_.begin();
   started_ = false;
-  evaluated_ = false;
   if (at == std::ssize(passive_)) return 0.0;
+  evaluated_ = false;
   double& mass = masses_[static_cast<std::size_t>(at)];
   const double part = share * mass;
   mass -= part;
@@ -230,6 +230,15 @@ bool ActiveSet::settles_at(Guess& guess) noexcept {
   take_value(settled.density);
   guess.correct(settled.m, settled.at.slopes);
   return true;
+}
+
+// All others were asked at the same slopes.
+bool ActiveSet::stays_settled(const std::vector<int>& massless) noexcept {
+  iterations_ = 1;
+  const double threshold = lambda_ > 0.0 ? -certainly_held : smallest_slope;
+  return std::ranges::all_of(massless, [this, threshold](int j) {
+    return columns_->price(j, columns_->column(j).dot(slopes_)) <= threshold;
+  });
 }
 
 /// Corrects the masses until the slopes of the passive shapes are rounding. False if that does not

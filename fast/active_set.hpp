@@ -80,6 +80,9 @@ class ActiveSet {
   /// From a guess at the minimum: whether it is the minimum once its masses are corrected. If not,
   /// nothing changes.
   [[nodiscard]] bool settles_at(Guess& guess) noexcept;
+  /// Whether the answer stands if nothing has changed but that these shapes, without mass, have
+  /// other columns.
+  [[nodiscard]] bool stays_settled(const std::vector<int>& massless) noexcept;
   /// Whether every shape that is not passive would certainly raise the objective, and there are no
   /// more passive ones than independent columns.
   [[nodiscard]] bool is_at_a_vertex() noexcept;

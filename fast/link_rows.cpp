@@ -11,6 +11,9 @@ namespace {
 
 using Ten = std::array<Dozen, 10>;
 
+/// A residual whose square is below this share of || c ||^2 is rounding of its own sums.
+constexpr double residual_rounding = 1e-30;
+
 /// Four columns from x on become parts of four rows, and their absolute values are added to `sum`.
 /// `count`: columns that are there; `down`: rows.
 [[gnu::always_inline]] inline void take_block(const double* x, std::ptrdiff_t stride, int count,
@@ -168,9 +171,10 @@ SHAPEID_WIDE void settle_masses(const Data& data, const AtPlaces& passive, doubl
     for (Four& part : size.part) take_sign(part);
     const bool is_settled = !any_above(size, allowed, used);
     // Slopes are small beside || c ||. Where the rows are met almost exactly, masses have more
-    // digits than that shows, and one more correction gains them.
+    // digits than that shows, and one more correction gains them, until the residual is rounding.
     const bool is_exact = settled.at.square + limits.unreached < limits.exact * length * length;
-    if (is_settled && !(once_more && is_exact && any_above(size, Dozen{}, used))) break;
+    const bool is_rounding = settled.at.square <= residual_rounding * length * length;
+    if (is_settled && !(once_more && is_exact && !is_rounding)) break;
     if (is_settled) once_more = false;
     if (!is_settled && (settled.corrections == limits.most || !once_more)) return;
     ++settled.corrections;

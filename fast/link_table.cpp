@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -19,6 +20,13 @@ using Ten = std::array<Dozen, 10>;
 /// A column of which less than this share of its bound's square is new counts as dependent:
 /// rounding of M may be a hundredth of it.
 constexpr double smallest_share = 1e-12;
+
+/// A column of which less than this share of its bound's square is new is within the span of the
+/// passive ones: rounding of M.
+constexpr double spanned_share = 1e-13;
+
+/// Coefficients below this are not divided by.
+constexpr double smallest_pivot = 1e-3;
 
 /// Prices below this are not followed: rounding of M may be as large.
 constexpr double smallest_price = 1e-13;
@@ -195,28 +203,46 @@ struct Image {
   return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
 }
 
+/// g in single precision, in units that make it prices but for a shape's scale.
+struct SingleSlopes {
+  float g[12];
+};
+
+[[gnu::always_inline]] inline SingleSlopes in_single(const Dozen& g,
+                                                     const Problem& problem) noexcept {
+  SingleSlopes single;
+  for (std::size_t p = 0; p < 3; ++p) {
+    using FourFloats = float __attribute__((vector_size(16)));
+    const FourFloats four = __builtin_convertvector(problem.inverse_unit * g.part[p], FourFloats);
+    for (std::size_t k = 0; k < 4; ++k) single.g[4 * p + k] = four[k];
+  }
+  return single;
+}
+
+/// Sixteen prices.
+[[gnu::always_inline]] inline void prices_of(const PriceChunk& chunk, const SingleSlopes& single,
+                                             Eight (&prices)[2]) noexcept {
+  slopes_of(chunk.U.data(), single.g, prices);
+  for (std::ptrdiff_t p = 0; p < 2; ++p) {
+    Eight scale, barrier;
+    load(chunk.scale.data() + 8 * p, scale);
+    load(chunk.barrier.data() + 8 * p, barrier);
+    prices[p] = prices[p] * scale - barrier;
+  }
+}
+
 /// The steepest shape by single precision, and its price.
 [[gnu::always_inline]] inline float steepest(const Dozen& g, const Problem& problem,
                                              Lane& lane) noexcept {
-  float gl[12];
-  for (std::size_t p = 0; p < 3; ++p) {
-    using FourFloats = float __attribute__((vector_size(16)));
-    const FourFloats single = __builtin_convertvector(problem.inverse_unit * g.part[p], FourFloats);
-    for (std::size_t k = 0; k < 4; ++k) gl[4 * p + k] = single[k];
-  }
+  const SingleSlopes single = in_single(g, problem);
   Eight most[2] = {Eight{} - barred, Eight{} - barred};
   EightNumbers number[2] = {lane_numbers[0], lane_numbers[1]};
   for (int c = 0; c < problem.count; ++c) {
-    const PriceChunk& chunk = problem.chunks[c];
     Eight prices[2];
-    slopes_of(chunk.U.data(), gl, prices);
+    prices_of(problem.chunks[c], single, prices);
     for (std::ptrdiff_t p = 0; p < 2; ++p) {
-      Eight scale, barrier;
-      load(chunk.scale.data() + 8 * p, scale);
-      load(chunk.barrier.data() + 8 * p, barrier);
-      const Eight here = prices[p] * scale - barrier;
-      const auto is_more = here > most[p];
-      most[p] = is_more ? here : most[p];
+      const auto is_more = prices[p] > most[p];
+      most[p] = is_more ? prices[p] : most[p];
       number[p] = is_more ? lane_numbers[p] + 16 * c : number[p];
     }
   }
@@ -266,6 +292,11 @@ SHAPEID_WIDE bool enter_one(Table& t, const Problem& problem, const Lane& lane) 
   return enter(t, problem, lane);
 }
 
+/// What single precision can tell from zero, if no slope makes a larger price than `possible`.
+[[gnu::always_inline]] inline double visible(double possible) noexcept {
+  return static_cast<double>(uncertain) * possible;
+}
+
 enum class Stop {
   settled,   ///< nothing wants to enter
   doubtful,  ///< single precision cannot tell, or what wants to enter cannot
@@ -284,13 +315,45 @@ SHAPEID_WIDE Stop pivot(Table& t, const Problem& problem, int most_pivots, int& 
     if (!(possible > smallest_price)) return Stop::settled;
     Lane lane;
     const auto price = static_cast<double>(steepest(t.g, problem, lane));
-    // Single precision sees a price to a share of the largest that these slopes could make.
-    const double seen = static_cast<double>(uncertain) * possible;
+    const double seen = visible(possible);
     if (price < -seen) return Stop::settled;
     const bool is_certain = price > seen && price > smallest_price && price <= 1.0 + seen;
     if (!is_certain || !enter(t, problem, lane)) return Stop::doubtful;
   }
   return Stop::endless;
+}
+
+/// A bit for each of sixteen prices that is not below; what is no number is not.
+[[gnu::always_inline]] inline unsigned not_below(const Eight (&prices)[2], float limit) noexcept {
+  constexpr EightBits bits[] = {{1, 2, 4, 8, 16, 32, 64, 128},
+                                {256, 512, 1024, 2048, 4096, 8192, 16384, 32768}};
+  EightBits found = {};
+  for (std::size_t p = 0; p < 2; ++p) {
+    found |= ~reinterpret_cast<EightBits>(prices[p] < limit) & bits[p];
+  }
+  const auto pairs = reinterpret_cast<FourBits>(found);
+  const std::uint64_t all = (pairs[0] | pairs[1]) | (pairs[2] | pairs[3]);
+  return static_cast<unsigned>(all | all >> 32U);
+}
+
+/// The shapes whose slope single precision does not show to be negative; false if there are too
+/// many.
+SHAPEID_WIDE bool find_doubtful(const Dozen& g, const Problem& problem,
+                                LinkTable::Doubtful& doubtful) noexcept {
+  const double possible = largest_of(g, problem.inverse_lengths) * problem.inverse_length;
+  const auto limit = static_cast<float>(-visible(possible));
+  const SingleSlopes single = in_single(g, problem);
+  doubtful.count = 0;
+  for (int c = 0; c < problem.count; ++c) {
+    const PriceChunk& chunk = problem.chunks[c];
+    Eight prices[2];
+    prices_of(chunk, single, prices);
+    for (unsigned left = not_below(prices, limit); left != 0; left &= left - 1) {
+      if (doubtful.count == doubtful.shapes.size()) return false;
+      doubtful.shapes[doubtful.count++] = chunk.shape[at(std::countr_zero(left))];
+    }
+  }
+  return true;
 }
 
 /// M of rows [R c]: four rows of M at a time, from the rows of R that reach them.
@@ -328,28 +391,21 @@ SHAPEID_WIDE void fill(Table& t, const Ten& rows, const Dozen& lengths,
   fill_rows<8, 2>(t, rows);
 }
 
-/// Parts of a shape.
+/// A division: of the whole one part remains, and the other, shape `j`, goes.
 struct Parts {
   const double *remains, *goes;  ///< their columns
   double sizes[2];               ///< what they are of the whole's volume
+  int j;
+  double bound;      ///< of the length of R times the column that goes
+  double shared;     ///< stiffness of the whole, which both feel as long as they move together
+  double stiffness;  ///< of the part that goes
 };
 
-/// Of the shape at `place` one part has become a shape of its own, `j`, which enters at `other`.
-/// The whole's column is the sum of the parts' columns, each times its size, so that masses go
-/// over. `shared`: the stiffness of the whole, which both parts feel as long as they move together.
-/// False if the parts can hardly be told apart.
-SHAPEID_WIDE bool split(Table& t, std::size_t place, std::size_t other, int j, const Parts& parts,
-                        double bound, double shared, double stiffness) noexcept {
-  Image image;
-  look_at(t, parts.goes, stiffness, image);
-  if (shared > 0.0) {
-    image.left -= shared * (2.0 * image.x[place] + shared * t.diagonal[place]);
-    image.slope -= shared * t.m[place];
-    add(image.s, -shared, coefficients(t, place));
-    add(image.x, shared, t.K[place]);
-  }
-  if (!(image.left > smallest_share * bound * bound)) return false;
-  enter_at(t, image, other, j, parts.goes);
+/// The part that goes, which was looked at, enters at `other`. The whole's column is the sum of the
+/// parts' columns, each times its size, so that masses go over.
+[[gnu::always_inline]] inline void part_from(Table& t, const Image& image, std::size_t place,
+                                             std::size_t other, const Parts& parts) noexcept {
+  enter_at(t, image, other, parts.j, parts.goes);
   const Others others = others_than(place), before = others_than(other);
   Dozen ones;
   for (Four& part : ones.part) part += 1.0;
@@ -367,8 +423,91 @@ SHAPEID_WIDE bool split(Table& t, std::size_t place, std::size_t other, int j, c
   t.K[place] = times(parts.sizes[0], t.K[place]);
   for (std::size_t q = 0; q < t.places; ++q) turn(t.K[q]);
   t.diagonal = with(with(t.diagonal, others, t.K[place][place]), before, t.K[other][other]);
+}
+
+/// The shape at this place gives way to one whose column is the passive ones times y: their span
+/// stays, and with it M and g; masses move, with R U m as it is.
+[[gnu::always_inline]] inline void exchange_within(Table& t, std::size_t place,
+                                                   const Dozen& y) noexcept {
+  const double inverse = 1.0 / y[place];
+  const Dozen h = with(times(inverse, y), others_than(place), 1.0 - inverse);
+  // K becomes (I - h e^T) K (I - e h^T) = K - h v^T - v h^T.
+  Dozen v = t.K[place];
+  add(v, -0.5 * v[place], h);
+  for (std::size_t p = 0; p < 3; ++p) t.diagonal.part[p] -= 2.0 * h.part[p] * v.part[p];
+  add(t.m, -t.m[place], h);
+  for (Dozen& c : t.C) add(c, -c[place], h);
+  for (std::size_t q = 0; q < t.places; ++q) {
+    add(t.K[q], -h[q], v);
+    add(t.K[q], -v[q], h);
+  }
+}
+
+/// The place that is the last to be without negative mass while mass goes over to a shape whose
+/// column is the passive ones times x; most_passive if no mass is negative.
+[[gnu::always_inline]] inline std::size_t last_below(const Table& t, const Dozen& x) noexcept {
+  std::size_t last = LinkTable::most_passive;
+  double given = 0.0;
+  for (unsigned left = t.used; left != 0; left &= left - 1) {
+    const std::size_t place = at(std::countr_zero(left));
+    if (!(t.m[place] < 0.0 && t.m[place] / x[place] > given)) continue;
+    given = t.m[place] / x[place];
+    last = place;
+  }
+  return last;
+}
+
+struct Split {
+  bool is_clear;  ///< or nothing has changed
+  /// Where the part that goes is passive; most_passive if nowhere.
+  std::size_t other;
+};
+
+/// Both parts are the passive columns times something, that which goes times x. So that which
+/// remains can take all of the mass, among the others; and if one of those has less than none then,
+/// the other part takes its place.
+[[gnu::always_inline]] inline Split split_within(Table& t, Dozen x, std::size_t place,
+                                                 const Parts& parts) noexcept {
+  const Others others = others_than(place);
+  const double share = 1.0 / parts.sizes[0], whole = parts.sizes[1] * x[place];
+  const Dozen y = with(times(-share * parts.sizes[1], x), others, share * (1.0 - whole));
+  if (!(std::abs(y[place]) > smallest_pivot)) return {false, LinkTable::most_passive};
+  const double factor = x[place] / y[place];
+  add(x, -factor, y);
+  x = with(x, others, factor);
+  exchange_within(t, place, y);
   for (std::size_t i = 0; i < 10; ++i) t.U[i][place] = parts.remains[i];
-  return true;
+  const std::size_t last = last_below(t, x);
+  if (last == LinkTable::most_passive || !(std::abs(x[last]) > smallest_pivot)) {
+    return {true, LinkTable::most_passive};  // if need be, pivots go on
+  }
+  exchange_within(t, last, x);
+  for (std::size_t i = 0; i < 10; ++i) t.U[i][last] = parts.goes[i];
+  t.shape[last] = parts.j;
+  return {true, last};
+}
+
+/// Of the shape at `place`. Not clear where the parts can hardly be told apart.
+SHAPEID_WIDE Split split(Table& t, std::size_t place, const Parts& parts) noexcept {
+  Image image;
+  look_at(t, parts.goes, parts.stiffness, image);
+  if (parts.shared > 0.0) {
+    image.left -= parts.shared * (2.0 * image.x[place] + parts.shared * t.diagonal[place]);
+    image.slope -= parts.shared * t.m[place];
+    add(image.s, -parts.shared, coefficients(t, place));
+    add(image.x, parts.shared, t.K[place]);
+  }
+  const double square = parts.bound * parts.bound;
+  const std::size_t free = free_place(t);
+  if (image.left > smallest_share * square && free != LinkTable::most_passive) {
+    part_from(t, image, place, free, parts);
+    for (std::size_t i = 0; i < 10; ++i) t.U[i][place] = parts.remains[i];
+    return {true, free};
+  }
+  if (parts.stiffness > 0.0 || !(image.left <= spanned_share * square)) {
+    return {false, LinkTable::most_passive};
+  }
+  return split_within(t, image.x, place, parts);
 }
 
 Lane lane(ShapeColumns& columns, int j) noexcept {
@@ -421,21 +560,27 @@ bool LinkTable::divide(int j, int other, double V1, double V2) noexcept {
   std::size_t place = 0;
   while (place < most_passive && !(is_used(place) && now_.shape[place] == j)) ++place;
   if (place == most_passive) return true;  // it has no mass
-  const std::size_t free = free_place(now_);
-  if (free == most_passive) return false;
-  const double V = V1 + V2, bound = columns_->bound(other);
-  const Parts parts{columns_->column(j).data(), columns_->column(other).data(), {V1 / V, V2 / V}};
-  const double lambda = problem_.lambda;
-  if (split(now_, place, free, other, parts, bound, lambda > 0.0 ? lambda / V : 0.0,
-            lambda > 0.0 ? lambda / V2 : 0.0)) {
-    now_.sizes[free] = bound;
-    now_.sizes[place] = columns_->bound(j);
-    now_.lane[free] = lane(*columns_, other);
-    now_.lane[free].bar(barred);
+  const double V = V1 + V2, lambda = problem_.lambda;
+  const unsigned before = now_.used;
+  const auto [is_clear, at_other] = split(now_, place,
+                                          {.remains = columns_->column(j).data(),
+                                           .goes = columns_->column(other).data(),
+                                           .sizes = {V1 / V, V2 / V},
+                                           .j = other,
+                                           .bound = columns_->bound(other),
+                                           .shared = lambda > 0.0 ? lambda / V : 0.0,
+                                           .stiffness = lambda > 0.0 ? lambda / V2 : 0.0});
+  if (!is_clear) {
+    leave_one(now_, place);
+    static_cast<void>(enter_shape(j));
     return true;
   }
-  leave_one(now_, place);
-  static_cast<void>(enter_shape(j));
+  now_.sizes[place] = columns_->bound(j);
+  if (at_other == most_passive) return true;
+  if ((before >> at_other & 1U) != 0) now_.lane[at_other].bar(0.0F);
+  now_.sizes[at_other] = columns_->bound(other);
+  now_.lane[at_other] = lane(*columns_, other);
+  now_.lane[at_other].bar(barred);
   return true;
 }
 
@@ -448,7 +593,9 @@ bool LinkTable::settle() noexcept {
     if (!enter_shape(j)) return false;
   }
   const Stop stop = pivot(now_, problem_, 40 + 4 * columns_->size(), pivots_);
-  is_certain_ = stop == Stop::settled;
+  doubtful_.count = 0;
+  knows_doubtful_ = stop == Stop::settled ||
+                    (stop == Stop::doubtful && find_doubtful(now_.g, problem_, doubtful_));
   return stop != Stop::endless;
 }
 
@@ -456,20 +603,41 @@ AtPlaces LinkTable::answer() const noexcept {
   return {&now_.U, now_.K.data(), now_.shape.data(), &now_.m, &now_.sizes, now_.used};
 }
 
-// Where certainly no shape wanted to enter at the slopes of the table, it is enough that these are
-// the same to what an answer is checked against. As many passive shapes as rows were not asked at
-// all: their slopes are to be nothing.
+// Shapes that certainly did not want to enter at the slopes of the table need not be asked if these
+// are the same to what an answer is checked against. As many passive shapes as rows were not asked
+// at all: their slopes are to be nothing.
 bool LinkTable::none_enters(const Dozen& slopes, double threshold) noexcept {
   Dozen apart = slopes;
   if (!is_full(now_, problem_)) add(apart, -1.0, now_.g);
-  if (is_certain_ && threshold > 0.0 &&
+  int j = -1;
+  if (knows_doubtful_ && threshold > 0.0 &&
       largest_of(apart, problem_.inverse_lengths) <= allowed_rounding * rows_->length()) {
-    return true;
+    j = steepest_doubtful(slopes, threshold);
+  } else {
+    std::copy_n(slopes.data(), 10, slopes_.data());
+    j = columns_->steepest(slopes_, threshold);
   }
-  std::copy_n(slopes.data(), 10, slopes_.data());
-  const int j = columns_->steepest(slopes_, threshold);
-  if (j >= 0 && columns_->column(j).dot(slopes_) > 0.0) wanting_ = j;
+  if (j >= 0 && slope_of(j, slopes) > 0.0) wanting_ = j;
   return j < 0;
+}
+
+double LinkTable::slope_of(int j, const Dozen& slopes) const noexcept {
+  Dozen u;
+  load_ten(columns_->column(j).data(), u);
+  return dot(u, slopes);
+}
+
+/// In double: the one of the largest price above the threshold, or -1.
+int LinkTable::steepest_doubtful(const Dozen& slopes, double threshold) const noexcept {
+  int steepest = -1;
+  for (std::size_t k = 0; k < doubtful_.count; ++k) {
+    const int j = doubtful_.shapes[k];
+    const double price = columns_->price(j, slope_of(j, slopes));
+    if (!(price > threshold)) continue;
+    threshold = price;
+    steepest = j;
+  }
+  return steepest;
 }
 
 void LinkTable::solve_normal(Eigen::VectorXd& x) noexcept {

@@ -45,6 +45,13 @@ class LinkTable final : public Guess {
     int count = 0;                          ///< of these
   };
 
+  /// Shapes whose slope single precision cannot tell from zero: mostly such whose columns depend on
+  /// the passive ones.
+  struct Doubtful {
+    std::array<int, 16> shapes;
+    std::size_t count = 0;
+  };
+
   /// What the table is about.
   struct Problem {
     const double* U = nullptr;  ///< ten numbers a shape
@@ -83,6 +90,8 @@ class LinkTable final : public Guess {
  private:
   /// False if it depends on those that are passive, or there is no place for it.
   [[nodiscard]] bool enter_shape(int j) noexcept;
+  [[nodiscard]] double slope_of(int j, const Dozen& slopes) const noexcept;
+  [[nodiscard]] int steepest_doubtful(const Dozen& slopes, double threshold) const noexcept;
   [[nodiscard]] bool is_used(std::size_t place) const noexcept {
     return (now_.used >> place & 1U) != 0;
   }
@@ -93,8 +102,9 @@ class LinkTable final : public Guess {
   const Eigen::VectorXd* V_;
   const LinkRows* rows_ = nullptr;
   int pivots_ = 0;
-  int wanting_ = -1;         ///< a shape to enter next
-  bool is_certain_ = false;  ///< that none wanted to, where settle() ended
+  int wanting_ = -1;   ///< a shape to enter next
+  Doubtful doubtful_;  ///< where settle() ended; all others certainly did not want to enter
+  bool knows_doubtful_ = false;
   Eigen::VectorXd slopes_;
 };
 

@@ -35,6 +35,7 @@ MassSolver::MassSolver(int links, int most_shapes)
       even_(columns_, V_) {
   before_.reserve(static_cast<std::size_t>(most_shapes));
   heavy_.reserve(static_cast<std::size_t>(most_shapes));
+  massless_.reserve(static_cast<std::size_t>(most_shapes));
   method_.use(*vertex_, 0.0);
 }
 
@@ -82,6 +83,7 @@ void MassSolver::start_at(int j, double mass) noexcept {
 Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
   if (!method_.take(R)) return Outcome::not_finite;
   const bool has_many = links() == 1 && !few_.fits();  // few enter at little cost
+  start_watching();
   if (!start_guess(has_many ? worth_starting_from() : passive()) || !try_guess()) {
     is_new_ = true;
     const Outcome outcome = solve_by_method();
@@ -96,8 +98,30 @@ Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
 }
 
 Outcome MassSolver::solve_again() noexcept {
-  if (guess_ != nullptr && try_guess()) return Outcome::solved;
+  if (guess_ != nullptr && guess_again()) {
+    start_watching();
+    return Outcome::solved;
+  }
   return solve_by_method();
+}
+
+// Rounding of many divisions, perhaps: once more from the rows.
+bool MassSolver::guess_again() noexcept {
+  return (only_massless_ && method_.stays_settled(massless_)) || try_guess() ||
+         (start_guess(passive()) && try_guess());
+}
+
+/// From an answer on, which shapes without mass are divided.
+void MassSolver::start_watching() noexcept {
+  only_massless_ = true;
+  massless_.clear();
+}
+
+void MassSolver::watch(int j, int other) noexcept {
+  only_massless_ = only_massless_ && m_[j] == 0.0 && massless_.size() + 2 <= massless_.capacity();
+  if (!only_massless_) return;
+  massless_.push_back(j);
+  massless_.push_back(other);
 }
 
 Outcome MassSolver::solve_by_method() noexcept {
@@ -195,14 +219,9 @@ Outcome MassSolver::solve_damped() noexcept {
   return outcome;
 }
 
-// With as many passive shapes as rows mass only moves among them, which the method does in less
-// time than a table takes. Called when the shape to be divided is still whole.
+// A thirteenth shape needs the other guess. Called when the shape to be divided is still whole.
 bool MassSolver::keep_guess_to_divide() noexcept {
   if (guess_ == nullptr) return false;
-  if (lambda_ == 0.0 && passive().size() == 10) {
-    guess_ = nullptr;
-    return false;
-  }
   return guess_ != &few_ || few_.fits() || start_guess(passive());
 }
 
@@ -217,6 +236,7 @@ bool MassSolver::divide(int j, const Column& first, double V1, const Column& sec
     few_.put(j, first);
     V_[j] = V1;
     if (by_guess && !guess_->divide(j, other, V1, V2)) guess_ = nullptr;
+    watch(j, other);
     m_[other] = method_.divide(j, other, V2 / (V1 + V2));
     m_[j] -= m_[other];
     SHAPEID_CONTRACT(why_changed());

@@ -80,8 +80,11 @@ class MassSolver {
   [[nodiscard]] bool start_guess(const std::vector<int>& start) noexcept;
   [[nodiscard]] bool keep_guess_to_divide() noexcept;
   [[nodiscard]] bool try_guess() noexcept;
+  [[nodiscard]] bool guess_again() noexcept;
   [[nodiscard]] const std::vector<int>& worth_starting_from() noexcept;
   void see_what_stayed() noexcept;
+  void start_watching() noexcept;
+  void watch(int j, int other) noexcept;
   [[nodiscard]] bool settles_at_guess() noexcept;
   [[nodiscard]] Outcome solve_by_method() noexcept;
   [[nodiscard]] Outcome solve_damped() noexcept;
@@ -93,14 +96,16 @@ class MassSolver {
   Eigen::VectorXd m_, V_;
   std::unique_ptr<ColumnSet> vertex_;  ///< passive shapes with independent columns
   double lambda_ = 0.0;
-  Guess* guess_ = nullptr;   ///< that of the passive shapes, of one link, if there is one
-  std::vector<int> before_;  ///< passive shapes of the last triangle
-  std::vector<int> heavy_;   ///< of these
-  bool most_stay_ = true;    ///< passive from one triangle to the next; clear() keeps it
-  bool is_new_ = false;      ///< the triangle
-  bool at_vertex_ = true;    ///< where the next call may start, for lambda > 0
-  FewShapes few_;            ///< a guess where a link has few shapes
-  LinkTable table_;          ///< and where it has more
+  Guess* guess_ = nullptr;      ///< that of the passive shapes, of one link, if there is one
+  std::vector<int> before_;     ///< passive shapes of the last triangle
+  std::vector<int> heavy_;      ///< of these
+  std::vector<int> massless_;   ///< parts of shapes without mass, since the last answer
+  bool only_massless_ = false;  ///< no others were divided
+  bool most_stay_ = true;       ///< passive from one triangle to the next; clear() keeps it
+  bool is_new_ = false;         ///< the triangle
+  bool at_vertex_ = true;       ///< where the next call may start, for lambda > 0
+  FewShapes few_;               ///< a guess where a link has few shapes
+  LinkTable table_;             ///< and where it has more
   ActiveSet method_;
   EvenDensity even_;  ///< passive shapes, any number of them, for lambda > 0
 };

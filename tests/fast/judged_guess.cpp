@@ -4,7 +4,6 @@
 #include <rapidcheck.h>
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <bit>
@@ -14,6 +13,7 @@
 #include "shapeid/reference/mass_solver.hpp"
 #include "shapeid/tests/support/qp_generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/svd.hpp"
 
 namespace shapeid::test {
 
@@ -136,7 +136,7 @@ struct Columns {
   }
   [[nodiscard]] MatrixXd scaled() const { return A * lengths.cwiseInverse().asDiagonal(); }
   [[nodiscard]] double condition() const {
-    const VectorXd sizes = scaled().jacobiSvd().singularValues();
+    const VectorXd sizes = singular_values(scaled());
     return sizes[0] / sizes[sizes.size() - 1];
   }
 };
@@ -147,6 +147,63 @@ double condition_beside_whole(const MassProblem& before, const MassProblem& divi
   between.U.col(j) = before.U.col(j);
   between.V[j] = before.V[j];
   return Columns(between).condition();
+}
+
+/// What the column of a part is made of, the whole's and the other part's, over what it is.
+double left_of_whole(const MassProblem& divided, int j) {
+  const MatrixXd A = divided.Y * divided.U;
+  const Index other = divided.U.cols() - 1;
+  const double share = divided.V[other] / divided.V[j];
+  return 1.0 + 2.0 * share * A.col(other).norm() / A.col(j).norm();
+}
+
+/// Those of a guess, by their places.
+std::vector<int> passive_shapes(const fast::AtPlaces& at) {
+  std::vector<int> shapes;
+  for (unsigned left = at.used; left != 0; left &= left - 1) {
+    shapes.push_back(at.shape[std::countr_zero(left)]);
+  }
+  return shapes;
+}
+
+MassProblem of_shapes(const MassProblem& problem, const std::vector<int>& shapes) {
+  MassProblem some = problem;
+  some.U = problem.U(Eigen::all, shapes);
+  some.V = problem.V(shapes);
+  return some;
+}
+
+/// Of the passive shapes. `condition`: of the worst columns on the way.
+void check_inverse_and_minimum(JudgedGuess& judged, const MassProblem& problem, double condition,
+                               double growth) {
+  const fast::AtPlaces at = judged.guess().answer();
+  std::vector<std::size_t> places;
+  for (unsigned left = at.used; left != 0; left &= left - 1) {
+    places.push_back(static_cast<std::size_t>(std::countr_zero(left)));
+  }
+  const Columns columns(of_shapes(problem, passive_shapes(at)));
+  condition = std::max(condition, columns.condition());
+  RC_PRE(condition < 1e4);
+  const Index n = std::ssize(places);
+  VectorXd b = VectorXd::Zero(columns.A.rows());
+  b.head(problem.F.size()) = problem.F;
+  const VectorXd m = Eigen::ColPivHouseholderQR<MatrixXd>(columns.A).solve(b);
+  VectorXd found(n);
+  for (Index i = 0; i < n; ++i) found[i] = (*at.m)[places[static_cast<std::size_t>(i)]];
+  // Masses in units of their columns. The condition is squared.
+  const double size = growth * condition * condition;
+  RC_ASSERT(scaled(((found - m).cwiseProduct(columns.lengths)).norm(), b.norm() * size, n) <
+            few_hundred_eps);
+  const MatrixXd scaled_columns = columns.scaled();
+  const MatrixXd inverse = (scaled_columns.transpose() * scaled_columns).inverse();
+  for (Index i = 0; i < n; ++i) {
+    for (Index k = 0; k < n; ++k) {
+      const double entry =
+          at.inverse[places[static_cast<std::size_t>(i)]][places[static_cast<std::size_t>(k)]];
+      RC_ASSERT(scaled(entry * columns.lengths[i] * columns.lengths[k] - inverse(i, k),
+                       inverse.norm() * size, n) < few_hundred_eps);
+    }
+  }
 }
 
 }  // namespace
@@ -174,35 +231,43 @@ void check_divided_guess(GuessBy by, int most_shapes, double growth) {
     condition = std::max(condition, condition_beside_whole(before, given.problem, j));
     RC_PRE(judged.divide(given, j));
   }
-  const fast::AtPlaces at = judged.guess().answer();
-  std::vector<std::size_t> places(static_cast<std::size_t>(given.shapes()));
-  RC_PRE(std::popcount(at.used) == given.shapes());
-  for (unsigned left = at.used; left != 0; left &= left - 1) {
-    const auto place = static_cast<std::size_t>(std::countr_zero(left));
-    places[static_cast<std::size_t>(at.shape[place])] = place;
+  RC_PRE(std::popcount(judged.guess().answer().used) == given.shapes());
+  check_inverse_and_minimum(judged, given.problem, condition, growth);
+}
+
+void check_guess_divided_within_span() {
+  const int rank = *rc::gen::inRange(1, 9);
+  TriangleCase given = link_case(*rc::gen::arbitrary<std::uint64_t>(), rank, false);
+  given.R.block(rank, rank, 10 - rank, 10 - rank).setZero();
+  given.problem.Y = given.R.topLeftCorner(10, 10);
+  Draw draw(*rc::gen::arbitrary<std::uint64_t>());
+  VectorXd m(rank);
+  for (double& mass : m) mass = draw.between(0.1, 1.0);
+  given.problem.F.head(rank) = (given.problem.Y * given.problem.U * m).head(rank);
+  given.R.topRightCorner(10, 1) = given.problem.F;
+  JudgedGuess judged(GuessBy::link_table, given);
+  std::vector<int> all(static_cast<std::size_t>(rank));
+  std::iota(all.begin(), all.end(), 0);
+  RC_PRE(judged.start(given.R, 0.0, all));
+  RC_PRE(std::popcount(judged.guess().answer().used) == rank);
+  double condition = Columns(given.problem).condition(), cancelled = 0.0;
+  const int divisions = *rc::gen::inRange(1, JudgedGuess::most_divisions);
+  for (int k = 0; k < divisions; ++k) {
+    const std::vector<int> passive = passive_shapes(judged.guess().answer());
+    const int j = *rc::gen::elementOf(passive);
+    divide(given, j, draw);
+    cancelled += left_of_whole(given.problem, j);
+    RC_PRE(judged.divide(given, j));
+    const fast::AtPlaces at = judged.guess().answer();
+    RC_ASSERT(std::popcount(at.used) == rank);
+    condition =
+        std::max(condition, Columns(of_shapes(given.problem, passive_shapes(at))).condition());
+    RC_PRE(condition < 1e3);
   }
-  const Columns columns(given.problem);
-  condition = std::max(condition, columns.condition());
-  RC_PRE(condition < 1e4);
-  const Index n = given.shapes();
-  VectorXd b = VectorXd::Zero(columns.A.rows());
-  b.head(given.problem.F.size()) = given.problem.F;
-  const VectorXd m = Eigen::ColPivHouseholderQR<MatrixXd>(columns.A).solve(b);
-  VectorXd found(n);
-  for (Index i = 0; i < n; ++i) found[i] = (*at.m)[places[static_cast<std::size_t>(i)]];
-  // Masses in units of their columns. The condition is squared.
-  const double size = growth * condition * condition;
-  RC_ASSERT(scaled(((found - m).cwiseProduct(columns.lengths)).norm(), b.norm() * size, n) <
-            few_hundred_eps);
-  const MatrixXd scaled_columns = columns.scaled();
-  const MatrixXd inverse = (scaled_columns.transpose() * scaled_columns).inverse();
-  for (Index i = 0; i < n; ++i) {
-    for (Index k = 0; k < n; ++k) {
-      const double entry =
-          at.inverse[places[static_cast<std::size_t>(i)]][places[static_cast<std::size_t>(k)]];
-      RC_ASSERT(scaled(entry * columns.lengths[i] * columns.lengths[k] - inverse(i, k),
-                       inverse.norm() * size, n) < few_hundred_eps);
-    }
+  const fast::AtPlaces at = judged.guess().answer();
+  check_inverse_and_minimum(judged, given.problem, condition, condition * cancelled);
+  for (unsigned left = at.used; left != 0; left &= left - 1) {
+    RC_ASSERT((*at.m)[static_cast<std::size_t>(std::countr_zero(left))] > -1e-9);
   }
 }
 

@@ -65,4 +65,9 @@ void check_guess_of_other_forces(GuessBy by, int most_shapes);
 /// `growth`: of rounding on the way, beside the condition's square.
 void check_divided_guess(GuessBy by, int most_shapes, double growth);
 
+/// A property: parts whose columns add nothing to the span of the passive ones, since the rows tell
+/// no more of them apart, leave as many passive as there were, at their minimum, none with negative
+/// mass.
+void check_guess_divided_within_span();
+
 }  // namespace shapeid::test

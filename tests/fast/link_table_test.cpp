@@ -42,6 +42,10 @@ RC_GTEST_PROP(LinkTable, KeepsInverseAndMinimumAsShapesAreDivided, ()) {
   test::check_divided_guess(by_table, 4, 1.0);
 }
 
+RC_GTEST_PROP(LinkTable, MovesMassAsShapesAreDividedWithinTheSpan, ()) {
+  test::check_guess_divided_within_span();
+}
+
 TEST(LinkTable, HasRoomForADozenPassiveShapes) {
   const TriangleCase given = test::link_case(1, 20, true);
   std::vector<int> passive(LinkTable::most_passive);

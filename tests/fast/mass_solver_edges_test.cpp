@@ -338,6 +338,62 @@ TEST(FastMassEdges, ShapesThatCameAfterADivisionAreAsked) {
   }
 }
 
+/// A shape that is held without mass comes apart: the answer stands, or a part of it has mass.
+TEST(FastMassEdges, PartsOfAShapeWithoutMassAreAsked) {
+  MatrixXd R = MatrixXd::Zero(11, 11);
+  R(0, 0) = R(1, 1) = R(2, 2) = 1.0;
+  R(0, 10) = 2.0;
+  R(1, 10) = 1.0;
+  for (const double lambda : {0.0, 1e-6}) {
+    for (const int shapes : {3, 4, 5, 11, 12, 13, 30}) {
+      MassSolver solver(1, shapes + 2);
+      solver.set_lambda(lambda);
+      ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(0), 1.0));
+      for (int j = 1; j < shapes; ++j) {
+        ASSERT_TRUE(solver.append(0, -MassSolver::Column::Unit(1), 2.0));
+      }
+      ASSERT_EQ(solver.solve(R), Outcome::solved);
+      const double mass = solver.m()[0];
+      EXPECT_NEAR(mass, 2.0, 1e-5);
+      const MassSolver::Column apart = MassSolver::Column::Unit(2);
+      ASSERT_TRUE(solver.divide(1, -MassSolver::Column::Unit(1) + 0.5 * apart, 1.0,
+                                -MassSolver::Column::Unit(1) - 0.5 * apart, 1.0));
+      ASSERT_EQ(solver.solve_again(), Outcome::solved);
+      EXPECT_EQ(solver.m()[0], mass);
+      EXPECT_EQ(solver.passive().size(), 1U);
+      EXPECT_EQ(solver.iterations(), 1);
+      // Both wholes' slopes are negative; of the last parts one's is not.
+      ASSERT_TRUE(solver.divide(2, -3.0 * MassSolver::Column::Unit(1), 1.0,
+                                MassSolver::Column::Unit(1), 1.0));
+      ASSERT_EQ(solver.solve_again(), Outcome::solved);
+      EXPECT_NEAR(solver.m()[shapes + 1], 1.0, 1e-5) << shapes;
+      EXPECT_LE(solver.gap(5.0), 1e-14) << shapes;
+    }
+  }
+}
+
+/// Single precision sees no price so small beside that of the shape which is told apart.
+TEST(FastMassEdges, PricesTooSmallForSinglePrecisionAreFollowed) {
+  MatrixXd R = MatrixXd::Zero(11, 11);
+  R(0, 0) = R(1, 1) = R(2, 2) = R(3, 3) = 1.0;
+  R(0, 10) = R(1, 10) = 1.0;
+  for (const int small : {1, 2, 12, 16, 17, 40}) {
+    MassSolver solver(1, small + 13);
+    for (int j = 0; j < 13; ++j) {
+      ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(0) - MassSolver::Column::Unit(1), 1.0));
+    }
+    ASSERT_EQ(solver.solve(R), Outcome::solved);
+    for (int k = 0; k < small; ++k) {
+      MassSolver::Column u = MassSolver::Column::Unit(2 + k % 2);
+      u[1] = 1e-8 * (1.0 + 0.01 * k);
+      ASSERT_TRUE(solver.append(0, u, 1.0));
+    }
+    ASSERT_EQ(solver.solve(R), Outcome::solved);
+    EXPECT_GT(solver.m().tail(small).sum(), 1e-9) << small;
+    EXPECT_LE(solver.gap(1.0), 1e-14) << small;
+  }
+}
+
 /// Of shapes that the rows do not tell apart all whose target is negative leave at one step.
 TEST(FastMassEdges, ManyLeaveAtOnce) {
   constexpr int pairs = 7;  // more shapes than FewShapes takes
