@@ -102,15 +102,16 @@ void register_runs(const std::string& row, int shapes,
 /// Records when first asked: runs to a thousand shapes take a second each.
 class Recorder {
  public:
-  Recorder(SeedSet seeds, test::Noise noise, Density density)
-      : seeds_(seeds), noise_(noise), density_(density) {}
+  Recorder(SeedSet seeds, test::Noise noise, Density density, PickedBy picked_by)
+      : seeds_(seeds), noise_(noise), density_(density), picked_by_(picked_by) {}
 
   std::shared_ptr<const std::vector<Run>> operator()(int shapes) {
     std::shared_ptr<const std::vector<Run>>& runs_to = made_[shapes <= 300 ? 300 : 1000];
     if (!runs_to) {
       auto made = std::make_shared<std::vector<Run>>();
       for (std::uint64_t k = 0; k < runs; ++k)
-        made->push_back(division_run(seeds_, k, noise_, density_, shapes <= 300 ? 300 : 1000));
+        made->push_back(
+            division_run(seeds_, k, noise_, density_, picked_by_, shapes <= 300 ? 300 : 1000));
       runs_to = made;
     }
     return runs_to;
@@ -120,6 +121,7 @@ class Recorder {
   SeedSet seeds_;
   test::Noise noise_;
   Density density_;
+  PickedBy picked_by_;
   std::map<int, std::shared_ptr<const std::vector<Run>>> made_;
 };
 
@@ -130,11 +132,16 @@ int main(int argc, char** argv) {
   using namespace shapeid::bench;
   const SeedSet seeds = start(argc, argv);
   for (const Variant& variant : variants()) {
-    Recorder recorder(seeds, variant.noise, variant.density);
+    Recorder recorder(seeds, variant.noise, variant.density, PickedBy::lawson_hanson);
     for (const int shapes : {7, 11, 30, 60, 100, 200, 300, 600, 1000}) {
       register_runs("division" + std::to_string(shapes) + variant.suffix, shapes,
                     [&recorder, shapes] { return recorder(shapes); });
     }
+  }
+  Recorder recorder(seeds, test::Noise::sensors, Density::none, PickedBy::ours);
+  for (const int shapes : {7, 11, 30, 100, 300}) {
+    register_runs("division" + std::to_string(shapes) + "_ours", shapes,
+                  [&recorder, shapes] { return recorder(shapes); });
   }
   finish();
 }

@@ -1,5 +1,6 @@
 #include "shapeid/tests/bench/problems/divisions.hpp"
 
+#include <memory>
 #include <stdexcept>
 
 #include "shapeid/models/shapes_yaml.hpp"
@@ -26,21 +27,38 @@ BodyModel base_box() {
   return model;
 }
 
-Eigen::VectorXd masses_by_lawson_hanson(const DenseProblem& problem) {
-  std::vector<PeerKind> kinds;
-  add_lawson_hanson(kinds);
-  Prepared prepared;
-  Eigen::VectorXd m;
-  prepare(problem, Form::rows, prepared);
-  if (!kinds.front().make()->solve(problem, prepared, nullptr, m))
-    throw std::runtime_error("Lawson-Hanson failed while a division run was recorded");
-  return m;
-}
+/// Masses of one problem of a run after the other.
+class Picker {
+ public:
+  explicit Picker(PickedBy by) {
+    std::vector<PeerKind> kinds;
+    if (by == PickedBy::ours) {
+      add_fast(kinds);
+      std::erase_if(kinds, [](const PeerKind& kind) { return !kind.warm; });
+    } else {
+      add_lawson_hanson(kinds);
+    }
+    solver_ = kinds.front().make();
+  }
+
+  const Eigen::VectorXd& masses(const DenseProblem& problem) {
+    prepare(problem, Form::rows, prepared_);
+    if (m_.size() > 0) carry_over(problem, m_, start_);
+    if (!solver_->solve(problem, prepared_, m_.size() > 0 ? &start_ : nullptr, m_))
+      throw std::runtime_error("a solver failed while a division run was recorded");
+    return m_;
+  }
+
+ private:
+  std::unique_ptr<MassPeer> solver_;
+  Prepared prepared_;
+  Eigen::VectorXd m_, start_;
+};
 
 }  // namespace
 
 std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number, test::Noise noise,
-                                       Density density, int shapes) {
+                                       Density density, PickedBy picked_by, int shapes) {
   const std::uint64_t seed = seed_of(seeds, number);
   BodyModel model = base_box();
   reference::Window window(quadruped(), model, reference::ContactTreatment::project,
@@ -53,10 +71,13 @@ std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number, test
   // again and again.
   options.k2 = 0.0;
   options.expected_mass = stacked_parameters(quadruped())[0];  // the base's, as the file says
-  std::vector<DenseProblem> run = {compressed(window.problem(model), model, density)};
+  Picker picker(picked_by);
+  std::vector<DenseProblem> run;
+  run.reserve(static_cast<std::size_t>(shapes));  // ours looks at a triangle as long as it divides
+  run.push_back(compressed(window.problem(model), model, density));
   while (std::ssize(run) < shapes) {
     const DenseProblem& last = run.back();
-    const Eigen::VectorXd m = masses_by_lawson_hanson(last);
+    const Eigen::VectorXd m = picker.masses(last);
     Eigen::Index place =
         reference::next_to_divide(reference::division_criterion(model, m, options), options.tie);
     // Beyond some four hundred shapes all mass sits in parts that were cut as often as parts are

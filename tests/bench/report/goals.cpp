@@ -52,13 +52,16 @@ std::vector<Goal> make_goals() {
                                    {30, 12.0, 30.0},
                                    {100, 35.0, 110.0},
                                    {300, 100.0, 900.0}}) {
-    const std::string row = fmt::format("division{}", goal.shapes);
-    const std::string work = fmt::format("division run to {} shapes", goal.shapes);
-    const std::string command = fmt::format("bench_division --benchmark_filter={}/", row);
-    goals.push_back({work, row + "/fast/warm/solve", "lawson_hanson", goal.lawson_hanson, row + "/",
-                     lawson_hanson, "/solve", command});
-    goals.push_back({work, row + "/fast/warm/solve", "qpoases, warm", goal.qpoases, row + "/",
-                     qpoases, "/warm/solve", command});
+    for (const auto& [suffix, name] :
+         {std::pair("", ""), std::pair("_ours", ", each shape that is divided has mass in ours")}) {
+      const std::string row = fmt::format("division{}{}", goal.shapes, suffix);
+      const std::string work = fmt::format("division run to {} shapes{}", goal.shapes, name);
+      const std::string command = fmt::format("bench_division --benchmark_filter={}/", row);
+      goals.push_back({work, row + "/fast/warm/solve", "lawson_hanson", goal.lawson_hanson,
+                       row + "/", lawson_hanson, "/solve", command});
+      goals.push_back({work, row + "/fast/warm/solve", "qpoases, warm", goal.qpoases, row + "/",
+                       qpoases, "/warm/solve", command});
+    }
   }
 
   for (const auto& [shapes, factor] :
