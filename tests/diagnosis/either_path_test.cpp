@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "shapeid/diagnosis/consistent.hpp"
@@ -13,6 +12,7 @@
 #include "shapeid/tests/diagnosis/arm.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/svd.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -28,8 +28,8 @@ using test::scaled;
 /// Largest over smallest singular value, of those that are no rounding.
 double condition(const Eigen::MatrixXd& J) {
   if (J.size() == 0) return 1.0;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J);
-  return svd.rank() == 0 ? 1.0 : svd.singularValues()[0] / svd.singularValues()[svd.rank() - 1];
+  const test::ThinSvd svd(J);
+  return svd.rank() == 0 ? 1.0 : svd.sigma[0] / svd.sigma[svd.rank() - 1];
 }
 
 RC_GTEST_PROP(EitherPath, HasTheSameRowsBeyondContacts, ()) {

@@ -3,7 +3,6 @@
 #include <rapidcheck/gtest.h>
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <cmath>
 #include <cstddef>
@@ -14,6 +13,7 @@
 #include "shapeid/fast/column_qr.hpp"
 #include "shapeid/tests/support/load_problem.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/svd.hpp"
 
 namespace shapeid::fast {
 namespace {
@@ -88,7 +88,7 @@ class Shadowed {
     const VectorXd slopes = unit.transpose() * (b_ - unit * x);
     RC_ASSERT(scaled(slopes.lpNorm<Eigen::Infinity>(), size, sums) < few_hundred_eps);
 
-    const VectorXd sigma = Eigen::JacobiSVD<MatrixXd>(unit).singularValues();
+    const VectorXd sigma = test::singular_values(unit);
     const double condition = sigma.maxCoeff() / sigma.minCoeff();
     // A set may be independent by less than the roundings of its columns (a remainder of 1e-13 in
     // each of several): then coefficients have no digit to compare, and a dense solver divides by

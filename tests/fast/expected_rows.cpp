@@ -1,6 +1,5 @@
 #include "shapeid/tests/fast/expected_rows.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +11,7 @@
 #include "shapeid/reference/sample_rows.hpp"
 #include "shapeid/tests/fast/first_difference.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/svd.hpp"
 
 namespace shapeid::test {
 namespace {
@@ -76,7 +76,7 @@ double condition_of(const Robot& robot, const BodyModel& model, const VectorXd& 
   const MatrixXd A = root.asDiagonal() * J.transpose();
   const int rank = reference::contact_free_basis(J, weight).rank;
   if (rank == 0) return 1.0;
-  const double smallest = A.bdcSvd().singularValues()[rank - 1];
+  const double smallest = singular_values(A)[rank - 1];
   const double reach = root.maxCoeff() * (1.0 + J.norm());
   double condition = reach / smallest;
 
@@ -86,8 +86,8 @@ double condition_of(const Robot& robot, const BodyModel& model, const VectorXd& 
     return condition;
   }
   const MatrixXd A_s = A(standing, Eigen::all);
-  const auto svd = A_s.bdcSvd(Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const VectorXd& sigma = svd.singularValues();
+  const ThinSvd svd(A_s);
+  const VectorXd& sigma = svd.sigma;
   if (sigma[sigma.size() - 1] > 0.0) {
     const MatrixXd H = svd.solve(MatrixXd::Identity(A_s.rows(), A_s.rows())).transpose() *
                        A.topRows(6).transpose();

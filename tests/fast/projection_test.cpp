@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "shapeid/reference/projection.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/svd.hpp"
 
 namespace shapeid {
 namespace {
@@ -38,7 +38,7 @@ MatrixXd any_jacobian(Index forces, Index rows) {
 double condition(const MatrixXd& J, const VectorXd& weight, int rank) {
   if (rank == 0) return 1.0;
   const MatrixXd A = weight.cwiseSqrt().asDiagonal() * J.transpose();
-  const VectorXd sigma = A.bdcSvd().singularValues();
+  const VectorXd sigma = test::singular_values(A);
   return std::max(sigma[0], weight.cwiseSqrt().maxCoeff()) / sigma[rank - 1];
 }
 

@@ -1,13 +1,13 @@
 #include "shapeid/tests/fast/triangle_cases.hpp"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "shapeid/fast/triangle.hpp"
+#include "shapeid/tests/support/svd.hpp"
 
 namespace shapeid::test {
 
@@ -153,7 +153,7 @@ bool determines_parameters(const TriangleCase& given) {
   const VectorXd lengths = given.problem.Y.colwise().norm();
   if (!(lengths.minCoeff() > 0.0)) return false;
   const MatrixXd unit = given.problem.Y * lengths.cwiseInverse().asDiagonal();
-  const VectorXd sigma = Eigen::BDCSVD<MatrixXd>(unit).singularValues();
+  const VectorXd sigma = singular_values(unit);
   return sigma.minCoeff() > good_margin * sigma.maxCoeff();
 }
 

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 
 #include "shapeid/reference/contact.hpp"
 #include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/svd.hpp"
 
 namespace shapeid::reference {
 namespace {
@@ -19,8 +19,7 @@ using test::scaled;
 
 /// I - J^T (J^T)^+ by singular values, J^T having full rank.
 Eigen::MatrixXd projector(const Eigen::MatrixXd& J) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J.transpose(), Eigen::ComputeThinU);
-  const Eigen::MatrixXd& Q1 = svd.matrixU();
+  const Eigen::MatrixXd Q1 = test::ThinSvd(J.transpose()).U;
   return Eigen::MatrixXd::Identity(J.cols(), J.cols()) - Q1 * Q1.transpose();
 }
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 #include "shapeid/tests/support/spqr_oracle.hpp"
+#include "shapeid/tests/support/svd.hpp"
 
 namespace shapeid {
 namespace {
@@ -52,7 +52,7 @@ double worst_condition(const std::vector<RowsWithForces>& samples) {
     const int rank = reference::contact_free_basis(s.J, s.weight).rank;
     if (rank == 0) continue;
     const MatrixXd forces = s.weight.cwiseSqrt().asDiagonal() * s.J.transpose();
-    const VectorXd sigma = Eigen::JacobiSVD<MatrixXd>(forces).singularValues();
+    const VectorXd sigma = test::singular_values(forces);
     worst = std::max(worst, sigma[0] / sigma[rank - 1]);
   }
   return worst;
@@ -62,9 +62,9 @@ double worst_condition(const std::vector<RowsWithForces>& samples) {
 void check_agreement(const std::vector<RowsWithForces>& samples) {
   const ProjectedRows rows = project(samples);
   const test::ForceAugmentedAnswer augmented = test::solve_with_forces(samples);
-  const Eigen::JacobiSVD<MatrixXd> svd(rows.A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const test::ThinSvd svd(rows.A);
   const VectorXd x = svd.solve(rows.b);
-  const VectorXd& sigma = svd.singularValues();
+  const VectorXd& sigma = svd.sigma;
 
   double size = 0.0;  // || W^(1/2) F || of all rows, also of those that forces can reach
   Eigen::Index count = 0;

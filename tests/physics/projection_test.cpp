@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +12,7 @@
 #include "shapeid/tests/physics/touching.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/svd.hpp"
 
 namespace shapeid {
 namespace {
@@ -33,9 +33,9 @@ struct Range {
 
 Range range_by_svd(const MatrixXd& A, int rank) {
   if (A.size() == 0) return {MatrixXd(A.rows(), 0)};
-  const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinU);
-  const VectorXd& sigma = svd.singularValues();
-  Range range{svd.matrixU().leftCols(rank)};
+  const test::ThinSvd svd(A);
+  const VectorXd& sigma = svd.sigma;
+  Range range{svd.U.leftCols(rank)};
   if (rank < sigma.size()) range.left_out = sigma[rank];
   if (rank > 0) range.condition = sigma[0] / sigma[rank - 1];
   return range;

@@ -6,7 +6,6 @@
 #include <rapidcheck/gtest.h>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "shapeid/tests/physics/touching.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/svd.hpp"
 
 namespace shapeid {
 namespace {
@@ -202,8 +202,8 @@ RC_GTEST_PROP(Window, MeasuredAndProjectedForcesAgreeOnConsistentData, ()) {
     A.topRows(p.Y.rows()) = p.Y * p.U;
     VectorXd b = VectorXd::Zero(A.rows());
     b.head(p.F.size()) = p.F;
-    const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const VectorXd& sigma = svd.singularValues();
+    const test::ThinSvd svd(A);
+    const VectorXd& sigma = svd.sigma;
     const double size = std::sqrt(sum_of_squares(d, contacts, m).terms);
     RC_ASSERT(scaled(std::sqrt(objective(p, m).data), size, p.Y.cols()) < few_hundred_eps);
 
