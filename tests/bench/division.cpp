@@ -138,7 +138,7 @@ int main(int argc, char** argv) {
                     [&recorder, shapes] { return recorder(shapes); });
     }
   }
-  Recorder recorder(seeds, test::Noise::sensors, Density::none, PickedBy::ours);
+  Recorder recorder(seeds, shapeid::test::Noise::sensors, Density::none, PickedBy::ours);
   for (const int shapes : {7, 11, 30, 100, 300}) {
     register_runs("division" + std::to_string(shapes) + "_ours", shapes,
                   [&recorder, shapes] { return recorder(shapes); });
