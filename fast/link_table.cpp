@@ -26,7 +26,7 @@ constexpr double smallest_share = 1e-12;
 constexpr double spanned_share = 1e-13;
 
 /// Coefficients below this are not divided by.
-constexpr double smallest_pivot = 1e-3;
+constexpr double smallest_coefficient = 1e-3;
 
 /// Prices below this are not followed: rounding of M may be as large.
 constexpr double smallest_price = 1e-13;
@@ -471,14 +471,14 @@ struct Split {
   const Others others = others_than(place);
   const double share = 1.0 / parts.sizes[0], whole = parts.sizes[1] * x[place];
   const Dozen y = with(times(-share * parts.sizes[1], x), others, share * (1.0 - whole));
-  if (!(std::abs(y[place]) > smallest_pivot)) return {false, LinkTable::most_passive};
+  if (!(std::abs(y[place]) > smallest_coefficient)) return {false, LinkTable::most_passive};
   const double factor = x[place] / y[place];
   add(x, -factor, y);
   x = with(x, others, factor);
   exchange_within(t, place, y);
   for (std::size_t i = 0; i < 10; ++i) t.U[i][place] = parts.remains[i];
   const std::size_t last = last_below(t, x);
-  if (last == LinkTable::most_passive || !(std::abs(x[last]) > smallest_pivot)) {
+  if (last == LinkTable::most_passive || !(std::abs(x[last]) > smallest_coefficient)) {
     return {true, LinkTable::most_passive};  // if need be, pivots go on
   }
   exchange_within(t, last, x);
