@@ -19,8 +19,8 @@ using Run = std::vector<DenseProblem>;
 constexpr int runs = 3;
 /// Beyond this, solvers that need H take minutes a run.
 constexpr int most_for_normal_form = 300;
-/// Problems that are timed at once.
-constexpr std::size_t most_timed_at_once = 1000;
+/// Problems that are timed at once, or one run's.
+constexpr std::size_t timed_at_once = 420;
 
 /// Seconds of this thread: what neighbours on the same core take does not count.
 double processor_time() {
@@ -51,15 +51,15 @@ void go_through(const Run& run, std::size_t shapes, Form form, const Solve& solv
   }
 }
 
-/// Seconds in the solver, for so many rounds of all runs. A clock of the thread may take as long to
-/// read as a short run, and the kernel leaves caches behind that are not as they were: so many runs
-/// are timed at once, and again without the solver; the difference is the solver's.
-double time_runs(const std::vector<Run>& all, std::size_t rounds, std::size_t shapes,
-                 MassPeer& peer, bool warm) {
+/// Seconds in the solver for `count` runs, which take turns. A clock of the thread may take as long
+/// to read as a short run, and the kernel leaves caches behind that are not as they were: so short
+/// runs are timed together, and again without the solver; the difference is the solver's.
+double time_runs(const std::vector<Run>& all, std::size_t first, std::size_t count,
+                 std::size_t shapes, MassPeer& peer, bool warm) {
   const auto go = [&](const auto& solve) {
     const double begun = processor_time();
-    for (std::size_t k = 0; k < rounds; ++k) {
-      for (const Run& run : all) go_through(run, shapes, peer.form(), solve);
+    for (std::size_t k = first; k < first + count; ++k) {
+      go_through(all[k % all.size()], shapes, peer.form(), solve);
     }
     return processor_time() - begun;
   };
@@ -79,9 +79,11 @@ void time_runs(benchmark::State& state, const std::vector<Run>& all, int shapes,
                const PeerKind& kind) {
   const std::unique_ptr<MassPeer> peer = kind.make();
   const auto problems = static_cast<std::size_t>(shapes);
-  const std::size_t rounds = std::max<std::size_t>(1, most_timed_at_once / problems);
-  while (state.KeepRunningBatch(static_cast<benchmark::IterationCount>(rounds * all.size()))) {
-    state.SetIterationTime(time_runs(all, rounds, problems, *peer, kind.warm));
+  const std::size_t count = std::max<std::size_t>(1, timed_at_once / problems);
+  std::size_t first = 0;
+  while (state.KeepRunningBatch(static_cast<benchmark::IterationCount>(count))) {
+    state.SetIterationTime(time_runs(all, first, count, problems, *peer, kind.warm));
+    first += count;
   }
 }
 
