@@ -243,7 +243,9 @@ void check_guess_divided_within_span() {
   Draw draw(*rc::gen::arbitrary<std::uint64_t>());
   VectorXd m(rank);
   for (double& mass : m) mass = draw.between(0.1, 1.0);
+  given.problem.F = given.R.topRightCorner(10, 1);
   given.problem.F.head(rank) = (given.problem.Y * given.problem.U * m).head(rank);
+  given.problem.W = VectorXd::Ones(10);
   given.R.topRightCorner(10, 1) = given.problem.F;
   JudgedGuess judged(GuessBy::link_table, given);
   std::vector<int> all(static_cast<std::size_t>(rank));
