@@ -19,7 +19,8 @@ using Run = std::vector<DenseProblem>;
 constexpr int runs = 3;
 /// Beyond this, solvers that need H take minutes a run.
 constexpr int most_for_normal_form = 300;
-/// Problems that are timed at once, or one run's.
+/// Problems that are timed at once, or one run's: so many that readings of the clock, a microsecond
+/// or two each, are a few hundredths of the quickest time and fall out of the difference.
 constexpr std::size_t timed_at_once = 420;
 
 /// Seconds of this thread: what neighbours on the same core take does not count.
