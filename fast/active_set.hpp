@@ -3,10 +3,11 @@
 
 #include <Eigen/Core>
 
-#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "shapeid/fast/link_rows.hpp"
+#include "shapeid/fast/passive_masses.hpp"
 #include "shapeid/fast/passive_set.hpp"
 #include "shapeid/fast/shape_columns.hpp"
 #include "shapeid/models/mass_problem.hpp"
@@ -51,7 +52,7 @@ class ActiveSet {
   void take_back() noexcept;
   /// Whether the passive shapes are factorised, so that shapes may enter and leave one by one.
   [[nodiscard]] bool has_started() const noexcept { return started_; }
-  [[nodiscard]] bool has_rows() const noexcept { return rows_->R != nullptr; }
+  [[nodiscard]] bool has_rows() const noexcept { return now_.has_rows(); }
 
   /// No passive shapes.
   void clear() noexcept;
@@ -76,54 +77,54 @@ class ActiveSet {
   Outcome run() noexcept;
   /// After run() with lambda = 0 on `set`: on to the minimum for this lambda, if that has the same
   /// passive shapes. False if that is not certain; then the masses stay.
-  [[nodiscard]] bool damp(ColumnSet& set, double lambda) noexcept;
+  [[nodiscard]] bool damp(ColumnSet& set, double lambda) noexcept { return now_.damp(set, lambda); }
   /// From a guess at the minimum: whether it is the minimum once its masses are corrected. If not,
   /// nothing changes.
-  [[nodiscard]] bool settles_at(Guess& guess) noexcept;
+  [[nodiscard]] bool settles_at(Guess& guess) noexcept {
+    iterations_ = guess.pivots() + 1;  // one to see that nothing is left to do
+    if (!now_.settles_at(guess)) return false;
+    started_ = false;
+    return true;
+  }
   /// Whether the answer stands if nothing has changed but that these shapes, without mass, have
   /// other columns.
-  [[nodiscard]] bool stays_settled(const std::vector<int>& massless) noexcept;
+  [[nodiscard]] bool stays_settled(const std::vector<int>& massless) noexcept {
+    iterations_ = 1;
+    return now_.stays_settled(massless);
+  }
   /// Whether every shape that is not passive would certainly raise the objective, and there are no
   /// more passive ones than independent columns.
-  [[nodiscard]] bool is_at_a_vertex() noexcept;
+  [[nodiscard]] bool is_at_a_vertex() noexcept { return now_.is_at_a_vertex(); }
 
   /// Remembers masses and what belongs to them, and goes back to it.
-  void save() noexcept;
+  void save() noexcept {
+    iterations_ = 0;
+    now_.save();
+  }
   void restore() noexcept;
 
-  [[nodiscard]] const std::vector<int>& passive() const noexcept { return passive_; }
-  [[nodiscard]] const std::vector<double>& masses() const noexcept { return masses_; }
-  [[nodiscard]] const Eigen::VectorXd& Phi() const noexcept { return Phi_; }
+  [[nodiscard]] const std::vector<int>& passive() const noexcept { return now_.passive(); }
+  [[nodiscard]] const std::vector<double>& masses() const noexcept { return now_.masses(); }
+  [[nodiscard]] const Eigen::VectorXd& Phi() const noexcept { return now_.Phi(); }
   /// R^T (c - R Phi), 10 links.
-  [[nodiscard]] const Eigen::VectorXd& slopes() const noexcept { return slopes_; }
-  [[nodiscard]] const Objective& value() const noexcept { return value_; }
+  [[nodiscard]] const Eigen::VectorXd& slopes() const noexcept { return now_.slopes(); }
+  [[nodiscard]] const Objective& value() const noexcept { return now_.value(); }
   /// Steps since save().
-  [[nodiscard]] int iterations() const noexcept { return iterations_; }
-  [[nodiscard]] const Eigen::MatrixXd& R() const noexcept { return *rows_->R; }
+  [[nodiscard]] int iterations() const noexcept { return iterations_ + now_.corrections(); }
+  [[nodiscard]] const Eigen::MatrixXd& R() const noexcept { return now_.R(); }
   /// Of one link.
-  [[nodiscard]] const LinkRows& link_rows() const noexcept { return rows_->link; }
+  [[nodiscard]] const LinkRows& link_rows() const noexcept { return now_.link_rows(); }
   /// Upper bounds of the lengths of the columns of R.
-  [[nodiscard]] const Eigen::VectorXd& lengths() const noexcept { return rows_->lengths; }
+  [[nodiscard]] const Eigen::VectorXd& lengths() const noexcept { return now_.lengths(); }
   /// Tells the columns what prices are measured by, if they do not know yet.
-  void scale_prices() noexcept;
+  void scale_prices() noexcept { now_.scale_prices(); }
 
  private:
-  struct ShapeMass {
-    int place;
-    double mass;
-  };
-  struct Rows {
-    LinkRows link;  ///< where there is one link only
-    const Eigen::MatrixXd* R = nullptr;
-    Eigen::VectorXd lengths;  ///< of the columns of R, from above
-    double length = 0.0;      ///< of c
-  };
-
   [[nodiscard]] Outcome iterate() noexcept;
   void start() noexcept;
   void factorise() noexcept;
   void add(int j, double mass) noexcept;
-  void leave(int place) noexcept;
+  void leave(std::size_t place) noexcept;
   [[nodiscard]] bool step_is_blocked() noexcept;
   [[nodiscard]] bool may_cut_off(const Eigen::VectorXd& target) noexcept;
   void leave_without_mass() noexcept;
@@ -134,51 +135,18 @@ class ActiveSet {
   void refuse_without_mass(std::size_t first) noexcept;
   void refuse(int j) noexcept;
   void admit_refused() noexcept;
-  /// Phi, slopes and value of the masses, unless they are there already.
-  void evaluate() noexcept;
-  /// Whether the rows determine the passive masses.
-  [[nodiscard]] bool tells_apart(NormalEquations& normal) noexcept;
-  [[nodiscard]] bool tells_apart(Guess& guess, const AtPlaces& at, const Dozen& m) noexcept;
-  [[nodiscard]] bool tells_apart(NormalEquations& normal, const std::vector<int>& passive,
-                                 const std::vector<double>& masses) noexcept;
-  [[nodiscard]] bool settle(NormalEquations& normal) noexcept;
-  [[nodiscard]] bool correct(NormalEquations& normal) noexcept;
-  void evaluate_links() noexcept;
-  void take_value(double density) noexcept;
-  template <typename Use>
-  void for_each_slope(Use use) const noexcept;
-  [[nodiscard]] double largest_slope() noexcept;
   [[nodiscard]] bool passes_check() noexcept;
 
-  LinkRows::Value at_masses_;      ///< if evaluated_ and there is one link
-  const Dozen no_stiffness_;       ///< zeros that were written long ago, and are quick to read
-  std::array<Rows, 2> both_rows_;  // first: its members are the most strictly aligned
-  Rows* rows_ = both_rows_.data();
-  Rows* other_rows_ = rows_ + 1;
+  PassiveMasses now_;  // first: its members are the most strictly aligned
   ShapeColumns* columns_;
-  const Eigen::VectorXd* V_;
   PassiveSet* set_ = nullptr;
-  double lambda_ = 0.0;
-  std::vector<int> passive_;
-  std::vector<double> masses_;       ///< of the passive shapes
-  std::vector<double> stiffness_;    ///< lambda / V of the passive shapes, once started
-  std::vector<double> tried_;        ///< masses to come back to, or of a guess
-  std::vector<int> guessed_;         ///< its passive shapes
+  std::vector<double> tried_;        ///< masses to come back to
   std::vector<int> refused_;         ///< barred until the next step that is taken
   std::vector<ShapeMass> entering_;  ///< on their way into a fresh factorisation
-  Eigen::VectorXd coefficients_, Phi_, r_, slopes_;
-  Eigen::VectorXd gradient_;  ///< of the passive shapes, if judged_ and there is one link
-  Objective value_;
-  double largest_slope_ = 0.0;  ///< over its terms
-  std::vector<ShapeMass> saved_;
-  Eigen::VectorXd saved_Phi_, saved_slopes_;
-  Objective saved_value_;
+  Eigen::VectorXd coefficients_;
   int iterations_ = 0;
   bool started_ = false;             ///< set_ holds the passive shapes
-  bool scaled_ = false;              ///< the columns know what prices are measured by
   bool ended_with_refused_ = false;  ///< so that some were not asked at the end
-  bool evaluated_ = false;           ///< Phi_, slopes_ and value_ are those of the masses
-  bool judged_ = false;              ///< largest_slope_ is that of the passive shapes at slopes_
 };
 
 }  // namespace shapeid::fast

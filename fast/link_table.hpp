@@ -3,14 +3,14 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "shapeid/fast/link_rows.hpp"
 #include "shapeid/fast/passive_set.hpp"
-#include "shapeid/fast/price_chunk.hpp"
 #include "shapeid/fast/shape_columns.hpp"
+#include "shapeid/fast/tableau.hpp"
+#include "shapeid/fast/tableau_pivots.hpp"
 #include "shapeid/fast/wide.hpp"
 
 namespace shapeid::fast {
@@ -28,47 +28,7 @@ namespace shapeid::fast {
 class LinkTable final : public Guess {
  public:
   /// More passive shapes are not dealt with.
-  static constexpr std::size_t most_passive = 12;
-
-  /// What is exchanged. Places that no shape has: zero, and in `m` and `diagonal` one;
-  /// rows of K are written as shapes enter.
-  struct Exchanged {
-    std::array<Dozen, 10> M, C;
-    std::array<Dozen, 10> U;            ///< a place's column in each lane, until it is used anew
-    std::array<Dozen, most_passive> K;  ///< a row a place
-    Dozen g, m, diagonal;               ///< `diagonal`: of K
-    Dozen sizes;                        ///< what bounds the columns of A
-    std::array<int, most_passive> shape{};
-    std::array<Lane, most_passive> lane{};  ///< where they are priced
-    std::size_t places = 0;                 ///< in use, with gaps
-    unsigned used = 0;                      ///< a bit a place
-    int count = 0;                          ///< of these
-  };
-
-  /// Shapes whose slope single precision cannot tell from zero: mostly such whose columns depend on
-  /// the passive ones.
-  struct Doubtful {
-    std::array<int, 16> shapes;
-    std::size_t count = 0;
-  };
-
-  /// What the table is about.
-  struct Problem {
-    const double* U = nullptr;  ///< ten numbers a shape
-    const double* V = nullptr;  ///< m^3
-    double lambda = 0.0;
-    double largest = 0.0;         ///< length of the columns of R
-    double inverse_unit = 0.0;    ///< what makes slopes prices, but for a shape's scale
-    double inverse_length = 0.0;  ///< of the right-hand side, or zero
-    double smallest_left = 0.0;   ///< of a column's square, times that of its scale
-    Dozen inverse_lengths;        ///< of the columns of R, or zero
-    PriceChunk* chunks = nullptr;
-    int count = 0;  ///< of them
-
-    [[nodiscard]] double stiffness(int j) const noexcept {
-      return lambda > 0.0 ? lambda / V[j] : 0.0;
-    }
-  };
+  static constexpr std::size_t most_passive = tableau::most_passive;
 
   /// `columns`, of one link, and `V` (m^3, an entry a shape) must outlive the object. Bars the
   /// passive shapes, and those alone.
@@ -96,14 +56,15 @@ class LinkTable final : public Guess {
     return (now_.used >> place & 1U) != 0;
   }
 
-  Exchanged now_;  // first: its members are the most strictly aligned
-  Problem problem_;
+  tableau::Tableau now_;  // first: its members are the most strictly aligned
+  tableau::Problem problem_;
   ShapeColumns* columns_;
   const Eigen::VectorXd* V_;
   const LinkRows* rows_ = nullptr;
   int pivots_ = 0;
-  int wanting_ = -1;   ///< a shape to enter next
-  Doubtful doubtful_;  ///< where settle() ended; all others certainly did not want to enter
+  int wanting_ = -1;  ///< a shape to enter next
+  /// Where settle() ended; all others certainly did not want to enter.
+  tableau::Doubtful doubtful_;
   bool knows_doubtful_ = false;
   Eigen::VectorXd slopes_;
 };
