@@ -10,7 +10,8 @@
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/prior.hpp"
-#include "shapeid/diagnosis/refine.hpp"
+#include "shapeid/diagnosis/refit.hpp"
+#include "shapeid/diagnosis/take_selection.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -83,7 +84,7 @@ class Loop {
       screen();
       result_.screening_seconds += seconds_since(start);
       start = std::chrono::steady_clock::now();
-      refit();
+      refit(state_);
       prune_transformations();
       result_.refit_seconds += seconds_since(start);
       if (round_ > 0 && ids() == before) {
@@ -121,7 +122,8 @@ class Loop {
     const Selection selection = select(fits, fixed, list, state_.rule());
     note_large_transformation(fits, fixed, list, selection);
     result_.prior = choose_prior(fits, chosen_terms(fixed, list, selection));
-    take(fits, fixed, list, selection);
+    take_selection(fits, fixed, list, selection, state_);
+    if (round_ == 0) note_first_ranking(list, selection, result_);
   }
 
   /// The transformation that, as its derivative, takes away most of what all that was accepted
@@ -166,9 +168,9 @@ class Loop {
     result_.found = {
         Found{large_->effect, large_->term.id, Eigen::VectorXd::Zero(large_->effect.value.size())}};
     state_.collect_effects();
-    refit();
+    refit(state_);
     screen();
-    refit();
+    refit(state_);
     prune_transformations();
     const bool simpler = result_.found.size() < several.found.size() &&
                          !(gain_of(state_.held_out_of_model(), error).t > not_worse_t);
@@ -214,9 +216,9 @@ class Loop {
       result_.found.push_back({noise, "accel_noise@base.accel", Eigen::VectorXd::Zero(1)});
     }
     state_.collect_effects();
-    refit();
+    refit(state_);
     screen();
-    refit();
+    refit(state_);
     prune_transformations();
     const bool better = has_place_of(result_.model.effects, noise) &&
                         std::abs(mass_over_given(base) - 1.0) < std::abs(mass - 1.0);
@@ -320,125 +322,6 @@ class Loop {
 
   [[nodiscard]] bool is_banned(const AppliedEffect& h) const {
     return has_place_of(banned_, h) || has_place_of(forces_, h);
-  }
-
-  void take(const BlockFits& fits, const Term& fixed, const std::vector<Candidate>& list,
-            const Selection& selection) {
-    // Transformations that are applied already stay as they were judged.
-    std::erase_if(result_.found, [](const Found& f) { return !f.effect.effect->transform.any(); });
-    Eigen::Index column = std::ssize(fixed.columns);
-    for (const Verdict& verdict : selection.accepted) {
-      const Candidate& candidate = list[verdict.candidate];
-      const Eigen::Index n = std::ssize(candidate.term.columns);
-      Found found{candidate.effect,
-                  candidate.term.id,
-                  selection.fit.standard_error.segment(column, n),
-                  verdict.gain,
-                  verdict.t,
-                  candidate.since_reference,
-                  {},
-                  {},
-                  {}};
-      found.effect.value = selection.fit.value.segment(column, n);
-      found.only_with_others = !verdict.by_itself;
-      column += n;
-      auto& names = found.ambiguous_with;
-      for (const std::size_t k : verdict.ambiguous) names.push_back(list[k].term.id);
-      std::sort(names.begin(), names.end());
-      names.erase(std::unique(names.begin(), names.end()), names.end());
-      result_.found.push_back(found);
-    }
-    state_.set_masses(selection.fit);
-    step_transformations(fits.tally(), fixed, selection.fit);
-    state_.collect_effects();
-    result_.hypotheses = list.size();
-    const auto ranked = [&](const std::vector<Scored>& scores) {
-      std::vector<Ranked> ranking;
-      ranking.reserve(scores.size());
-      for (const Scored& s : scores) {
-        ranking.push_back({list[s.candidate].term.id, s.gain, s.t});
-      }
-      return ranking;
-    };
-    if (round_ == 0 && !selection.steps.empty()) {
-      std::vector<Scored> first = selection.steps.front().others;
-      first.insert(first.begin(), selection.steps.front().accepted);
-      result_.first_ranking = ranked(first);
-    }
-    result_.last_ranking = ranked(selection.last_ranking);
-    result_.hidden.clear();
-    for (const std::size_t k : selection.hidden) {
-      const std::string& id = list[k].term.id;
-      if (result_.hidden.empty() || result_.hidden.back() != id) result_.hidden.push_back(id);
-    }
-    result_.wrong_signs.clear();
-    for (const Scored& s : selection.wrong_signs) {
-      result_.wrong_signs.emplace_back(
-          list[s.candidate].term.id,
-          (s.fit.value.array() / s.fit.standard_error.array()).minCoeff());
-    }
-  }
-
-  /// Gauss-Newton: applied transformations move by what their columns were fitted with.
-  void step_transformations(const Tally& tally, const Term& fixed, const Fit& fit) {
-    auto column = std::ssize(state_.masses.columns);
-    for (std::size_t k = 0; k < tally.hypotheses.size() && column < std::ssize(fixed.columns);
-         ++k) {
-      if (!state_.is_applied_transformation(tally.hypotheses[k])) continue;
-      for (Found& f : result_.found) {
-        if (!same_place(f.effect, tally.hypotheses[k])) continue;
-        const Eigen::Index n = f.effect.value.size();
-        f.effect.value += fit.value.segment(column, n);
-        f.standard_error = fit.standard_error.segment(column, n);
-        column += n;
-      }
-    }
-  }
-
-  /// Shape numbers by zooming grids, transformations by Gauss-Newton, masses along with both.
-  void refit() {
-    constexpr int passes = 3;
-    for (int pass = 0; pass < passes && needs_refit(); ++pass) {
-      std::vector<AppliedEffect> variants;
-      std::vector<std::vector<std::size_t>> of_found(result_.found.size());
-      for (std::size_t i = 0; i < result_.found.size(); ++i) {
-        for (const AppliedEffect& a : shape_variants(result_.found[i].effect, pass)) {
-          of_found[i].push_back(variants.size());
-          variants.push_back(a);
-        }
-      }
-      const BlockFits fits = state_.tallied(variants);
-      std::vector<std::vector<Term>> choices;
-      for (std::size_t i = 0; i < of_found.size(); ++i) {
-        auto& terms = choices.emplace_back();
-        for (const std::size_t v : of_found[i]) {
-          terms.push_back(term_of(state_.robot, fits.tally(), v));
-          if (result_.found[i].since_reference) terms.back().from_block = fits.first_block();
-        }
-      }
-      const std::vector<std::size_t> chosen = best_variants(fits, state_.masses, choices);
-      std::vector<Term> terms = {state_.masses};
-      for (std::size_t i = 0; i < choices.size(); ++i) terms.push_back(choices[i][chosen[i]]);
-      const Fit fit = fits.fit(terms);
-      state_.set_masses(fit);
-      Eigen::Index column = std::ssize(state_.masses.columns);
-      for (std::size_t i = 0; i < choices.size(); ++i) {
-        AppliedEffect& a = result_.found[i].effect;
-        const Eigen::Index n = a.value.size();
-        const Eigen::VectorXd value = fit.value.segment(column, n);
-        a.shape = variants[of_found[i][chosen[i]]].shape;
-        a.value = a.effect->transform.any() ? Eigen::VectorXd(a.value + value) : value;
-        result_.found[i].standard_error = fit.standard_error.segment(column, n);
-        column += n;
-      }
-      state_.collect_effects();
-    }
-  }
-
-  [[nodiscard]] bool needs_refit() const {
-    return std::any_of(result_.found.begin(), result_.found.end(), [](const Found& f) {
-      return f.effect.effect->transform.any() || f.effect.shape.size() > 0;
-    });
   }
 
   LoopState state_;

@@ -1,0 +1,11 @@
+// Numbers of what was found that no column is linear in.
+#pragma once
+
+#include "shapeid/diagnosis/loop_state.hpp"
+
+namespace shapeid::diagnosis {
+
+/// Shape numbers by zooming grids, transformations by Gauss-Newton, masses along with both.
+void refit(LoopState& state);
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,90 @@
+#include "shapeid/diagnosis/take_selection.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "shapeid/diagnosis/candidates.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+std::vector<Ranked> ranked(const std::vector<Candidate>& list, const std::vector<Scored>& scores) {
+  std::vector<Ranked> ranking;
+  ranking.reserve(scores.size());
+  for (const Scored& s : scores) {
+    ranking.push_back({list[s.candidate].term.id, s.gain, s.t});
+  }
+  return ranking;
+}
+
+/// Gauss-Newton: applied transformations move by what their columns were fitted with.
+void step_transformations(const Tally& tally, const Term& fixed, const Fit& fit, LoopState& state) {
+  auto column = std::ssize(state.masses.columns);
+  for (std::size_t k = 0; k < tally.hypotheses.size() && column < std::ssize(fixed.columns); ++k) {
+    if (!state.is_applied_transformation(tally.hypotheses[k])) continue;
+    for (Found& f : state.result.found) {
+      if (!same_place(f.effect, tally.hypotheses[k])) continue;
+      const Eigen::Index n = f.effect.value.size();
+      f.effect.value += fit.value.segment(column, n);
+      f.standard_error = fit.standard_error.segment(column, n);
+      column += n;
+    }
+  }
+}
+
+}  // namespace
+
+void take_selection(const BlockFits& fits, const Term& fixed, const std::vector<Candidate>& list,
+                    const Selection& selection, LoopState& state) {
+  LoopResult& result = state.result;
+  // Transformations that are applied already stay as they were judged.
+  std::erase_if(result.found, [](const Found& f) { return !f.effect.effect->transform.any(); });
+  Eigen::Index column = std::ssize(fixed.columns);
+  for (const Verdict& verdict : selection.accepted) {
+    const Candidate& candidate = list[verdict.candidate];
+    const Eigen::Index n = std::ssize(candidate.term.columns);
+    Found found{candidate.effect,
+                candidate.term.id,
+                selection.fit.standard_error.segment(column, n),
+                verdict.gain,
+                verdict.t,
+                candidate.since_reference,
+                {},
+                {},
+                {}};
+    found.effect.value = selection.fit.value.segment(column, n);
+    found.only_with_others = !verdict.by_itself;
+    column += n;
+    auto& names = found.ambiguous_with;
+    for (const std::size_t k : verdict.ambiguous) names.push_back(list[k].term.id);
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    result.found.push_back(found);
+  }
+  state.set_masses(selection.fit);
+  step_transformations(fits.tally(), fixed, selection.fit, state);
+  state.collect_effects();
+  result.hypotheses = list.size();
+  result.last_ranking = ranked(list, selection.last_ranking);
+  result.hidden.clear();
+  for (const std::size_t k : selection.hidden) {
+    const std::string& id = list[k].term.id;
+    if (result.hidden.empty() || result.hidden.back() != id) result.hidden.push_back(id);
+  }
+  result.wrong_signs.clear();
+  for (const Scored& s : selection.wrong_signs) {
+    result.wrong_signs.emplace_back(
+        list[s.candidate].term.id, (s.fit.value.array() / s.fit.standard_error.array()).minCoeff());
+  }
+}
+
+void note_first_ranking(const std::vector<Candidate>& list, const Selection& selection,
+                        LoopResult& result) {
+  if (selection.steps.empty()) return;
+  std::vector<Scored> first = selection.steps.front().others;
+  first.insert(first.begin(), selection.steps.front().accepted);
+  result.first_ranking = ranked(list, first);
+}
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,140 @@
+#include "shapeid/diagnosis/verdicts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "shapeid/diagnosis/fits_around.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+// What comes within this many is named beside an accepted one: of a hundred causes that are there
+// about one is further behind by chance, with so few blocks.
+constexpr double told_apart_t = 2.5;
+// What cannot be negative must not be so by more than this many standard errors in a rival. In what
+// is accepted it must not be at all; but of a rival's ten numbers one may, within its error.
+constexpr double rival_sign_t = 2.0;
+// Standard errors by which a rival must gain to be named in an accepted one's place. (Near the
+// limit of acceptance chance decides which of two passes: a rival need only gain something.)
+constexpr double rival_t = 1.0;
+// One hypothesis contains another if this share of its columns is in the other's span.
+constexpr double nested_share = 0.9999;
+
+bool gains_something(const Gain& own) { return own.t > rival_t && own.share > 0.0; }
+
+/// `error` is not lower than this by more than what cannot be told apart.
+bool as_good_as(const Eigen::VectorXd& error, const Eigen::VectorXd& instead) {
+  return !(gain_of(instead, error).t > told_apart_t);
+}
+
+}  // namespace
+
+std::vector<Verdict> Verdicts::of(const Chosen& accepted, const Eigen::VectorXd& error) const {
+  std::vector<Verdict> verdicts;
+  for (const std::size_t k : accepted) {
+    Chosen others = accepted;
+    std::erase(others, k);
+    verdicts.push_back(one(k, others, error));
+  }
+  name_common_causes(accepted, error, verdicts);
+  return verdicts;
+}
+
+Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd& error) const {
+  const FitsAround around(fits_, contenders_.terms(others));
+  const Eigen::VectorXd& without = around.error();
+  const Gain gain = credibility_.gain_by(k, without, error);
+  Verdict verdict{k, gain.share, gain.t, true, {}};
+  for (const std::size_t rival : contenders_.shortlist(others, rule_.rivals).listed) {
+    if (rival == k || contenders_.same_place(k, rival) || !contenders_[rival].members.empty()) {
+      continue;
+    }
+    const Eigen::VectorXd instead = around.with(contenders_[rival].term);
+    if (!gains_something(gain_of(without, instead)) || !as_good_as(error, instead)) continue;
+    if (credibility_.wrong_sign(
+            rival, contenders_.last_of(rival, fits_.fit(contenders_.terms(others, rival))),
+            rival_sign_t)) {
+      continue;
+    }
+    // Two that say the same contain each other: that is no reason to keep silent about one.
+    const auto within = [&](std::size_t inner, std::size_t outer) {
+      return fits_.contained(contenders_.terms(others), contenders_[inner].term,
+                             contenders_[outer].term) > nested_share;
+    };
+    const bool nested = within(k, rival) && !within(rival, k);
+    if (!nested || does_without(k, rival, others, error)) verdict.ambiguous.push_back(rival);
+  }
+  return verdict;
+}
+
+/// Whether a rival that contains k does as well without the part that contains it: a spring
+/// contains an offset, its torque at rest, but far from rest its stiffness alone may be what looks
+/// like one. It then is a cause of its own, not k with a number on top.
+bool Verdicts::does_without(std::size_t k, std::size_t rival, const Chosen& others,
+                            const Eigen::VectorXd& error) const {
+  const Candidate& whole = contenders_[rival];
+  if (whole.effect.effect->is_payload || whole.term.columns.size() < 2) return false;
+  const Eigen::VectorXd without = fits_.held_out(contenders_.terms(others));
+  for (std::size_t i = 0; i < whole.term.columns.size(); ++i) {
+    Term part = whole.term;
+    part.columns.erase(part.columns.begin() + static_cast<std::ptrdiff_t>(i));
+    part.nonnegative.erase(part.nonnegative.begin() + static_cast<std::ptrdiff_t>(i));
+    std::vector<Term> list = contenders_.terms(others);
+    if (fits_.contained(list, contenders_[k].term, part) > nested_share) continue;
+    list.push_back(part);
+    const Eigen::VectorXd instead = fits_.held_out(list);
+    if (gains_something(gain_of(without, instead)) && as_good_as(error, instead)) return true;
+  }
+  return false;
+}
+
+/// What could take the place of several at once, and was not simpler, is named with each of them: a
+/// load has more numbers than the two gains that it looks like.
+void Verdicts::name_common_causes(const Chosen& accepted, const Eigen::VectorXd& error,
+                                  std::vector<Verdict>& verdicts) const {
+  if (accepted.size() < 2) return;
+  for (const std::size_t rival : contenders_.shortlist({}, rule_.rivals).listed) {
+    if (contenders_.is_taken(rival, accepted) || !contenders_[rival].members.empty()) continue;
+    const Chosen beside = not_superfluous_beside(rival, accepted);
+    if (beside.size() + 1 >= accepted.size()) continue;
+    const FitsAround around(fits_, contenders_.terms(beside));
+    const Eigen::VectorXd instead = around.with(contenders_[rival].term);
+    if (!gains_something(gain_of(around.error(), instead)) || !as_good_as(error, instead) ||
+        !can_be(rival, beside)) {
+      continue;
+    }
+    for (std::size_t i = 0; i < accepted.size(); ++i) {
+      Chosen& named = verdicts[i].ambiguous;
+      if (!contenders_.is_among(accepted[i], beside) && !contenders_.is_among(rival, named)) {
+        named.push_back(rival);
+      }
+    }
+  }
+}
+
+bool Verdicts::can_be(std::size_t rival, const Chosen& others) const {
+  const Fit own = contenders_.last_of(rival, fits_.fit(contenders_.terms(others, rival)));
+  return !credibility_.wrong_sign(rival, own, rival_sign_t) &&
+         credibility_.within_limits(rival, own);
+}
+
+/// Those of `chosen` that gain something beside them all and the rival.
+Chosen Verdicts::not_superfluous_beside(std::size_t rival, Chosen chosen) const {
+  while (!chosen.empty()) {
+    const FitsAround now(fits_, contenders_.terms(chosen, rival));
+    double least = keep_t;
+    std::size_t worst = chosen.size();
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const double t = gain_of(now.without(1 + i), now.error()).t;
+      if (t < least) {
+        least = t;
+        worst = i;
+      }
+    }
+    if (worst == chosen.size()) break;
+    chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(worst));
+  }
+  return chosen;
+}
+
+}  // namespace shapeid::diagnosis
