@@ -31,7 +31,7 @@ class Credibility {
   [[nodiscard]] Gain gain_by(std::size_t k, const Eigen::VectorXd& before,
                              const Eigen::VectorXd& after) const;
   /// Held-out blocks gain enough by it.
-  [[nodiscard]] bool passes(double gain, double t) const { return t > limit_ && gain > 0.0; }
+  [[nodiscard]] bool passes(const Scored& s) const { return s.t > limit_ && s.gain > 0.0; }
 
  private:
   [[nodiscard]] double squares_over_chance(std::size_t k, const Fit& without, const Fit& with,

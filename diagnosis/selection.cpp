@@ -53,7 +53,7 @@ class Search {
     for (const std::size_t i : order) result_.last_ranking.push_back(ranking[i]);
 
     const auto is_open = [&](std::size_t i) {
-      return credibility_.passes(ranking[i].gain, ranking[i].t) && !ranking[i].wrong_sign;
+      return credibility_.passes(ranking[i]) && !ranking[i].wrong_sign;
     };
     const auto best = std::find_if(order.begin(), order.end(), is_open);
     if (best == order.end()) return false;
@@ -87,7 +87,7 @@ class Search {
       errors.push_back(now.with(contenders_[k].term));
       const Gain gain = credibility_.gain_by(k, now.error(), errors.back());
       Scored scored{k, gain.share, gain.t, {}, false};
-      if (credibility_.passes(scored.gain, scored.t)) {
+      if (credibility_.passes(scored)) {
         const Fit fit = fits_.fit(contenders_.terms(accepted_, k));
         scored.fit = contenders_.last_of(k, fit);
         if (!credibility_.credible(k, fit_now, fit)) scored.gain = scored.t = 0.0;

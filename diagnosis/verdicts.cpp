@@ -51,11 +51,7 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
     }
     const Eigen::VectorXd instead = around.with(contenders_[rival].term);
     if (!gains_something(gain_of(without, instead)) || !as_good_as(error, instead)) continue;
-    if (credibility_.wrong_sign(
-            rival, contenders_.last_of(rival, fits_.fit(contenders_.terms(others, rival))),
-            rival_sign_t)) {
-      continue;
-    }
+    if (credibility_.wrong_sign(rival, fit_of(rival, others), rival_sign_t)) continue;
     // Two that say the same contain each other: that is no reason to keep silent about one.
     const auto within = [&](std::size_t inner, std::size_t outer) {
       return fits_.contained(contenders_.terms(others), contenders_[inner].term,
@@ -99,10 +95,10 @@ void Verdicts::name_common_causes(const Chosen& accepted, const Eigen::VectorXd&
     if (beside.size() + 1 >= accepted.size()) continue;
     const FitsAround around(fits_, contenders_.terms(beside));
     const Eigen::VectorXd instead = around.with(contenders_[rival].term);
-    if (!gains_something(gain_of(around.error(), instead)) || !as_good_as(error, instead) ||
-        !can_be(rival, beside)) {
-      continue;
-    }
+    if (!gains_something(gain_of(around.error(), instead)) || !as_good_as(error, instead)) continue;
+    const Fit own = fit_of(rival, beside);
+    if (credibility_.wrong_sign(rival, own, rival_sign_t)) continue;
+    if (!credibility_.within_limits(rival, own)) continue;
     for (std::size_t i = 0; i < accepted.size(); ++i) {
       Chosen& named = verdicts[i].ambiguous;
       if (!contenders_.is_among(accepted[i], beside) && !contenders_.is_among(rival, named)) {
@@ -112,10 +108,8 @@ void Verdicts::name_common_causes(const Chosen& accepted, const Eigen::VectorXd&
   }
 }
 
-bool Verdicts::can_be(std::size_t rival, const Chosen& others) const {
-  const Fit own = contenders_.last_of(rival, fits_.fit(contenders_.terms(others, rival)));
-  return !credibility_.wrong_sign(rival, own, rival_sign_t) &&
-         credibility_.within_limits(rival, own);
+Fit Verdicts::fit_of(std::size_t rival, const Chosen& others) const {
+  return contenders_.last_of(rival, fits_.fit(contenders_.terms(others, rival)));
 }
 
 /// Those of `chosen` that gain something beside them all and the rival.

@@ -27,7 +27,8 @@ class Verdicts {
   void name_common_causes(const Chosen& accepted, const Eigen::VectorXd& error,
                           std::vector<Verdict>& verdicts) const;
   [[nodiscard]] Chosen not_superfluous_beside(std::size_t rival, Chosen chosen) const;
-  [[nodiscard]] bool can_be(std::size_t rival, const Chosen& others) const;
+  /// Of the rival beside the others the part of the rival.
+  [[nodiscard]] Fit fit_of(std::size_t rival, const Chosen& others) const;
 
   const BlockFits& fits_;
   const Contenders& contenders_;

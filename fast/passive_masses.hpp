@@ -44,7 +44,7 @@ class PassiveMasses {
   /// yet.
   PassiveMasses(ShapeColumns& columns, const Eigen::VectorXd& V);
 
-  /// From now on on this triangle [R c], which must stay as it is. False if a number of it is not
+  /// From now on for this triangle [R c], which must stay as it is. False if a number of it is not
   /// finite: then nothing changes.
   [[nodiscard]] bool take(const Eigen::MatrixXd& R) noexcept;
   /// Back to the triangle before the last take().
@@ -135,9 +135,10 @@ class PassiveMasses {
   [[nodiscard]] bool tells_apart(NormalEquations& normal, const std::vector<int>& passive,
                                  const std::vector<double>& masses) noexcept;
 
-  LinkRows::Value at_masses_;      ///< if evaluated_ and there is one link
-  const Dozen no_stiffness_;       ///< zeros that were written long ago, and are quick to read
-  std::array<Rows, 2> both_rows_;  // first: its members are the most strictly aligned
+  // First what is most strictly aligned.
+  LinkRows::Value at_masses_;  ///< if evaluated_ and there is one link
+  const Dozen no_stiffness_;   ///< zeros that were written long ago, and are quick to read
+  std::array<Rows, 2> both_rows_;
   Rows* rows_ = both_rows_.data();
   Rows* other_rows_ = rows_ + 1;
   ShapeColumns* columns_;
