@@ -1,0 +1,294 @@
+// Which hypotheses are accepted, where it is known which are true.
+#include "shapeid/diagnosis/selection.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapeid/tests/diagnosis/planted.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::accepted;
+using test::law;
+using test::Planted;
+using test::verdict_on;
+using Numbers = std::vector<std::size_t>;
+
+Eigen::VectorXd number(double value) { return Eigen::VectorXd::Constant(1, value); }
+
+/// Candidates of one number each, every one somewhat like the one before.
+Numbers add_alike(Planted& log, std::size_t count, double alike, double memory = 0.0) {
+  Numbers list;
+  Eigen::MatrixXd before = log.normal(1, memory);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::MatrixXd column =
+        alike * before + std::sqrt(1.0 - alike * alike) * log.normal(1, memory);
+    list.push_back(log.add(law(fmt::format("law{}", i)), column));
+    before = column;
+  }
+  return list;
+}
+
+RC_GTEST_PROP(Selection, FindsWhatWasPlanted, ()) {
+  Planted log(*rc::gen::arbitrary<unsigned>());
+  const Numbers all = add_alike(log, *rc::gen::inRange<std::size_t>(3, 30), 0.5);
+  Numbers planted =
+      *rc::gen::unique<Numbers>(*rc::gen::inRange<std::size_t>(0, 4), rc::gen::elementOf(all));
+  std::sort(planted.begin(), planted.end());
+  for (const std::size_t k : planted) {
+    const double sign = *rc::gen::element(-1.0, 1.0);
+    // Neighbours share half of the evidence.
+    log.plant(k, number(sign * Planted::size_of(*rc::gen::inRange(14, 60))));
+  }
+  log.add_noise();
+  const Numbers found = accepted(log.selection());
+  RC_ASSERT(std::includes(found.begin(), found.end(), planted.begin(), planted.end()));
+}
+
+/// Logs of noise alone in which something is named.
+int false_alarms(int logs, double memory, const SelectionRule& rule = {}) {
+  int count = 0;
+  for (int i = 0; i < logs; ++i) {
+    Planted log(static_cast<unsigned>(1000 + i));
+    add_alike(log, 40, 0.5, memory);
+    log.add_noise(memory);
+    count += accepted(log.selection(rule)).empty() ? 0 : 1;
+  }
+  return count;
+}
+
+TEST(Selection, NamesNothingInNoise) {
+  constexpr int logs = 400;
+  const double expected = SelectionRule{}.false_alarms * logs;
+  // Of so many that are expected, more than this come once in ten thousand times (Poisson).
+  const int most = 7;
+  ASSERT_LT(expected, 1.3);
+  EXPECT_LE(false_alarms(logs, 0.0), most);
+  // Errors are taken between blocks: what remembers for less than these has the same right.
+  EXPECT_LE(false_alarms(logs, 0.8), most);
+}
+
+/// What is slower than the blocks looks like a law, and a rule that allows for no chance names more
+/// of it: the test above can fail.
+TEST(Selection, NamesMoreWhereChanceIsNotAllowedFor) {
+  SelectionRule lax;
+  lax.least_t = 0.5;
+  lax.false_alarms = 10.0;
+  constexpr int logs = 50;
+  constexpr double memory = 0.995;
+  const int named = false_alarms(logs, memory, lax);
+  EXPECT_GT(named, logs / 2);
+  EXPECT_LT(false_alarms(logs, memory), named);
+}
+
+TEST(Selection, StepsAndRankingAreAsTheyWent) {
+  Planted log(1);
+  const Numbers k = add_alike(log, 6, 0.3);
+  log.plant(k[1], number(Planted::size_of(20.0)));
+  log.plant(k[4], number(Planted::size_of(60.0)));
+  log.add_noise();
+  const Selection s = log.selection();
+  ASSERT_EQ(s.steps.size(), 2U);
+  EXPECT_EQ(s.steps[0].accepted.candidate, k[4]);  // the larger one first
+  EXPECT_EQ(s.steps[1].accepted.candidate, k[1]);
+  EXPECT_EQ(s.steps[0].others.size(), k.size() - 1);
+  EXPECT_EQ(s.last_ranking.size(), k.size() - 2);
+  for (std::size_t i = 1; i < s.last_ranking.size(); ++i) {
+    EXPECT_LE(s.last_ranking[i].gain, s.last_ranking[i - 1].gain);
+  }
+  // What was planted is there, within five standard errors; masses come first in the fit.
+  EXPECT_EQ(s.error_end.size(), static_cast<Eigen::Index>(Planted::blocks));
+  const Eigen::Index masses = std::ssize(log.masses().columns);
+  ASSERT_EQ(s.fit.value.size(), masses + 2);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const double planted = Planted::size_of(i == 0 ? 60.0 : 20.0);
+    EXPECT_LT(std::abs(s.fit.value[masses + i] - planted), 5.0 * s.fit.standard_error[masses + i]);
+  }
+}
+
+TEST(Selection, WhatMassesContainIsHidden) {
+  Planted log(2);
+  const std::size_t open = log.add(law("open"), log.normal(1));
+  const std::size_t twin = log.add(law("twin"), log.normal(1));
+  log.candidates()[twin].term.columns = {log.masses().columns[3]};
+  log.plant(open, number(Planted::size_of(30.0)));
+  log.plant(twin, number(Planted::size_of(30.0)));
+  log.add_noise();
+  const Selection s = log.selection();
+  EXPECT_EQ(accepted(s), Numbers{open});
+  EXPECT_EQ(s.hidden, Numbers{twin});
+}
+
+TEST(Selection, WhatCannotBeNegativeIsNotAcceptedBelowZero) {
+  Effect friction = law("friction");
+  friction.parameters[0].nonnegative = true;
+  for (const double sign : {1.0, -1.0}) {
+    Planted log(3);
+    const std::size_t k = log.add(friction, log.normal(1));
+    log.plant(k, number(sign * Planted::size_of(25.0)));
+    log.add_noise();
+    const Selection s = log.selection();
+    EXPECT_EQ(accepted(s), sign > 0.0 ? Numbers{k} : Numbers{});
+    ASSERT_EQ(s.wrong_signs.size(), sign > 0.0 ? 0U : 1U);  // evidence of something else
+    if (sign < 0.0) {
+      EXPECT_EQ(s.wrong_signs[0].candidate, k);
+      EXPECT_LT(s.wrong_signs[0].fit.value[0], 0.0);
+    }
+  }
+}
+
+TEST(Selection, SizesBeyondBeliefAreNotAccepted) {
+  const double size = Planted::size_of(40.0);
+  for (const double limit : {2.0 * size, 0.5 * size}) {
+    Effect length = law("length");
+    length.parameters[0].limit = limit;
+    Planted log(4);
+    const std::size_t k = log.add(length, log.normal(1));
+    log.plant(k, number(size));
+    log.add_noise();
+    EXPECT_EQ(accepted(log.selection()), limit > size ? Numbers{k} : Numbers{});
+  }
+  // Of a force the rule has the limit.
+  Planted log(4);
+  const std::size_t k = log.add(law("force", 1, "N"), log.normal(1));
+  log.plant(k, number(size));
+  log.add_noise();
+  SelectionRule rule;
+  EXPECT_EQ(accepted(log.selection(rule)), Numbers{k});
+  rule.most_force = 0.5 * size;
+  EXPECT_EQ(accepted(log.selection(rule)), Numbers{});
+}
+
+TEST(Selection, MomentsWithoutMassAreNoLoad) {
+  Effect load = law("load", 2);
+  load.is_payload = true;
+  for (const double mass : {1.0, 0.0}) {
+    Planted log(11);
+    const std::size_t k = log.add(load, log.normal(2));
+    log.plant(k, Planted::size_of(25.0) * Eigen::Vector2d(mass, 1.0));
+    log.add_noise();
+    EXPECT_EQ(accepted(log.selection()), mass > 0.0 ? Numbers{k} : Numbers{});
+  }
+}
+
+/// Of a group those members stay that gain something each.
+TEST(Selection, GroupsShowTogetherAndAreJudgedOneByOne) {
+  Planted log(5);
+  Numbers drives;
+  for (int site = 0; site < 8; ++site) drives.push_back(log.add(law("drive"), log.normal(1), site));
+  log.add_group(drives);
+  Numbers planted;
+  for (const std::size_t k : {0U, 2U, 3U, 5U, 6U, 7U}) {
+    planted.push_back(drives[k]);
+    log.plant(drives[k], number(Planted::size_of(9.0)));
+  }
+  log.add_noise();
+  const Selection s = log.selection();
+  EXPECT_EQ(accepted(s), planted);
+  for (const Verdict& v : s.accepted) EXPECT_TRUE(v.by_itself) << v.candidate;
+}
+
+/// What is too small to be named by itself, and came with the others, is said to be so.
+TEST(Selection, SmallMembersOfAGroupAreNotThereByThemselves) {
+  int small = 0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    Planted log(seed);
+    Numbers drives;
+    for (int site = 0; site < 40; ++site) {
+      drives.push_back(log.add(law("drive"), log.normal(1), site));
+    }
+    log.add_group(drives);
+    for (const std::size_t k : drives) {
+      log.plant(k, number(Planted::size_of(k == drives[2] ? 4.4 : 14.0)));
+    }
+    log.add_noise();
+    const Selection s = log.selection();
+    for (const Verdict& v : s.accepted) {
+      if (v.by_itself) continue;
+      EXPECT_EQ(v.candidate, drives[2]);
+      ++small;
+    }
+  }
+  EXPECT_GT(small, 0);
+}
+
+/// A cause that has one number replaces the two that are parts of it.
+TEST(Selection, PrefersOneCauseToSeveral) {
+  Planted log(7);
+  const Eigen::MatrixXd a = log.normal(1), b = log.normal(1);
+  log.add(law("a"), a);
+  log.add(law("b"), b);
+  const std::size_t both = log.add(law("both"), a + b);
+  log.plant(both, number(Planted::size_of(30.0)));
+  log.add_noise();
+  EXPECT_EQ(accepted(log.selection()), Numbers{both});
+}
+
+/// Likewise where the two came in first, because nothing else was looked at.
+TEST(Selection, FindsTheOneCauseOfWhatCameInAsSeveral) {
+  SelectionRule rule;
+  rule.shortlist = 1;
+  for (const double second : {30.0, 55.0}) {
+    Planted log(17);
+    const Eigen::MatrixXd a = log.normal(1), b = log.normal(1);
+    const Numbers drives = {log.add(law("drive"), a, 0), log.add(law("drive"), b, 1)};
+    log.add_group(drives);
+    const std::size_t all = log.add(law("all"), a + b);
+    log.plant(drives[0], number(Planted::size_of(30.0)));
+    log.plant(drives[1], number(Planted::size_of(second)));
+    log.add_noise();
+    EXPECT_EQ(accepted(log.selection(rule)), second > 30.0 ? drives : Numbers{all});
+  }
+}
+
+/// Where the two are not alike they are two.
+TEST(Selection, DoesNotTakeOneCauseWhereThereAreTwo) {
+  Planted log(8);
+  const Eigen::MatrixXd a = log.normal(1), b = log.normal(1);
+  const std::size_t ka = log.add(law("a"), a), kb = log.add(law("b"), b);
+  log.add(law("both"), a + b);
+  log.plant(ka, number(Planted::size_of(40.0)));
+  log.plant(kb, number(Planted::size_of(15.0)));
+  log.add_noise();
+  const Selection s = log.selection();
+  // One of the two with the sum says the same as both.
+  EXPECT_EQ(accepted(s).size(), 2U);
+}
+
+TEST(Selection, OfTwoThatFitAlikeTheSimplerIsTaken) {
+  for (unsigned seed = 0; seed < 20; ++seed) {  // of half of them the other has the lower error
+    Planted log(seed);
+    const Eigen::MatrixXd a = log.normal(1);
+    Eigen::MatrixXd more(Planted::rows, 2);
+    more << a, log.normal(1);
+    log.add(law("two", 2), more);
+    const std::size_t one = log.add(law("one"), a);
+    log.plant(one, number(Planted::size_of(30.0)));
+    log.add_noise();
+    const Selection s = log.selection();
+    EXPECT_EQ(accepted(s), Numbers{one}) << seed;
+    // It is contained in the other, whose second number says nothing: no ambiguity.
+    EXPECT_EQ(verdict_on(one, s).ambiguous, Numbers{}) << seed;
+  }
+}
+
+/// The law with a number more is taken where that number is there.
+TEST(Selection, TakesTheRicherLawWhereItIsTrue) {
+  Planted log(10);
+  const Eigen::MatrixXd a = log.normal(1);
+  Eigen::MatrixXd more(Planted::rows, 2);
+  more << a, log.normal(1);
+  const std::size_t two = log.add(law("two", 2), more);
+  log.add(law("one"), a);
+  log.plant(two, Eigen::Vector2d(Planted::size_of(30.0), Planted::size_of(20.0)));
+  log.add_noise();
+  EXPECT_EQ(accepted(log.selection()), Numbers{two});
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,142 @@
+// What could stand in the place of what was accepted.
+#include "shapeid/diagnosis/verdicts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "shapeid/tests/diagnosis/planted.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::law;
+using test::Planted;
+
+Eigen::VectorXd number(double value) { return Eigen::VectorXd::Constant(1, value); }
+
+std::vector<Verdict> verdicts(Planted& log, const Chosen& accepted) {
+  const BlockFits fits = log.fits();
+  const Contenders contenders(fits, log.masses(), log.candidates());
+  const SelectionRule rule;
+  const Credibility credibility(fits, contenders, rule);
+  const Verdicts verdicts(fits, contenders, credibility, rule);
+  return verdicts.of(accepted, fits.held_out(contenders.terms(accepted)));
+}
+
+/// One law and another that differs from it in a share of its column; both in and out of the log.
+Chosen named_beside(double difference, double standard_errors) {
+  Planted log(31);
+  const Eigen::MatrixXd a = log.normal(1);
+  const std::size_t one = log.add(law("one"), a);
+  log.add(law("other"), a + difference * log.normal(1));
+  log.add(law("unlike"), log.normal(1));
+  log.plant(one, number(Planted::size_of(standard_errors)));
+  log.add_noise();
+  return verdicts(log, {one})[0].ambiguous;
+}
+
+TEST(Verdicts, NameWhatTheDataCannotTellApart) {
+  // The part in which they differ has three standard errors, seven, or thirty.
+  EXPECT_EQ(named_beside(0.1, 30.0), Chosen{1});
+  EXPECT_EQ(named_beside(0.1, 70.0), Chosen{});
+  EXPECT_EQ(named_beside(0.1, 300.0), Chosen{});
+  EXPECT_EQ(named_beside(1.0, 30.0), Chosen{});
+}
+
+TEST(Verdicts, NameWhatSaysTheSame) { EXPECT_EQ(named_beside(0.0, 300.0), Chosen{1}); }
+
+TEST(Verdicts, DoNotNameWhatWouldHaveTheWrongSign) {
+  Effect friction = law("friction");
+  friction.parameters[0].nonnegative = true;
+  for (const double sign : {1.0, -1.0}) {
+    Planted log(32);
+    const Eigen::MatrixXd a = log.normal(1);
+    const std::size_t one = log.add(law("one"), a);
+    const std::size_t rival = log.add(friction, sign * a);
+    log.plant(one, number(Planted::size_of(30.0)));
+    log.add_noise();
+    EXPECT_EQ(verdicts(log, {one})[0].ambiguous, sign > 0.0 ? Chosen{rival} : Chosen{});
+  }
+}
+
+/// A spring contains an offset. Where only the offset is there it is not named; where its stiffness
+/// alone looks like the offset it is a cause of its own.
+TEST(Verdicts, NameWhatContainsAFindingOnlyIfItDoesWithout) {
+  for (const bool looks_like_it : {false, true}) {
+    Planted log(33);
+    const Eigen::MatrixXd offset = log.normal(1);
+    Eigen::MatrixXd spring(Planted::rows, 2);
+    spring << offset, (looks_like_it ? 1.0 : 0.0) * offset + 0.05 * log.normal(1);
+    const std::size_t one = log.add(law("offset"), offset);
+    const std::size_t rival = log.add(law("spring", 2), spring);
+    log.plant(one, number(Planted::size_of(25.0)));
+    log.add_noise();
+    EXPECT_EQ(verdicts(log, {one})[0].ambiguous, looks_like_it ? Chosen{rival} : Chosen{});
+  }
+}
+
+/// One that could stand in the place of one alone is no common cause: a spring whose offset is all
+/// that the log has of it.
+TEST(Verdicts, DoNotNameWhatContainsAFindingAsACommonCause) {
+  Planted log(37);
+  const Eigen::MatrixXd offset = log.normal(1);
+  Eigen::MatrixXd spring(Planted::rows, 2);
+  spring << offset, log.normal(1);
+  const std::size_t one = log.add(law("offset"), offset);
+  const std::size_t apart = log.add(law("apart"), log.normal(1));
+  log.add(law("spring", 2), spring);
+  for (const std::size_t k : {one, apart}) log.plant(k, number(Planted::size_of(25.0)));
+  log.add_noise();
+  for (const Verdict& v : verdicts(log, {one, apart})) EXPECT_EQ(v.ambiguous, Chosen{});
+}
+
+/// A group and another moment of the same load are the finding itself.
+TEST(Verdicts, DoNotNameAFindingAgain) {
+  Planted log(34);
+  const Eigen::MatrixXd load = log.normal(1);
+  const std::size_t one = log.add(law("load"), load, 2, 10),
+                    moment = log.add(law("load"), load, 2, 11);
+  const std::size_t group = log.add_group({one, moment});
+  log.plant(one, number(Planted::size_of(30.0)));
+  log.add_noise();
+  EXPECT_EQ(verdicts(log, {one})[0].ambiguous, Chosen{}) << moment << group;
+}
+
+/// One law that could stand for two is named with both.
+TEST(Verdicts, NameACommonCauseWithEach) {
+  Planted log(35);
+  const Eigen::MatrixXd a = log.normal(1), b = log.normal(1);
+  const std::size_t ka = log.add(law("a"), a), kb = log.add(law("b"), b);
+  const std::size_t apart = log.add(law("apart"), log.normal(1));
+  Eigen::MatrixXd sums(Planted::rows, 2);
+  sums << a + b, a - b;
+  const std::size_t both = log.add(law("both", 2), sums);
+  for (const std::size_t k : {ka, kb, apart}) log.plant(k, number(Planted::size_of(20.0)));
+  log.add_noise();
+  const std::vector<Verdict> list = verdicts(log, {ka, kb, apart});
+  EXPECT_EQ(list[0].candidate, ka);
+  EXPECT_EQ(list[0].ambiguous, Chosen{both});
+  EXPECT_EQ(list[1].ambiguous, Chosen{both});
+  EXPECT_EQ(list[2].ambiguous, Chosen{});
+}
+
+/// The gain is that over all the others; none is superfluous.
+TEST(Verdicts, SayWhatAFindingIsWorthBesideTheOthers) {
+  Planted log(36);
+  const Eigen::MatrixXd a = log.normal(1);
+  const std::size_t one = log.add(law("one"), a), other = log.add(law("other"), log.normal(1));
+  const std::size_t nothing = log.add(law("nothing"), log.normal(1));
+  log.plant(one, number(1.0));
+  log.plant(other, number(2.0));
+  log.add_noise();
+  const std::vector<Verdict> list = verdicts(log, {one, other, nothing});
+  // Squares: 1 of 2 without the one, 4 of 5 without the other, and noise.
+  EXPECT_NEAR(list[0].gain, 0.5, 0.1);
+  EXPECT_NEAR(list[1].gain, 0.8, 0.05);
+  EXPECT_LT(list[2].gain, 0.01);
+  EXPECT_LT(list[2].t, keep_t);
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
