@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "shapeid/fast/few_table.hpp"
 #include "shapeid/fast/passive_set.hpp"
 #include "shapeid/fast/shape_columns.hpp"
 #include "shapeid/fast/wide.hpp"
@@ -21,25 +22,7 @@ namespace shapeid::fast {
 /// asks (ActiveSet::settles_at). Nothing allocates or throws.
 class FewShapes final : public Guess {
  public:
-  static constexpr int most_shapes = 12;
-  /// The problem with its passive shapes exchanged.
-  struct Exchanged {
-    std::array<Dozen, most_shapes> H;  ///< of the passive shapes the inverse
-    Dozen diagonal;                    ///< of H
-    Dozen x;                           ///< masses of the passive shapes, slopes of the others
-    Dozen squares;                     ///< the diagonal of H as it was
-    Dozen side;                        ///< -1 for passive shapes, 1 for the others
-    Dozen weight;                      ///< of a slope's square, where hardly anything is left
-    unsigned passive = 0;              ///< a bit a shape
-    int pivots = 0;
-  };
-  /// A division.
-  struct Cut {
-    std::size_t whole, part;    ///< one part takes the place of the whole, the other is the last
-    double remains, goes;       ///< what they are of the whole's volume
-    double shared;              ///< stiffness of the whole: parts that move together feel it
-    double remaining, leaving;  ///< the parts' own
-  };
+  static constexpr int most_shapes = few::most_shapes;
 
   /// `V` (m^3, an entry a shape) must outlive the object.
   explicit FewShapes(const Eigen::VectorXd& V) : V_(&V) {}
@@ -71,7 +54,7 @@ class FewShapes final : public Guess {
   static std::size_t place(int j) noexcept { return static_cast<std::size_t>(j); }
 
   std::array<Dozen, 10> U_;  // first: these are the most strictly aligned
-  Exchanged now_;
+  few::Table now_;
   Dozen sizes_;  ///< sum_i |u_ij| lengths_i
   const Eigen::VectorXd* V_;
   const LinkRows* rows_ = nullptr;
