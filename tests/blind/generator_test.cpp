@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "shapeid/models/simbody/simbody_robot.hpp"
-#include "shapeid/tests/blind/yardstick.hpp"
+#include "shapeid/tests/blind/parts/yardstick.hpp"
 #include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "shapeid/tests/blind/plan.hpp"
-#include "shapeid/tests/blind/score.hpp"
+#include "shapeid/tests/blind/parts/plan.hpp"
+#include "shapeid/tests/blind/parts/score.hpp"
 #include "shapeid/tests/motion/scratch.hpp"
 
 namespace shapeid::blind {

@@ -1,5 +1,5 @@
 // The scorer judged by answers whose worth is known.
-#include "shapeid/tests/blind/score.hpp"
+#include "shapeid/tests/blind/parts/score.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "shapeid/tests/blind/plan.hpp"
-#include "shapeid/tests/blind/score.hpp"
-#include "shapeid/tests/blind/yardstick.hpp"
+#include "shapeid/tests/blind/parts/plan.hpp"
+#include "shapeid/tests/blind/parts/score.hpp"
+#include "shapeid/tests/blind/parts/yardstick.hpp"
 
 namespace {
 

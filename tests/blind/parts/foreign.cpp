@@ -1,4 +1,4 @@
-#include "shapeid/tests/blind/foreign.hpp"
+#include "shapeid/tests/blind/parts/foreign.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "shapeid/tests/blind/yardstick.hpp"
+#include "shapeid/tests/blind/parts/yardstick.hpp"
 
 #include <Eigen/Cholesky>
 

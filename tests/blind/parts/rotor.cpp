@@ -1,4 +1,4 @@
-#include "shapeid/tests/blind/rotor.hpp"
+#include "shapeid/tests/blind/parts/rotor.hpp"
 
 #include "shapeid/reference/kinematics.hpp"
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "shapeid/tests/blind/ingredients.hpp"
+#include "shapeid/tests/blind/parts/ingredients.hpp"
 
 namespace shapeid::blind {
 

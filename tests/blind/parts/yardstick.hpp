@@ -7,7 +7,7 @@
 
 #include "shapeid/diagnosis/recording.hpp"
 #include "shapeid/diagnosis/rich_model.hpp"
-#include "shapeid/tests/blind/trial.hpp"
+#include "shapeid/tests/blind/parts/trial.hpp"
 
 namespace shapeid::blind {
 

@@ -1,4 +1,4 @@
-#include "shapeid/tests/blind/plan.hpp"
+#include "shapeid/tests/blind/parts/plan.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
-#include "shapeid/tests/blind/yardstick.hpp"
+#include "shapeid/tests/blind/parts/yardstick.hpp"
 
 namespace shapeid::blind {
 namespace {

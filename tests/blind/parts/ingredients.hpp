@@ -15,7 +15,7 @@
 #include "shapeid/models/simbody/ground.hpp"
 #include "shapeid/models/simbody/load.hpp"
 #include "shapeid/models/simbody/random.hpp"
-#include "shapeid/tests/blind/machine.hpp"
+#include "shapeid/tests/blind/parts/machine.hpp"
 
 namespace shapeid::blind {
 

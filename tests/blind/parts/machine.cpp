@@ -1,4 +1,4 @@
-#include "shapeid/tests/blind/machine.hpp"
+#include "shapeid/tests/blind/parts/machine.hpp"
 
 #include "shapeid/models/simbody/random.hpp"
 #include "shapeid/models/urdf.hpp"

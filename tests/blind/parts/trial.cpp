@@ -1,4 +1,4 @@
-#include "shapeid/tests/blind/trial.hpp"
+#include "shapeid/tests/blind/parts/trial.hpp"
 
 #include <algorithm>
 

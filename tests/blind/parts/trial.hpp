@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "shapeid/tests/blind/ingredients.hpp"
+#include "shapeid/tests/blind/parts/ingredients.hpp"
 
 namespace shapeid::blind {
 

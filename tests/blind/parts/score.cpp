@@ -1,4 +1,4 @@
-#include "shapeid/tests/blind/score.hpp"
+#include "shapeid/tests/blind/parts/score.hpp"
 
 #include <fmt/format.h>
 

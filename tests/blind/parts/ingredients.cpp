@@ -1,10 +1,10 @@
-#include "shapeid/tests/blind/ingredients.hpp"
+#include "shapeid/tests/blind/parts/ingredients.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
-#include "shapeid/tests/blind/foreign.hpp"
-#include "shapeid/tests/blind/rotor.hpp"
+#include "shapeid/tests/blind/parts/foreign.hpp"
+#include "shapeid/tests/blind/parts/rotor.hpp"
 
 namespace shapeid::blind {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "shapeid/tests/blind/trial.hpp"
+#include "shapeid/tests/blind/parts/trial.hpp"
 
 namespace shapeid::blind {
 
