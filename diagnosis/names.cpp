@@ -6,6 +6,7 @@
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/contact_flags.hpp"
+#include "shapeid/diagnosis/contest.hpp"
 #include "shapeid/diagnosis/placebo.hpp"
 
 namespace shapeid::diagnosis {

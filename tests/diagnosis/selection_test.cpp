@@ -193,6 +193,21 @@ TEST(Selection, GroupsShowTogetherAndAreJudgedOneByOne) {
   for (const Verdict& v : s.accepted) EXPECT_TRUE(v.by_itself) << v.candidate;
 }
 
+TEST(Selection, MembersWithAnImpossibleSignLeaveTheirGroup) {
+  Effect friction = law("friction");
+  friction.parameters[0].nonnegative = true;
+  Planted log(18);
+  Numbers drives;
+  for (int site = 0; site < 6; ++site) drives.push_back(log.add(friction, log.normal(1), site));
+  log.add_group(drives);
+  for (const std::size_t k : drives) {
+    log.plant(k, number(Planted::size_of(k == drives[4] ? -12.0 : 12.0)));
+  }
+  log.add_noise();
+  std::erase(drives, drives[4]);
+  EXPECT_EQ(accepted(log.selection()), drives);
+}
+
 /// What is too small to be named by itself, and came with the others, is said to be so.
 TEST(Selection, SmallMembersOfAGroupAreNotThereByThemselves) {
   int small = 0;
