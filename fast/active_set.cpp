@@ -19,7 +19,7 @@ constexpr double of_little_use = 1.0 / 3.0;
 
 /// What an answer must satisfy to be given out: every gradient entry that should be zero or
 /// positive is so to this share of its terms. The objective is then within as much of its minimum,
-/// in units of || c ||^2.
+/// in units of || b ||^2.
 constexpr double allowed_slope = 1e-10;
 
 }  // namespace
@@ -159,7 +159,8 @@ void ActiveSet::enter_with_mass(int j, double mass) noexcept {
       }
     }
     for (std::size_t i = 0; i < masses.size(); ++i) {
-      masses[i] += moved * coefficients_[static_cast<Eigen::Index>(i)];
+      // Of two that are at zero together one may be a rounding below.
+      masses[i] = std::max(0.0, masses[i] + moved * coefficients_[static_cast<Eigen::Index>(i)]);
     }
     if (leaving == masses.size()) return;
     mass -= moved;

@@ -42,7 +42,7 @@ class Division {
   };
 
   /// Divides the shape of the largest v, or the `at_once` shapes of the largest v, and solves once.
-  /// The triangle of start() must still be there.
+  /// The triangle of start() must still be there, and start() have solved it.
   Step divide(int at_once = 1) noexcept;
 
   enum class Stop { step, limit, nothing_divisible, declined };

@@ -24,17 +24,18 @@ const IdentifierSettings& checked(const IdentifierSettings& settings) {
   if (settings.window > longest || settings.stride > longest) {
     throw InputError("a window or stride of more than a billion samples", "some dozens");
   }
-  if (!(settings.expected_mass > 0.0)) {
-    throw InputError("the expected mass is not positive", "kg, of all free shapes together");
+  if (!(settings.expected_mass > 0.0) || !std::isfinite(settings.expected_mass)) {
+    throw InputError("the expected mass is no positive number", "kg, of all free shapes together");
   }
   if (!(settings.alpha > 0.0 && settings.alpha <= 1.0)) {
     throw InputError("alpha of filter (17) is not in (0, 1]", "1 does not smooth");
   }
-  if (settings.lambda && !(*settings.lambda >= 0.0)) {
-    throw InputError("lambda is negative", "zero or positive");
+  if (settings.lambda && (!(*settings.lambda >= 0.0) || !std::isfinite(*settings.lambda))) {
+    throw InputError("lambda is negative, or no number", "zero or positive");
   }
-  if (settings.mass_bound && !(*settings.mass_bound > 0.0)) {
-    throw InputError("the mass bound is not positive", "kg, of all free shapes together");
+  if (settings.mass_bound &&
+      (!(*settings.mass_bound > 0.0) || !std::isfinite(*settings.mass_bound))) {
+    throw InputError("the mass bound is no positive number", "kg, of all free shapes together");
   }
   return settings;
 }

@@ -53,7 +53,6 @@ class Kinematics {
 
   [[nodiscard]] int link_count() const noexcept { return static_cast<int>(links_.size()); }
   [[nodiscard]] int base_dof() const noexcept { return base_dof_; }
-  [[nodiscard]] int dof() const noexcept { return base_dof_ + link_count() - 1; }
 
   /// Of any link but the root. The joint that carries it is number link - 1.
   [[nodiscard]] int parent(int link) const noexcept { return of(link).parent; }

@@ -24,13 +24,6 @@ constexpr double well_spread = 1e-2;
 constexpr double smallest_distance = 1e-2;
 
 using Rows = LinkDensity::Rows;
-using FourPlaces = std::uint64_t __attribute__((vector_size(32)));
-
-constexpr FourPlaces places[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
-
-/// The bits of a number that hold a place among the dozen.
-constexpr std::uint64_t lanes = 15;
-
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Rotations with the rows of the triangle, one after the other, make the new row zero.
@@ -98,11 +91,11 @@ SHAPEID_WIDE bool remove_row(Rows& X, const double* ten) noexcept {
   for (std::size_t p = 0; p < 3; ++p) {
     const Four here = open.part[p] * x.part[p];
     const Four marked =
-        reinterpret_cast<Four>((reinterpret_cast<FourPlaces>(here) & ~lanes) | places[p]);
+        reinterpret_cast<Four>((reinterpret_cast<FourBits>(here) & ~place_bits) | dozen_places[p]);
     most = marked > most ? marked : most;
   }
   const double one = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
-  return std::bit_cast<std::uint64_t>(one) & lanes;
+  return std::bit_cast<std::uint64_t>(one) & place_bits;
 }
 
 /// What the ten columns measure, from the squares of their lengths: masses, first moments (mass and
@@ -133,7 +126,7 @@ SHAPEID_WIDE Ranks reveal_rank(const Rows& X, int most, Rows& E,
   const Dozen sizes = sizes_of(squares_from(X, 0));
   Dozen open;
   for (std::size_t p = 0; p < 3; ++p) {
-    open.part[p] = places[p] < std::uint64_t{10} ? Four{} + 1.0 : Four{};
+    open.part[p] = dozen_places[p] < std::uint64_t{10} ? Four{} + 1.0 : Four{};
     const Four inverse = 1.0 / sizes.part[p];
     for (std::size_t i = 0; i < 10; ++i) E[i].part[p] = inverse * X[i].part[p];
   }
@@ -153,7 +146,7 @@ SHAPEID_WIDE Ranks reveal_rank(const Rows& X, int most, Rows& E,
     for (std::size_t i = k; i < 10; ++i) add(s, scale * v[i], E[i]);
     for (std::size_t i = k; i < 10; ++i) add(E[i], -v[i], s);
     for (std::size_t p = 0; p < 3; ++p) {
-      open.part[p] = places[p] == pivot ? Four{} : open.part[p];
+      open.part[p] = dozen_places[p] == pivot ? Four{} : open.part[p];
     }
     pivots[k] = static_cast<int>(pivot);
     ranks.rank = static_cast<int>(k) + 1;

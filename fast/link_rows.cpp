@@ -11,7 +11,7 @@ namespace {
 
 using Ten = std::array<Dozen, 10>;
 
-/// A residual whose square is below this share of || c ||^2 is rounding of its own sums.
+/// A residual whose square is below this share of || b ||^2 is rounding of its own sums.
 constexpr double residual_rounding = 1e-30;
 
 /// Four columns from x on become parts of four rows, and their absolute values are added to `sum`.
@@ -170,7 +170,7 @@ SHAPEID_WIDE void settle_masses(const Data& data, const AtPlaces& passive, doubl
     Dozen size = slope;
     for (Four& part : size.part) take_sign(part);
     const bool is_settled = !any_above(size, allowed, used);
-    // Slopes are small beside || c ||. Where the rows are met almost exactly, masses have more
+    // Slopes are small beside || b ||. Where the rows are met almost exactly, masses have more
     // digits than that shows, and one more correction gains them, until the residual is rounding.
     const bool is_exact = settled.at.square + limits.unreached < limits.exact * length * length;
     const bool is_rounding = settled.at.square <= residual_rounding * length * length;

@@ -60,8 +60,10 @@ bool MassSolver::add(int link, const Column& u, double V) noexcept {
 }
 
 void MassSolver::set_lambda(double lambda) noexcept {
+  if (lambda == lambda_) return;
   lambda_ = lambda;
   guess_ = nullptr;
+  has_answer_ = false;
   if (lambda > 0.0) even_.set_lambda(lambda);
   method_.use(*vertex_, 0.0);
   at_vertex_ = true;
@@ -72,10 +74,12 @@ void MassSolver::forget_masses() noexcept {
   take_masses_out();
   method_.clear();
   at_vertex_ = true;
+  has_answer_ = false;
 }
 
 void MassSolver::start_at(int j, double mass) noexcept {
   guess_ = nullptr;
+  has_answer_ = false;
   method_.start_at(j, mass);
   m_[j] = mass;
 }
@@ -94,15 +98,19 @@ Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
     }
   }
   if (has_many) see_what_stayed();
+  has_answer_ = true;
   return Outcome::solved;
 }
 
 Outcome MassSolver::solve_again() noexcept {
   if (guess_ != nullptr && guess_again()) {
     start_watching();
+    has_answer_ = true;
     return Outcome::solved;
   }
-  return solve_by_method();
+  const Outcome outcome = solve_by_method();
+  has_answer_ = has_answer_ || outcome == Outcome::solved;
+  return outcome;
 }
 
 // Rounding of many divisions, perhaps: once more from the rows.
@@ -275,7 +283,7 @@ void MassSolver::give(int j, double mass) noexcept {
 // than rounding. No vector is made, so that a call asks for no memory where contracts are checked
 // either.
 Violation MassSolver::why_changed() const {
-  if (!method_.has_rows()) return std::nullopt;
+  if (!has_answer_) return std::nullopt;
   const Eigen::VectorXd& rows = method_.lengths();
   double density = 0.0, felt = 0.0, square = 0.0;
   for (const int j : passive()) {

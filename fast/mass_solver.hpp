@@ -51,7 +51,7 @@ class MassSolver {
   [[nodiscard]] bool divide(int j, const Column& first, double V1, const Column& second,
                             double V2) noexcept;
   /// Empty if R U m and the density term still are those of the last answer, to rounding: what
-  /// divide() promises. Only after solve().
+  /// divide() promises. Also empty if there is no last answer, or masses were set since.
   [[nodiscard]] Violation why_changed() const;
   /// Solves again, for the triangle of the last solve(), after divide().
   Outcome solve_again() noexcept;
@@ -103,6 +103,7 @@ class MassSolver {
   bool only_massless_ = false;  ///< no others were divided
   bool most_stay_ = true;       ///< passive from one triangle to the next; clear() keeps it
   bool is_new_ = false;         ///< the triangle
+  bool has_answer_ = false;     ///< masses are those of the last answer, or were divided since
   bool at_vertex_ = true;       ///< where the next call may start, for lambda > 0
   FewShapes few_;               ///< a guess where a link has few shapes
   LinkTable table_;             ///< and where it has more

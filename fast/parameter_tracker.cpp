@@ -1,7 +1,9 @@
 #include "shapeid/fast/parameter_tracker.hpp"
 
 #include <Eigen/Cholesky>
+
 #include <cmath>
+#include <limits>
 
 namespace shapeid::fast {
 
@@ -16,7 +18,13 @@ void ParameterTracker::set(const Eigen::VectorXd& mean, const Eigen::MatrixXd& c
   // x0.
   const Eigen::VectorXd unit = spread_.cwiseInverse();
   const Eigen::MatrixXd P = unit.asDiagonal() * covariance * unit.asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> llt(P);
+  Eigen::LLT<Eigen::MatrixXd> llt(P);
+  if (llt.info() != Eigen::Success) {
+    // What is known to more digits than a double has beside the rest is known to as many.
+    const double rounding =
+        static_cast<double>(P.rows()) * std::numeric_limits<double>::epsilon() * P.trace();
+    llt.compute(P + rounding * Eigen::MatrixXd::Identity(P.rows(), P.cols()));
+  }
   Eigen::MatrixXd rows(mean.size(), mean.size() + 1);
   rows.leftCols(mean.size()) = unit.asDiagonal();
   rows.col(mean.size()) = unit.cwiseProduct(mean);

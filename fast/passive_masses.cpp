@@ -26,7 +26,7 @@ constexpr double told_apart = 1e-9;
 /// digits of the golden ratio.
 constexpr std::uint64_t some_signs = 0x9E3779B97F4A7C15;
 
-/// A residual's square below this share of || c ||^2 comes from rows without noise: sensors leave
+/// A residual's square below this share of || b ||^2 comes from rows without noise: sensors leave
 /// more than a millionth, a hundred times this root.
 constexpr double met_exactly = 1e-16;
 
@@ -79,8 +79,10 @@ void PassiveMasses::scale_prices() noexcept {
 }
 
 void PassiveMasses::set_lambda(double lambda) noexcept {
-  lambda_ = lambda;
   evaluated_ = false;
+  if (lambda == lambda_) return;
+  lambda_ = lambda;
+  for (std::size_t i = 0; i < passive_.size(); ++i) stiffness_[i] = lambda / (*V_)[passive_[i]];
 }
 
 void PassiveMasses::clear() noexcept {
@@ -215,7 +217,8 @@ bool PassiveMasses::damp(ColumnSet& set, double lambda) noexcept {
   for (std::size_t i = 0; i < passive_.size(); ++i) stiffness_[i] = lambda / (*V_)[passive_[i]];
   evaluated_ = false;
   tried_ = masses_;
-  if (settle(set) && is_at_a_vertex()) return true;
+  // Of a stiffness that overflows no mass is a number.
+  if (settle(set) && std::isfinite(value_.total()) && is_at_a_vertex()) return true;
   masses_ = tried_;
   evaluated_ = false;
   return false;
@@ -261,6 +264,7 @@ bool PassiveMasses::settles_at(Guess& guess) noexcept {
 // All others were asked at the same slopes.
 bool PassiveMasses::stays_settled(const std::vector<int>& massless) noexcept {
   corrections_ = 0;
+  scale_prices();
   const double threshold = lambda_ > 0.0 ? -certainly_held : smallest_slope;
   return std::ranges::all_of(massless, [this, threshold](int j) {
     return columns_->price(j, columns_->column(j).dot(slopes_)) <= threshold;

@@ -112,7 +112,7 @@ class PassiveMasses {
   [[nodiscard]] const LinkRows& link_rows() const noexcept { return rows_->link; }
   /// Upper bounds of the lengths of the columns of R.
   [[nodiscard]] const Eigen::VectorXd& lengths() const noexcept { return rows_->lengths; }
-  /// Of c.
+  /// Of b, the last column of the triangle.
   [[nodiscard]] double length() const noexcept { return rows_->length; }
 
  private:
@@ -120,7 +120,7 @@ class PassiveMasses {
     LinkRows link;  ///< where there is one link only
     const Eigen::MatrixXd* R = nullptr;
     Eigen::VectorXd lengths;  ///< of the columns of R, from above
-    double length = 0.0;      ///< of c
+    double length = 0.0;      ///< of b
   };
 
   void evaluate_links() noexcept;

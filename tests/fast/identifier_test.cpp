@@ -222,11 +222,15 @@ TEST(FastIdentifier, RefusesSettingsThatMakeNoSense) {
   refused("a window or stride", [](auto& s) { s.stride = 0; });
   refused("a window or stride", [](auto& s) { s.window = static_cast<std::size_t>(-1); });
   refused("a window or stride", [](auto& s) { s.stride = static_cast<std::size_t>(-1); });
-  refused("the expected mass is not positive", [](auto& s) { s.expected_mass = 0.0; });
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  refused("the expected mass is no positive number", [](auto& s) { s.expected_mass = 0.0; });
+  refused("the expected mass is no positive number", [](auto& s) { s.expected_mass = infinity; });
   refused("alpha", [](auto& s) { s.alpha = 0.0; });
   refused("alpha", [](auto& s) { s.alpha = 1.5; });
   refused("lambda is negative", [](auto& s) { s.lambda = -1.0; });
-  refused("the mass bound is not positive", [](auto& s) { s.mass_bound = 0.0; });
+  refused("lambda is negative, or no number", [](auto& s) { s.lambda = infinity; });
+  refused("the mass bound is no positive number", [](auto& s) { s.mass_bound = 0.0; });
+  refused("the mass bound is no positive number", [](auto& s) { s.mass_bound = infinity; });
   refused("the weight", [](auto& s) { s.weight = Eigen::VectorXd::Ones(1); });
   refused("the weight", [](auto& s) { s.weight = Eigen::VectorXd::Zero(18); });
   refused("", [](auto& s) { s.division.k1 = -1.0; });

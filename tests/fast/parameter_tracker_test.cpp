@@ -28,6 +28,24 @@ struct Textbook {
   }
 };
 
+/// What is known to more digits than a double has beside what is not known at all stays a number.
+TEST(ParameterTracker, StaysANumberWhereOneIsKnownFarBetter) {
+  constexpr Index n = 4;
+  ParameterTracker tracker(VectorXd::Ones(n), VectorXd::Ones(n), VectorXd::Zero(n));
+  MatrixXd rows(2, n + 1);
+  rows << 1.0, 1.0, 1.0, 0.3, 7.0, 1.0, 1.0 + 1e-9, 1.0, -0.2, 5.0;
+  for (int k = 0; k < 20; ++k) {
+    Triangle window(n);
+    MatrixXd taken = rows;
+    window.absorb(taken);
+    tracker.measure(window, 1e-28);
+    tracker.drift(0.02);
+    ASSERT_TRUE(tracker.mean().allFinite()) << k;
+    ASSERT_TRUE(tracker.covariance().allFinite()) << k;
+  }
+  EXPECT_NEAR(rows.row(0).head(n).dot(tracker.mean()), 7.0, 1e-6);
+}
+
 RC_GTEST_PROP(ParameterTracker, EqualsTheTextbook, ()) {
   const auto n = *rc::gen::inRange<Index>(1, 8);
   const VectorXd start = *test::vector(n, 2.0);
