@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -21,12 +22,16 @@ namespace {
 
 /// Whether a log, as seen through its mapping, has an IMU.
 bool has_imu(const LogTable& log, const std::optional<Mapping>& mapping) {
-  const auto starts_with_base = [](const std::string& name) { return name.starts_with("base."); };
+  const auto is_of_base = [](const std::string& name) {
+    return std::ranges::any_of(
+        std::array{"base.gyro.", "base.accel.", "base.quat.", "base.gyrodot."},
+        [&](const char* quantity) { return name.starts_with(quantity); });
+  };
   if (mapping && std::any_of(mapping->columns.begin(), mapping->columns.end(),
-                             [&](const auto& rule) { return starts_with_base(rule.first); })) {
+                             [&](const auto& rule) { return is_of_base(rule.first); })) {
     return true;
   }
-  return std::any_of(log.columns().begin(), log.columns().end(), starts_with_base);
+  return std::any_of(log.columns().begin(), log.columns().end(), is_of_base);
 }
 
 /// robot.yaml beside the URDF, under the URDF's name or plainly, if there is one.
@@ -147,6 +152,12 @@ RobotInputs read_robot(const MotionInputs& inputs, const LogTable& log) {
   }
   if (!result.notes.contacts_given) add_default_contacts(result.robot, log, result.mapping);
   if (inputs.contacts == "measured") check_measured(result.robot);
+  if (options.root == Root::floating && inputs.contacts == "auto" &&
+      result.robot.contacts.empty()) {
+    result.warnings.push_back(
+        "no contacts in robot.yaml and no contact.* in the log: the robot is taken to touch "
+        "nothing (--contacts none says so)");
+  }
   return result;
 }
 
@@ -178,9 +189,8 @@ MotionOptions motion_options(const MotionInputs& inputs, const Robot& robot) {
   options.smoothing = inputs.causal ? Smoothing::causal : Smoothing::zero_phase;
   if (inputs.exact || inputs.cutoff == 0.0) options.smoothing = Smoothing::none;
   if (inputs.cutoff != 0.0) options.cutoff = inputs.cutoff;
-  if (contact_treatment(inputs, robot) == ContactTreatment::project) {
-    options.derive_contacts = contact_rule(inputs, robot);
-  }
+  options.contacts_needed = contact_treatment(inputs, robot) == ContactTreatment::project;
+  if (options.contacts_needed) options.derive_contacts = contact_rule(inputs, robot);
   return options;
 }
 

@@ -42,7 +42,8 @@ TrackSettings settings_for(const Options& options, const RobotInputs& robot,
   estimates.natural_size = reference::natural_sizes(model, identifier.expected_mass);
   settings.stream.cutoff = options.cutoff;
   settings.stream.rate = options.inputs.rate;
-  if (identifier.contacts == ContactTreatment::project) {
+  settings.stream.contacts_needed = identifier.contacts == ContactTreatment::project;
+  if (settings.stream.contacts_needed) {
     settings.stream.derive_contacts = contact_rule(options.inputs, robot.robot);
     settings.contact_threshold = options.inputs.contact_threshold;
   }

@@ -164,12 +164,14 @@ void check_root(Finder& finder, const std::string& path, const Robot& robot) {
   for (const std::string& name : with_axes("base.accel")) base.push_back(name);
   const bool floating = finder.has_any(base);
   if (floating && robot.root == Root::fixed) {
-    throw InputError({path, header_line}, "has base.* columns, but the robot's root is fixed",
+    throw InputError({path, header_line},
+                     "has base.gyro.* or base.accel.* columns, but the robot's root is fixed",
                      "read the robot with a floating root, or leave the base.* columns out");
   }
   if (!floating && robot.root == Root::floating) {
     throw InputError(
-        {path, header_line}, "has no base.* columns, but the robot's root floats",
+        {path, header_line},
+        "has no base.gyro.* and base.accel.* columns, but the robot's root floats",
         "read the robot with a fixed root, or log base.gyro.{x,y,z} and base.accel.{x,y,z}");
   }
 }

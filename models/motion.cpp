@@ -49,13 +49,15 @@ struct MotionReader::State {
     if (options.use_logged_velocity && plan.dq < 0) {
       throw InputError({path}, "has no dq.* columns", "log them, or do not ask to use them");
     }
-    if (!robot.contacts.empty() && plan.contacts.empty() && !options.derive_contacts) {
+    report.contacts_logged = !plan.contacts.empty();
+    report.contacts_derived =
+        !robot.contacts.empty() && plan.contacts.empty() && options.derive_contacts != nullptr;
+    if (options.contacts_needed && !robot.contacts.empty() && !report.contacts_logged &&
+        !report.contacts_derived) {
       throw InputError({path}, "has no contact.* columns, but the robot has contacts",
                        "log a flag for each (0 in the air), or have them derived");
     }
     report.floating = plan.floating();
-    report.contacts_logged = !plan.contacts.empty();
-    report.contacts_derived = !robot.contacts.empty() && plan.contacts.empty();
     report.forces_logged = plan.force >= 0;
     report.extra = plan.extra;
     if (plan.dq < 0) {

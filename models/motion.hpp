@@ -40,6 +40,9 @@ struct MotionOptions {
   bool exact_derivatives = false;
   /// Decides contacts when the log has no contact columns, e.g. from -J^-T (tau - given model).
   ContactRule derive_contacts;
+  /// Refuse the log of a robot with contacts if it has no contact columns and nothing decides them.
+  /// Otherwise its samples have no flags.
+  bool contacts_needed = true;
   /// What becomes of samples near a change of contact.
   ContactChange at_contact_change = ContactChange::widen;
   /// s before and after a change that count as near. Empty: 1 / (2 cutoff), from where on

@@ -24,7 +24,8 @@ SampleStream::SampleStream(std::string path, const ChannelPlan& plan, const Robo
       imu_(imu),
       options_(std::move(options)),
       margin_(ContactChange::widen, margin_periods / options_.cutoff) {
-  if (!robot.contacts.empty() && plan.contacts.empty() && !options_.derive_contacts) {
+  if (options_.contacts_needed && !robot.contacts.empty() && plan.contacts.empty() &&
+      !options_.derive_contacts) {
     throw InputError({path_}, "has no contact.* columns, but the robot has contacts",
                      "log a flag for each (0 in the air), or have them derived");
   }
@@ -70,7 +71,7 @@ void SampleStream::take(const MeasuredRow& row) {
 
 void SampleStream::settle() {
   while (std::optional<FlaggedSample> sample = segments_->next()) {
-    if (plan_.contacts.empty() && !robot_.contacts.empty()) {
+    if (plan_.contacts.empty() && !robot_.contacts.empty() && options_.derive_contacts) {
       const std::optional<std::vector<bool>> derived = options_.derive_contacts(sample->sample);
       sample->contacts.assign(robot_.contacts.size(), -1);
       if (derived) sample->contacts.assign(derived->begin(), derived->end());

@@ -19,6 +19,7 @@ struct StreamOptions {
   double cutoff = 20.0;         ///< Hz, -3 dB; one pass of second order, every channel alike
   double rate = 0.0;            ///< Hz of the grid; 0: the median of the first rows
   ContactRule derive_contacts;  ///< for logs without flags
+  bool contacts_needed = true;  ///< as in MotionOptions
 };
 
 /// What MotionReader does for a causal stream, with rows pushed in instead of pulled from a file.

@@ -77,10 +77,11 @@ class Lumper {
     }
     if (!j.mimic) return std::nullopt;
     if (!options_.lock_mimic) {
-      throw InputError({document_.file, j.line, {}},
-                       fmt::format("joint {} mimics {}, a coupling that is not modelled",
-                                   j.joint.name, j.mimic->joint),
-                       "lock the mimic joints, or remove <mimic> if this joint moves on its own");
+      throw InputError(
+          {document_.file, j.line, {}},
+          fmt::format("joint {} mimics {}, a coupling that is not modelled", j.joint.name,
+                      j.mimic->joint),
+          "make it fixed in the URDF, or remove <mimic> if this joint moves on its own");
     }
     notes_.add(fmt::format("mimic joints locked at {:g}", j.mimic->offset), j.joint.name);
     return j.mimic->offset;

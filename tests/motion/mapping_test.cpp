@@ -194,7 +194,8 @@ TEST(Channels, SayWhatALogLacks) {
       {"time,q.j0,tau.j0\n", "keep_rows: {new: 1}",
        "x.csv:1: has no column new; the mapping keeps rows by it"},
       {"time,q.j0,tau.j0,base.gyro.x\n", "",
-       "x.csv:1: has base.* columns, but the robot's root is fixed; read the robot with a floating "
+       "x.csv:1: has base.gyro.* or base.accel.* columns, but the robot's root is fixed; read the "
+       "robot with a floating "
        "root, or leave the base.* columns out"},
       {"time,q.j0,tau.j0,contact.foot\n", "",
        "x.csv:1, column contact.foot: the robot has no link foot; name links of the URDF, and "
@@ -226,7 +227,8 @@ TEST(Channels, SayWhatALogLacks) {
     EXPECT_EQ(reception(broken.log, chain(1, Root::fixed), broken.mapping), broken.message);
   }
   EXPECT_EQ(reception("time,q.j0,tau.j0\n", chain(1, Root::floating), ""),
-            "x.csv:1: has no base.* columns, but the robot's root floats; read the robot with a "
+            "x.csv:1: has no base.gyro.* and base.accel.* columns, but the robot's root floats; "
+            "read the robot with a "
             "fixed root, or log base.gyro.{x,y,z} and base.accel.{x,y,z}");
   EXPECT_EQ(reception("time,q.j0,tau.j0,base.gyro.x,base.gyro.y,base.gyro.z\n",
                       chain(1, Root::floating), ""),

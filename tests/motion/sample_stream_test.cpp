@@ -148,6 +148,10 @@ TEST(SampleStream, DerivesContactsAsTheReaderDoes) {
   EXPECT_GT(touching, 100U);
   EXPECT_LT(touching, samples.size() - 100U);
   EXPECT_THROW(static_cast<void>(log.stream(streamed())), InputError);
+  StreamOptions without = streamed();
+  without.contacts_needed = false;
+  SampleStream bare = log.stream(without);
+  EXPECT_TRUE(drained(bare, log.rows).at(0).in_contact.empty());
 }
 
 // Two poles: 1 / (2 rate tan(pi fc / rate) sin(pi / 4)), on a grid that was asked for.

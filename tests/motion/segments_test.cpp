@@ -269,6 +269,22 @@ TEST_F(Contacts, NoMarginKeepsAllThatIsKnown) {
   EXPECT_EQ(touching, 500u);
 }
 
+/// Who does not ask for contacts needs no flags; who does is told.
+TEST_F(Contacts, NeedNotBeLoggedIfNobodyNeedsThem) {
+  const Robot bare = chain(3, Root::floating);
+  const auto path = scratch_.path("c.csv");
+  write_log(path, bare, regular_times(0.0, 500.0, 3000),
+            [&](double t) { return smooth_motion(bare, t); });
+  MotionOptions options;
+  EXPECT_THROW(static_cast<void>(read_motion(path, robot_, options)), InputError);
+  options.contacts_needed = false;
+  const auto [samples, report] = read_motion(path, robot_, options);
+  EXPECT_FALSE(report.contacts_derived);
+  EXPECT_FALSE(report.contacts_logged);
+  EXPECT_GT(samples.size(), 2900u);
+  EXPECT_TRUE(samples.front().in_contact.empty());
+}
+
 TEST_F(Contacts, AreDerivedByTheCallersRuleWhenNotLogged) {
   const Robot bare = chain(3, Root::floating);
   const auto path = scratch_.path("b.csv");

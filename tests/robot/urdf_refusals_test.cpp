@@ -220,7 +220,7 @@ const std::vector<Broken>& cases() {
       {"AxisOfTwo", joint("revolute", "\n<axis xyz=\"0 1\"/>"),
        "r.urdf:6: xyz of <axis> has 2 numbers (\"0 1\"); write three, with blanks between them"},
       {"Mimic", joint("revolute", "<axis xyz=\"0 0 1\"/><mimic joint=\"k\"/>"),
-       "r.urdf:4: joint j mimics k, a coupling that is not modelled; lock the mimic joints, or "
+       "r.urdf:4: joint j mimics k, a coupling that is not modelled; make it fixed in the URDF, or "
        "remove <mimic> if this joint moves on its own"},
       {"TwoOrigins", joint("revolute", "\n<origin/>\n<origin/>"),
        "r.urdf:7: a second <origin> in <joint>; keep one"},

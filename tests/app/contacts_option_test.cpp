@@ -1,0 +1,91 @@
+// What is asked of a log about contacts, by --contacts, and what is said where nothing is known.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "shapeid/app/inputs.hpp"
+#include "shapeid/models/log.hpp"
+#include "shapeid/models/log_writer.hpp"
+#include "shapeid/tests/app/command.hpp"
+
+namespace shapeid::test {
+namespace {
+
+const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
+
+/// A simulated trot without the columns whose names begin so; its path.
+std::string trot_without(const std::string& prefix) {
+  EXPECT_EQ(shapeid("simulate --seconds 3 --out trot.csv").status, 0);
+  LogReader log(scratch() + "/trot.csv");
+  std::vector<std::size_t> kept;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < log.columns().size(); ++i) {
+    if (log.columns()[i].starts_with(prefix)) continue;
+    kept.push_back(i);
+    names.push_back(log.columns()[i]);
+  }
+  EXPECT_LT(kept.size(), log.columns().size());
+  const std::string path = scratch() + "/fewer.csv";
+  LogWriter out(path, names);
+  while (const std::optional<LogRow> row = log.next()) {
+    std::vector<double> values;
+    for (const std::size_t i : kept) values.push_back(row->values[i]);
+    out.write(values);
+  }
+  out.close();
+  return path;
+}
+
+app::MotionInputs inputs_for(const std::string& log) {
+  app::MotionInputs inputs;
+  inputs.robot = robots + "quadruped.urdf";
+  inputs.log = log;
+  inputs.robot_yaml = scratch_file("no_contacts.yaml", "noise: {tau: 1}\n");
+  return inputs;
+}
+
+TEST(ContactsOption, WhoDoesNotAskForContactsNeedsNoFlags) {
+  app::MotionInputs inputs = inputs_for(trot_without("contact."));
+  inputs.robot_yaml = robots + "quadruped.robot.yaml";
+  for (const std::string& contacts : {std::string("auto"), std::string("none")}) {
+    inputs.contacts = contacts;
+    const app::RobotInputs robot = app::read_robot(inputs);
+    ASSERT_FALSE(robot.robot.contacts.empty());
+    app::LogSamples samples(inputs.log, robot, inputs);
+    ASSERT_TRUE(samples.next());
+    EXPECT_EQ(samples.report().contacts_derived, contacts == "auto");
+  }
+}
+
+TEST(ContactsOption, ARobotThatIsTakenToTouchNothingIsSaidTo) {
+  app::MotionInputs inputs = inputs_for(trot_without("contact."));
+  const auto is_said = [&] {
+    const std::vector<std::string> warnings = app::read_robot(inputs).warnings;
+    return std::ranges::any_of(warnings, [](const std::string& warning) {
+      return warning.find("taken to touch nothing") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(is_said());
+  inputs.contacts = "none";
+  EXPECT_FALSE(is_said());
+  inputs = inputs_for(scratch() + "/trot.csv");  // whose flags name the feet
+  EXPECT_FALSE(is_said());
+}
+
+TEST(ContactsOption, ARootFloatsByItsSensorsAlone) {
+  const std::string log = trot_without("base.");
+  EXPECT_EQ(app::read_robot(inputs_for(log)).robot.root, Root::fixed);
+  std::string text = read_file(log);
+  text.insert(text.find('\n'), ",base.temperature");
+  for (std::size_t at = text.find('\n'); (at = text.find('\n', at + 1)) != std::string::npos;) {
+    text.insert(at, ",20");
+    at += 3;
+  }
+  EXPECT_EQ(app::read_robot(inputs_for(scratch_file("warm.csv", text))).robot.root, Root::fixed);
+  EXPECT_EQ(app::read_robot(inputs_for(trot_without("base.accel."))).robot.root, Root::floating);
+}
+
+}  // namespace
+}  // namespace shapeid::test
