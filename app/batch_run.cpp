@@ -11,6 +11,7 @@
 #include "shapeid/app/in_parallel.hpp"
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/merge_order.hpp"
+#include "shapeid/app/recordings.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/reference/triangle.hpp"
 
@@ -227,6 +228,16 @@ void judge_refused(const std::vector<BatchLog>& logs, bool skip) {
   }
 }
 
+void check_all_contacts_alike(const std::vector<BatchLog>& logs, ContactTreatment contacts) {
+  const BatchLog* first = nullptr;
+  for (const BatchLog& log : logs) {
+    if (!log.refused.empty()) continue;
+    if (first == nullptr) first = &log;
+    check_contacts_alike({first->path, first->contacts_derived}, {log.path, log.contacts_derived},
+                         contacts);
+  }
+}
+
 /// What the logs' preparation did, as if they were one.
 MotionReport motion_of(const std::vector<BatchLog>& logs) {
   MotionReport motion;
@@ -247,6 +258,7 @@ MotionReport motion_of(const std::vector<BatchLog>& logs) {
 Result solved(const std::vector<BatchLog>& logs, std::vector<reference::RowBlock> blocks,
               const BatchOptions& options, const RobotInputs& robot, const BodyModel& model) {
   judge_refused(logs, options.skip_refused);
+  check_all_contacts_alike(logs, contact_treatment(options.inputs, robot.robot));
   if (blocks.size() < 2) {
     throw Refusal("too-short", "a single log has no spread to judge it by; identify it by itself");
   }

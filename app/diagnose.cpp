@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "shapeid/app/diagnosis_report.hpp"
 #include "shapeid/app/diagnosis_result.hpp"
+#include "shapeid/app/gnuplot.hpp"
 #include "shapeid/app/identification.hpp"
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/option_checks.hpp"
@@ -26,18 +28,20 @@ struct Options {
 };
 
 void write_files(const Options& options, const RobotInputs& robot, DiagnosisRun& run) {
-  const OutputFolder folder(options.delivery.folder);
   const Robot& r = robot.robot;
-  folder.write("identified.urdf", diagnosed_urdf(run, r, options.diagnose.inputs.robot));
+  std::string urdf = diagnosed_urdf(run, r, options.diagnose.inputs.robot);
   diagnosis::RichModel model = run.consistent.model;
   if (options.diagnose.curves) model.curves = run.curves;
-  folder.write("effects.yaml", diagnosis::write_effects_yaml(r, {model.effects, model.curves}));
-  folder.write("predict_torque.hpp", diagnosis::torque_header(r, model));
-  folder.write("result.json", json_text(diagnosis_json(run, r, options.diagnose), 2) + "\n");
-  folder.write("report.html", diagnosis_report(run, r, options.diagnose));
+  OutputFolder(options.delivery.folder)
+      .write({{"identified.urdf", std::move(urdf)},
+              {"effects.yaml", diagnosis::write_effects_yaml(r, {model.effects, model.curves})},
+              {"predict_torque.hpp", diagnosis::torque_header(r, model)},
+              {"result.json", json_text(diagnosis_json(run, r, options.diagnose), 2) + "\n"},
+              {"report.html", diagnosis_report(run, r, options.diagnose)}});
 }
 
 void diagnose(Options& options) {
+  if (!options.delivery.folder.empty()) check_gnuplot();
   const RobotInputs robot = read_robot(options.diagnose.inputs);
   DiagnosisRun run = run_diagnosis(robot, options.diagnose);
   if (!options.delivery.folder.empty()) write_files(options, robot, run);

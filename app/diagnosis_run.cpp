@@ -51,6 +51,13 @@ double expected_mass(const DiagnoseOptions& options, const RobotInputs& inputs,
   return mass;
 }
 
+/// Five samples a period of the filter's cutoff say all that is left in the signals.
+std::size_t stride_of(const MotionInputs& inputs, double rate) {
+  constexpr double samples_a_period = 5.0;
+  const double cutoff = inputs.cutoff > 0.0 ? inputs.cutoff : rate;
+  return static_cast<std::size_t>(std::max(1.0, rate / (samples_a_period * cutoff)));
+}
+
 diagnosis::LoopSettings settings_for(const RobotInputs& inputs, const DiagnoseOptions& options,
                                      const RecordedLog& log) {
   const Robot& robot = inputs.robot;
@@ -73,11 +80,8 @@ diagnosis::LoopSettings settings_for(const RobotInputs& inputs, const DiagnoseOp
           sizes.segment<10>(10 * static_cast<Eigen::Index>(i));
     }
   }
-  // Five samples a period of the filter's cutoff say all that is left in the signals.
-  constexpr double samples_a_period = 5.0;
+  settings.stride = stride_of(options.inputs, log.motion.rate);
   const double cutoff = options.inputs.cutoff > 0.0 ? options.inputs.cutoff : log.motion.rate;
-  settings.stride =
-      static_cast<std::size_t>(std::max(1.0, log.motion.rate / (samples_a_period * cutoff)));
   constexpr double longest_margin = 0.1;  // s
   settings.margin = std::min(0.5 / cutoff, longest_margin);
   return settings;
@@ -126,7 +130,7 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
   const Eigen::Index n = r.joint_count();
   diagnosis::RichModel nothing{Eigen::VectorXd::Zero(Eigen::Index{10} * r.link_count()), {}};
   const diagnosis::Series zero =
-      diagnosis::series(r, settings.rows, nothing, run.test, settings.stride);
+      diagnosis::series(r, settings.rows, nothing, run.test, run.test_stride);
   TestErrors errors;
   errors.where = options.test.empty() ? held_out_words(options.inputs)
                                       : fmt::format("{}", fmt::join(options.test, ", "));
@@ -148,7 +152,7 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
   errors.unfiltered_found = rms_of(run.after.residual.bottomRows(n) - rough, counted);
   errors.noise_floor = rms_of(rough, counted);
   if (options.inputs.cutoff > 0.0 && !options.inputs.exact) {
-    errors.noise_floor *= noise_left_over_taken(options.inputs.cutoff, run.motion.rate);
+    errors.noise_floor *= noise_left_over_taken(options.inputs.cutoff, run.test.rate());
   }
   return errors;
 }
@@ -195,9 +199,8 @@ std::vector<diagnosis::Structure> unnamed(const Robot& robot, const Recording& l
   for (const diagnosis::Found& f : run.loop.found) {
     if (!f.varies) continue;
     diagnosis::RichModel model = run.consistent.model;
-    const auto removed = std::erase_if(model.effects, [&](const diagnosis::AppliedEffect& a) {
-      return a.effect == f.effect.effect && a.site == f.effect.site;
-    });
+    const auto removed = std::erase_if(
+        model.effects, [&](const diagnosis::AppliedEffect& a) { return same_place(a, f.effect); });
     if (removed == 0) continue;
     list.push_back(diagnosis::unnamed(
         robot, log, diagnosis::series(robot, run.settings.rows, model, log, run.settings.stride),
@@ -289,8 +292,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   const std::optional<Part> test_part = split ? std::optional(Part::held_out) : std::nullopt;
   RecordedLog test = read_recordings(test_paths, robot, options.inputs, test_part,
                                      split ? log.shifts : std::vector<double>());
-  check_contacts_alike(options.inputs.log, log.motion, test_paths.front(), test.motion,
-                       log.contacts);
+  check_contacts_alike({options.inputs.log, log.motion.contacts_derived},
+                       {test_paths.front(), test.motion.contacts_derived}, log.contacts);
   MotionInputs unsmoothed = options.inputs;
   unsmoothed.cutoff = 0.0;
   const RecordedLog raw = read_recordings(test_paths, robot, unsmoothed, test_part, test.shifts);
@@ -298,8 +301,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   if (!options.reference.empty()) {
     earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);
     diagnosis::check_recording(robot.robot, earlier->recording, earlier->contacts);
-    check_contacts_alike(options.inputs.log, log.motion, options.reference, earlier->motion,
-                         log.contacts);
+    check_contacts_alike({options.inputs.log, log.motion.contacts_derived},
+                         {options.reference, earlier->motion.contacts_derived}, log.contacts);
   }
 
   DiagnosisRun run{settings_for(robot, options, log),
@@ -311,11 +314,12 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                    {},
                    {},
                    std::move(test.recording),
+                   stride_of(options.inputs, test.motion.rate),
                    {},
                    {},
                    log.motion,
                    robot.robot.notes};
-  if (run.test.usable(run.settings.stride).empty()) {
+  if (run.test.usable(run.test_stride).empty()) {
     throw Refusal("no-data", "nothing is left to test on; give --test, or a longer log");
   }
   diagnosis::check_clocks(robot.robot, log.recording, run.settings);
@@ -348,15 +352,14 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   run.notes.insert(run.notes.end(), robot.warnings.begin(), robot.warnings.end());
   run.notes.insert(run.notes.end(), log.motion.notes.begin(), log.motion.notes.end());
   const diagnosis::RichModel given{stacked_parameters(robot.robot), {}};
-  run.before =
-      diagnosis::series(robot.robot, run.settings.rows, given, run.test, run.settings.stride);
+  run.before = diagnosis::series(robot.robot, run.settings.rows, given, run.test, run.test_stride);
   run.after = diagnosis::series(robot.robot, run.settings.rows, run.consistent.model, run.test,
-                                run.settings.stride);
+                                run.test_stride);
   run.errors = test_errors(robot, options, run, raw.recording);
   run.errors.usual =
       diagnosis::series(robot.robot, run.settings.rows,
                         diagnosis::usual_model(robot.robot, log.recording, run.settings, run.loop),
-                        run.test, run.settings.stride)
+                        run.test, run.test_stride)
           .rms();
   // On the log itself, which is longer and has no error of the filter in it; curves are judged on
   // blocks that they were not fitted to.
@@ -370,8 +373,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                             log.recording, run.settings.stride);
   if (!run.curves.empty()) {
     run.errors.with_curves =
-        diagnosis::series(robot.robot, run.settings.rows, richest, run.test, run.settings.stride)
-            .rms();
+        diagnosis::series(robot.robot, run.settings.rows, richest, run.test, run.test_stride).rms();
   }
   const auto unnamed_effects = unnamed(robot.robot, log.recording, run);
   for (const diagnosis::Stranger& s : run.loop.strangers) {

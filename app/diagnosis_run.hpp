@@ -55,6 +55,7 @@ struct DiagnosisRun {
   std::vector<diagnosis::Structure> structures;
   std::vector<diagnosis::Curve> curves;  ///< of structures that a model can predict with
   diagnosis::Recording test;
+  std::size_t test_stride = 1;      ///< every how many samples of it count: its rate may be another
   diagnosis::Series before, after;  ///< on the test motion
   MotionReport motion;
   std::vector<std::string> notes;

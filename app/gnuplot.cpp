@@ -23,6 +23,10 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
+InputError missing() {
+  return {"gnuplot is missing", "install Debian's gnuplot-nox, or leave out --out"};
+}
+
 }  // namespace
 
 // Between single quotes nothing has a meaning but the quote, which is doubled.
@@ -38,6 +42,10 @@ std::string gnuplot_entry(const std::string& text) {
   std::string entry = on_one_line(text);
   std::replace(entry.begin(), entry.end(), '"', '\'');
   return "\"" + entry + "\"";
+}
+
+void check_gnuplot() {
+  if (std::system("gnuplot --version >/dev/null 2>&1") != 0) throw missing();
 }
 
 std::string gnuplot(const std::string& script) {
@@ -57,7 +65,7 @@ std::string gnuplot(const std::string& script) {
   std::filesystem::remove(file);
   constexpr int not_found = 127;  // of the shell
   if (WIFEXITED(status) && WEXITSTATUS(status) == not_found) {
-    throw InputError("gnuplot is missing", "install Debian's gnuplot-nox, or leave out the report");
+    throw missing();
   }
   if (status != 0) throw Defect("gnuplot refused to draw what it was given");
   // gnuplot's own declaration and document type have no place inside an HTML page.

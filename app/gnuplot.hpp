@@ -5,6 +5,9 @@
 
 namespace shapeid::app {
 
+/// Throws InputError if there is no gnuplot: before the work whose report it is to draw.
+void check_gnuplot();
+
 /// The SVG element that a gnuplot script draws. Throws InputError if gnuplot is missing, Defect if
 /// it refuses the script.
 [[nodiscard]] std::string gnuplot(const std::string& script);

@@ -94,8 +94,7 @@ class EffectsRun {
         std::lower_bound(samples.begin(), samples.end(), moved.time,
                          [](const Sample& sample, double time) { return sample.time < time; });
     const auto index = static_cast<std::size_t>(place - samples.begin());
-    return mass_rows(viewer_, viewer_.view(moved, log_.recording.surroundings(index)), known,
-                     bodies.free_links);
+    return mass_rows(viewer_, viewer_.view(log_.recording, index), known, bodies.free_links);
   }
 
   [[nodiscard]] Comparison compare(const RobotInputs& robot, const MotionInputs& inputs,
@@ -157,7 +156,8 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
                     options.test_log.empty() ? std::optional(Part::fitted) : std::nullopt);
   if (!options.test_log.empty()) {
     const LogSamples test(options.test_log, robot, inputs);
-    check_contacts_alike(inputs.log, log.report(), options.test_log, test.report(), log.contacts());
+    check_contacts_alike({inputs.log, log.report().contacts_derived},
+                         {options.test_log, test.report().contacts_derived}, log.contacts());
   }
   reference::IdentifySettings settings = settings_for(log, robot, inputs, options.settings);
   if (effects) {
@@ -188,15 +188,18 @@ void deliver(const Delivery& delivery, nlohmann::json document, const std::strin
   document["certificate"] = {
       {"accepted", reasons.empty()}, {"gap", judged.certified.proof.gap}, {"reasons", reasons}};
   const std::string json = json_text(document, 2) + "\n";
+  std::vector<OutputFile> files;
+  if (!delivery.folder.empty()) {
+    files = {{"result.json", json},
+             {"problem.json", problem_to_json(judged.problem)},
+             {"answer.json", answer_to_json(judged.answer)},
+             {"certificate.json", certificate_to_json(judged.certified.proof, judged.evidence)},
+             {"identified.urdf", write_urdf(inputs.robot, robot.robot, result.written)}};
+  }
   fmt::print("{}", delivery.json ? json : text);
   if (!delivery.folder.empty()) {
-    const OutputFolder folder(delivery.folder);
-    folder.write("result.json", json);
-    folder.write("problem.json", problem_to_json(judged.problem));
-    folder.write("answer.json", answer_to_json(judged.answer));
-    folder.write("certificate.json", certificate_to_json(judged.certified.proof, judged.evidence));
+    OutputFolder(delivery.folder).write(files);
     fmt::print(stderr, "{}", certified_text(judged.certified));
-    folder.write("identified.urdf", write_urdf(inputs.robot, robot.robot, result.written));
   }
   if (!reasons.empty()) {
     throw std::logic_error("the exact checker rejects this answer: " + reasons.front());

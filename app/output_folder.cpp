@@ -16,10 +16,12 @@ OutputFolder::OutputFolder(const std::string& folder) : folder_(folder) {
   if (failed) throw InputError({folder}, "cannot be made: " + failed.message(), "another folder");
 }
 
-void OutputFolder::write(const std::string& name, const std::string& content) const {
-  const std::string path = (folder_ / name).string();
-  write_file(path, content);
-  fmt::print(stderr, "wrote {}\n", path);
+void OutputFolder::write(const std::vector<OutputFile>& files) const {
+  for (const OutputFile& file : files) {
+    const std::string path = (folder_ / file.name).string();
+    write_file(path, file.content);
+    fmt::print(stderr, "wrote {}\n", path);
+  }
 }
 
 }  // namespace shapeid::app

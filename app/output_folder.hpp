@@ -3,16 +3,22 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace shapeid::app {
+
+struct OutputFile {
+  std::string name, content;
+};
 
 /// A folder, made if it is not there. Throws InputError.
 class OutputFolder {
  public:
   explicit OutputFolder(const std::string& folder);
 
-  /// Beside its place first, then renamed; says on standard error what was written.
-  void write(const std::string& name, const std::string& content) const;
+  /// All that belong together at once, so that what cannot be made prevents them all. Each beside
+  /// its place first, then renamed; says on standard error what was written.
+  void write(const std::vector<OutputFile>& files) const;
 
  private:
   std::filesystem::path folder_;

@@ -53,16 +53,13 @@ RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
           {0.0}};
 }
 
-void check_contacts_alike(const std::string& first, const MotionReport& of_first,
-                          const std::string& path, const MotionReport& report,
+void check_contacts_alike(const ContactSource& first, const ContactSource& other,
                           ContactTreatment contacts) {
-  if (contacts != ContactTreatment::project) return;
-  if (report.contacts_derived == of_first.contacts_derived) return;
-  throw InputError(
-      {path},
-      fmt::format("has {}contact.* columns, and {} has {}", report.contacts_derived ? "no " : "",
-                  first, of_first.contacts_derived ? "none" : "some"),
-      "logs that all have contacts, or none; or --contacts measured or none");
+  if (contacts != ContactTreatment::project || other.derived == first.derived) return;
+  throw InputError({other.path},
+                   fmt::format("has {}contact.* columns, and {} has {}", other.derived ? "no " : "",
+                               first.path, first.derived ? "none" : "some"),
+                   "logs that all have contacts, or none; or --contacts measured or none");
 }
 
 RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotInputs& robot,
@@ -84,7 +81,8 @@ RecordedLog read_recordings(const std::vector<std::string>& paths, const RobotIn
       throw InputError({paths[k]}, "has other columns than " + paths.front(),
                        "logs with the same columns");
     }
-    check_contacts_alike(paths.front(), all.motion, paths[k], more.motion, all.contacts);
+    check_contacts_alike({paths.front(), all.motion.contacts_derived},
+                         {paths[k], more.motion.contacts_derived}, all.contacts);
     if (!more.recording.samples().empty() && !samples.empty()) all.starts.push_back(samples.size());
     const double shift = shifts.empty() ? all.ends + pause - more.begins : shifts[k];
     all.ends = more.ends + shift;

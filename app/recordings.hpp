@@ -26,8 +26,11 @@ struct RecordedLog {
 
 /// Throws InputError if contacts are logged in one of two logs only, and forces are not: what feet
 /// are found to touch, and what is said to touch, leave residuals that cannot be compared.
-void check_contacts_alike(const std::string& first, const MotionReport& of_first,
-                          const std::string& path, const MotionReport& report,
+struct ContactSource {
+  std::string path;
+  bool derived;
+};
+void check_contacts_alike(const ContactSource& first, const ContactSource& other,
                           reference::ContactTreatment contacts);
 
 /// Several logs of the same robot as one, a second's pause between them, or moved in time by

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "shapeid/app/json_text.hpp"
 #include "shapeid/app/track_archive.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
@@ -63,6 +64,35 @@ bool is_checkpoint(const std::string& path) {
   }
 }
 
+/// Names of columns are any bytes, and JSON has characters: those beyond ASCII stand for the bytes
+/// of their numbers.
+std::string text_of(const std::string& bytes) {
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      text += c;
+    } else {
+      text += static_cast<char>(0xC0 | (byte >> 6));
+      text += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return text;
+}
+
+std::string bytes_of(const std::string& text) {
+  std::string bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const bool is_pair = lead >= 0xC0 && i + 1 < text.size();
+    const int byte =
+        is_pair ? (lead << 6 | (static_cast<unsigned char>(text[i + 1]) & 0x3F)) : lead;
+    bytes += static_cast<char>(byte & 0xFF);
+    if (is_pair) ++i;
+  }
+  return bytes;
+}
+
 /// Tells a damaged file from a whole one. Whoever means to deceive can compute it as well.
 std::string damage_digest(const json& log, const json& state) {
   return digest(log.dump() + state.dump());
@@ -100,13 +130,14 @@ std::string setup_digest(const RobotInputs& robot, const BodyModel& model,
     setup["derived_contacts"] = {settings.contact_threshold,
                                  vector_json(stacked_parameters(robot.robot))};
   }
-  return digest(setup.dump());
+  return digest(json_text(setup, -1));
 }
 
 void write_checkpoint(const std::string& path, TrackRun& run, const LogPosition& position,
                       const std::string& setup) {
-  const json log = {
-      {"header", position.header}, {"next_byte", position.next_byte}, {"line", position.line}};
+  const json log = {{"header", text_of(position.header)},
+                    {"next_byte", position.next_byte},
+                    {"line", position.line}};
   const json state = StateWriter::encode(run);
   const json document = {{"format", format},
                          {"software", fmt::format("shapeid {}", version)},
@@ -137,7 +168,7 @@ Checkpoint read_checkpoint(const std::string& path) {
     if (checkpoint.document.at("digest") != damage_digest(log, checkpoint.document.at("state"))) {
       throw InputError({path}, "is damaged: its digest differs", what_is_right);
     }
-    checkpoint.position = {log.at("header").get<std::string>(),
+    checkpoint.position = {bytes_of(log.at("header").get<std::string>()),
                            StateReader::whole<std::uint64_t>(log.at("next_byte")),
                            StateReader::whole<int>(log.at("line"))};
     return checkpoint;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -110,6 +111,20 @@ TEST(BatchThreads, ABadLogIsNamed) {
       EXPECT_TRUE(log.at("refused").is_string());
     }
   }
+}
+
+/// What feet are found to touch, and what is said to touch, cannot be summed up.
+TEST(BatchThreads, ContactsAreLoggedInAllOrInNone) {
+  (void)piece_names();
+  Lines log;
+  std::ifstream file(scratch() + "/piece1.csv");
+  for (std::string line; std::getline(file, line);) log.push_back(line);
+  scratch_file("flagless.csv", joined(without_contacts(log)));
+  const CommandRun run = shapeid(batch("--divisions 0 --log piece0.csv flagless.csv piece2.csv"));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("flagless.csv: has no contact.* columns, and piece0.csv has some"),
+            std::string::npos)
+      << run.err;
 }
 
 TEST(BatchThreads, NothingToJudgeByIsRefused) {

@@ -50,6 +50,20 @@ void change(Lines& log, const std::string& column, std::size_t first, std::size_
   }
 }
 
+Lines without_contacts(const Lines& log) {
+  const Lines names = split(log.front(), ',');
+  Lines result;
+  for (const std::string& line : log) {
+    const Lines fields = split(line, ',');
+    std::string kept;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (!names[i].starts_with("contact.")) kept += (kept.empty() ? "" : ",") + fields[i];
+    }
+    result.push_back(kept);
+  }
+  return result;
+}
+
 double value(const Lines& log, const std::string& column, std::size_t row) {
   return std::stod(split(log.at(row + 1), ',').at(place(log, column)));
 }

@@ -23,6 +23,9 @@ using Lines = std::vector<std::string>;
 void change(Lines& log, const std::string& column, std::size_t first, std::size_t last,
             const std::function<double(double)>& to);
 
+/// Without its columns contact.*.
+[[nodiscard]] Lines without_contacts(const Lines& log);
+
 /// Number of a column in a row.
 [[nodiscard]] double value(const Lines& log, const std::string& column, std::size_t row);
 
