@@ -51,7 +51,7 @@ Table findings_table(const DiagnosisRun& run, const Robot& robot) {
     const auto& a = effects[k];
     std::string gain, t, others;
     for (const diagnosis::Found& f : run.loop.found) {
-      if (f.effect.effect != a.effect || f.effect.site != a.site) continue;
+      if (!same_place(f.effect, a)) continue;
       gain = short_number(100.0 * f.gain);
       t = short_number(f.t);
       for (const std::string& id : f.ambiguous_with) others += (others.empty() ? "" : ", ") + id;

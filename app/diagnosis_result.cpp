@@ -28,7 +28,7 @@ json numbers(const Eigen::VectorXd& v) {
 /// What the selection said of an effect of the final model.
 const diagnosis::Found* found_for(const DiagnosisRun& run, const AppliedEffect& effect) {
   for (const diagnosis::Found& f : run.loop.found) {
-    if (f.effect.effect == effect.effect && f.effect.site == effect.site) return &f;
+    if (same_place(f.effect, effect)) return &f;
   }
   return nullptr;
 }
@@ -62,7 +62,7 @@ json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
   if (const diagnosis::Found* f = found_for(run, a)) {
     entry["heldout_gain"] = f->gain;
     entry["gain_over_its_error"] = f->t;
-    entry["since_reference"] = f->since_reference;
+    entry["since_reference"] = a.since_reference;
     entry["ambiguous_with"] = f->ambiguous_with;
     if (f->rival) entry["or_without_name"] = law_text(*f->rival, robot);
     if (!f->ambiguous_with.empty()) entry["separate_by"] = a.effect->separate_by;
@@ -143,7 +143,7 @@ std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
     }
     if (f == nullptr) continue;
     text += fmt::format("  {:<38}gain {:.1f} %, {:.1f} standard errors{}\n", "", 100.0 * f->gain,
-                        f->t, f->since_reference ? "; came since the reference log" : "");
+                        f->t, effects[k].since_reference ? "; came since the reference log" : "");
     if (f->rival) {
       text +=
           fmt::format("  {:<38}or something without a name: {}\n", "", law_text(*f->rival, robot));
@@ -223,7 +223,7 @@ std::map<std::string, JointFriction> joint_friction(const DiagnosisRun& run, con
     const bool viscous = a.effect->id == "viscous_friction";
     if (!viscous && a.effect->id != "coulomb_friction") continue;
     JointFriction& of_joint = friction[robot.joint(a.site).name];
-    (viscous ? of_joint.damping : of_joint.friction) = a.value[0];
+    (viscous ? of_joint.damping : of_joint.friction) += a.value[0];
   }
   return friction;
 }

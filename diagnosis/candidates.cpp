@@ -10,7 +10,7 @@ namespace {
 /// A payload's term on the link's own columns.
 Candidate payload_candidate(const Robot& robot, const Effect& effect, int link,
                             std::size_t from_block, double onset) {
-  Candidate c{at_start(effect, link), {}, false, {}};
+  Candidate c{at_start(effect, link), {}, {}};
   if (c.effect.shape.size() > 0) c.effect.shape[0] = onset;
   c.term.id = hypothesis_id(robot, c.effect);
   c.term.from_block = from_block;
@@ -30,8 +30,9 @@ void add_groups(std::vector<Candidate>& list) {
     for (const bool since : {false, true}) {
       Candidate group;
       for (std::size_t k = 0; k < singles; ++k) {
-        if (list[k].effect.effect != &effect || list[k].since_reference != since) continue;
-        if (group.members.empty()) group = {list[k].effect, {}, since, {}};
+        const AppliedEffect& single = list[k].effect;
+        if (single.effect != &effect || single.since_reference != since) continue;
+        if (group.members.empty()) group = {single, {}, {}};
         group.members.push_back(k);
         const Term& term = list[k].term;
         group.term.from_block = term.from_block;
@@ -46,15 +47,6 @@ void add_groups(std::vector<Candidate>& list) {
 }
 
 }  // namespace
-
-bool same_place(const AppliedEffect& a, const AppliedEffect& b) {
-  return a.effect == b.effect && a.site == b.site;
-}
-
-bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a) {
-  return std::any_of(effects.begin(), effects.end(),
-                     [&](const AppliedEffect& b) { return same_place(a, b); });
-}
 
 std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichModel& model,
                                                const Recording& log, const Series& left) {
@@ -71,7 +63,7 @@ std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichMod
     }
   }
   for (const AppliedEffect& a : model.effects) {
-    if (a.effect->is_payload) list.push_back(a);
+    if (a.effect->is_payload || (a.since_reference && !has_place_of(list, a))) list.push_back(a);
   }
   return list;
 }
@@ -105,15 +97,17 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
   std::vector<Candidate> list;
   for (std::size_t k = 0; k < tally.hypotheses.size(); ++k) {
     const AppliedEffect& h = tally.hypotheses[k];
-    if (rule.excluded(h)) continue;
     if (!rule.transformations && h.effect->transform.any()) continue;
-    Candidate c{h, term_of(robot, tally, k), rule.came_since(h), {}, rule.choices(h)};
-    if (!c.since_reference) list.push_back(c);
-    if (rule.has_reference && !h.effect->built_in) {
-      c.since_reference = true;
-      c.term.from_block = fits.first_block();
-      list.push_back(c);
+    Candidate c{h, term_of(robot, tally, k), {}, rule.choices(h)};
+    if (!h.since_reference && !rule.excluded(h)) list.push_back(c);
+    if (!rule.has_reference || h.effect->built_in) continue;
+    if (!h.since_reference) {
+      c.effect.since_reference = true;
+      if (has_place_of(tally.hypotheses, c.effect)) continue;  // it has numbers of its own
+      if (h.effect->transform.any()) c.effect.value.setZero();
     }
+    c.term.from_block = fits.first_block();
+    if (!rule.excluded(c.effect)) list.push_back(c);
   }
   add_groups(list);
   const std::size_t first = fits.first_block();
@@ -128,7 +122,7 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
     const bool is_free = std::count(rule.free_links.begin(), rule.free_links.end(), link) > 0;
     if (rule.has_reference) {
       Candidate c = payload_candidate(robot, always, link, first, 0.0);
-      c.since_reference = true;
+      c.effect.since_reference = true;
       add(c);
     } else if (!is_free) {
       add(payload_candidate(robot, always, link, 0, 0.0));

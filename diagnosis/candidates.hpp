@@ -9,11 +9,6 @@
 
 namespace shapeid::diagnosis {
 
-/// The same effect at the same place.
-[[nodiscard]] bool same_place(const AppliedEffect& a, const AppliedEffect& b);
-/// Whether one of them is the same effect at the same place.
-[[nodiscard]] bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a);
-
 /// All hypotheses; those of the model with their numbers, ripple where the residual (`left`, of the
 /// model on the log) has most of it, payloads only if the model has them.
 [[nodiscard]] std::vector<AppliedEffect> screened_hypotheses(const Robot& robot,
@@ -32,8 +27,7 @@ struct CandidateRule {
   bool has_reference = false;    ///< what came since the reference log is a hypothesis of its own
   bool transformations = false;  ///< whether effects that are no columns are tried
   std::function<bool(const AppliedEffect&)> excluded;
-  std::function<bool(const AppliedEffect&)> came_since;  ///< found already, as that
-  std::function<double(const AppliedEffect&)> choices;   ///< Candidate::choices
+  std::function<double(const AppliedEffect&)> choices;  ///< Candidate::choices
 };
 
 /// The tally's hypotheses at their places, the same effect at every joint together (what every

@@ -48,17 +48,30 @@ void check_torque_scale(const Robot& robot, const Recording& recording,
   // Joints whose torque the given model follows closely tell the scale; friction and errors of
   // inertia do not make a factor of four at all of them.
   constexpr double close = 0.8, far = 4.0;
-  int telling = 0, wrong = 0;
+  int telling = 0, against = 0, above = 0, below = 0;
   double typical = 0.0;
   for (Eigen::Index j = 0; j < n; ++j) {
     const double correlation = pt[j] / std::sqrt(std::max(pp[j] * tt[j], 1e-300));
     if (!(std::abs(correlation) > close)) continue;
     const double scale = pt[j] / pp[j];
     ++telling;
-    if (scale > far || scale < 1.0 / far) ++wrong;
+    if (scale < 0.0) {
+      ++against;
+    } else if (scale > far) {
+      ++above;
+    } else if (scale < 1.0 / far) {
+      ++below;
+    }
     typical += std::log(std::max(std::abs(scale), 1e-9));
   }
-  if (telling > 0 && wrong == telling) {
+  if (telling == 0) return;
+  if (against == telling) {
+    throw Refusal("torque-sign",
+                  fmt::format("the logged torque runs against the given model at {} joints, and "
+                              "with it at none: turn its sign in the mapping (scale: -1)",
+                              telling));
+  }
+  if (above == telling || below == telling) {
     throw Refusal(
         "torque-scale",
         fmt::format("the logged torque follows the given model at {} joints, but is {:.2g} "

@@ -246,8 +246,6 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
   const BodyModel& shapes = settings.shapes;
   Consistent result;
   result.model = loop.model;
-  std::vector<bool> came_since;
-  for (const Found& f : loop.found) came_since.push_back(f.since_reference);
   while (true) {
     std::vector<AppliedEffect>& effects = result.model.effects;
     std::vector<std::size_t> linear;
@@ -257,7 +255,7 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       if (effects[k].effect->transform.any()) continue;
       linear.push_back(k);
       columns.push_back(effects[k]);
-      since.push_back(came_since[k]);
+      since.push_back(effects[k].since_reference);
     }
     TallyOptions options;
     options.stride = settings.stride;
@@ -267,11 +265,7 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     Tally tally = empty_tally(robot, columns);
     if (reference != nullptr) {
       RichModel earlier = result.model;
-      for (std::size_t k = effects.size(); k-- > 0;) {
-        if (came_since[k]) {
-          earlier.effects.erase(earlier.effects.begin() + static_cast<std::ptrdiff_t>(k));
-        }
-      }
+      std::erase_if(earlier.effects, [](const AppliedEffect& a) { return a.since_reference; });
       add_to_tally(tally, robot, settings.rows, earlier, *reference, options, true);
     }
     add_to_tally(tally, robot, settings.rows, result.model, log, options, false);
@@ -287,7 +281,6 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       const auto at = static_cast<std::ptrdiff_t>(bad);
       result.dropped.push_back(effects[bad]);
       effects.erase(effects.begin() + at);
-      came_since.erase(came_since.begin() + at);
       continue;
     }
     result.model.Phi = all_parameters(shapes, Phi);
@@ -302,8 +295,7 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     for (std::size_t k = 0; k < effects.size(); ++k) {
       error_places[k].value.setZero();
       for (const Found& f : loop.found) {
-        const bool same = f.effect.effect == effects[k].effect && f.effect.site == effects[k].site;
-        if (same) error_places[k].value = f.standard_error;
+        if (same_place(f.effect, effects[k])) error_places[k].value = f.standard_error;
       }
     }
     put_back(errors.tail(sums.effects()), linear, error_places);

@@ -65,7 +65,6 @@ class Search {
     rule.free_links = state_.settings.shapes.free_links;
     rule.has_reference = false;  // flags are the sensor's: nothing that came since
     rule.excluded = [](const AppliedEffect&) { return false; };
-    rule.came_since = rule.excluded;
     rule.choices = [this](const AppliedEffect& h) { return periods_told_apart(state_.log, h); };
     const std::vector<Candidate> list = candidates(state_.robot, fits, rule);
     SelectionRule few = state_.rule();
@@ -85,14 +84,11 @@ class Search {
                       [&](const Found& f) { return f.id == c.term.id; })) {
         continue;
       }
-      const Effect* effect = find_effect(c.effect.effect->id);
       const double T = beyond * c.effect.shape[0];
       const double step = 0.5 * (times[1] / times[0] - 1.0) * T;
-      found = Found{{effect, c.effect.site, {}, Eigen::VectorXd::Constant(1, T)},
-                    c.term.id,
-                    Eigen::VectorXd::Constant(1, step),
-                    v.gain,
-                    v.t};
+      AppliedEffect effect = at_start(*find_effect(c.effect.effect->id), c.effect.site);
+      effect.value = Eigen::VectorXd::Constant(1, T);
+      found.emplace(Found{effect, c.term.id, Eigen::VectorXd::Constant(1, step), v.gain, v.t});
     }
     return found;
   }

@@ -56,9 +56,7 @@ bool Contenders::is_taken(std::size_t k, const Chosen& chosen) const {
 }
 
 bool Contenders::same_place(std::size_t k, std::size_t other) const {
-  const Candidate &a = candidates_[k], &b = candidates_[other];
-  return a.effect.effect == b.effect.effect && a.effect.site == b.effect.site &&
-         a.since_reference == b.since_reference;
+  return diagnosis::same_place(candidates_[k].effect, candidates_[other].effect);
 }
 
 std::size_t Contenders::cost(std::size_t k) const {

@@ -136,13 +136,14 @@ class Fitter {
  private:
   struct Seen {
     const Viewer& viewer;
-    const Eigen::MatrixXd& J;
+    const View& view;
     Instant instant;
     Eigen::VectorXd residual, counted;
-    /// A unit of the law beyond contact forces, in the rows that count.
+    /// A unit of the law beyond contact forces, in the rows that count; scaled as they are.
     [[nodiscard]] Eigen::VectorXd of(const Curve& curve) const {
-      return counted.cwiseProduct(beyond_contacts(
-          viewer, J, curve.law.effect->columns(instant, curve.law.site, curve.law.shape)));
+      Rows rows{curve.law.effect->columns(instant, curve.law.site, curve.law.shape), view.J};
+      viewer.transform(view, rows);
+      return counted.cwiseProduct(beyond_contacts(viewer, rows.J, rows.E));
     }
   };
 
@@ -151,7 +152,7 @@ class Fitter {
     for (const std::size_t index : recording_.usable(stride_)) {
       const View view = viewer_.view(recording_, index);
       const Prediction predicted = predict(viewer_, view, model);
-      visit(Seen{viewer_, predicted.J, instant_of(viewer_, view, predicted.load),
+      visit(Seen{viewer_, view, instant_of(viewer_, view, predicted.load),
                  residual(viewer_, view, model),
                  counted_rows(viewer_, recording_, index, view).template cast<double>().matrix()});
     }

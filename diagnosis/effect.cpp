@@ -2,9 +2,20 @@
 
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace shapeid::diagnosis {
+
+bool same_place(const AppliedEffect& a, const AppliedEffect& b) {
+  return a.effect == b.effect && a.site == b.site &&
+         (a.since_reference == b.since_reference || a.effect->transform.sample != nullptr);
+}
+
+bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](const AppliedEffect& b) { return same_place(a, b); });
+}
 
 std::string site_name(const Robot& robot, SiteKind kind, int site) {
   switch (kind) {

@@ -142,7 +142,15 @@ struct AppliedEffect {
   int site = 0;
   Eigen::VectorXd shape;  ///< one for each of Effect::shape
   Eigen::VectorXd value;  ///< one for each of Effect::parameters
+  /// Came since the reference log, on top of what was at its place already.
+  bool since_reference = false;
 };
+
+/// The same effect at the same place, there from the beginning or since the reference log. What
+/// moves samples in time is at its place once: what both ways together reach has a limit.
+[[nodiscard]] bool same_place(const AppliedEffect& a, const AppliedEffect& b);
+/// Whether one of them is the same effect at the same place.
+[[nodiscard]] bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a);
 
 /// Names of places: a joint, a link, a contact, "base.accel" or "all".
 [[nodiscard]] std::string site_name(const Robot& robot, SiteKind kind, int site);

@@ -8,11 +8,20 @@
 #include <functional>
 #include <optional>
 
+#include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/hypotheses.hpp"
 #include "shapeid/models/yaml_input.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
+
+/// A name as YAML reads it back, in quotes where it needs them.
+std::string scalar(const std::string& name) {
+  YAML::Emitter text;
+  text << name;
+  return text.c_str();
+}
 
 /// Shape numbers first, then parameters, by name.
 std::vector<std::string> number_names(const Effect& effect) {
@@ -64,8 +73,13 @@ void check_value(const YamlInput& file, const YAML::Node& node, const Parameter&
 }
 
 AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Robot& robot) {
-  file.check_keys(node, "an effect", {"effect", "site", "values"}, {});
+  file.check_keys(node, "an effect", {"effect", "site", "values"}, {"since_reference"});
   AppliedEffect applied = read_place(file, node, robot);
+  if (const YAML::Node since = node["since_reference"]) {
+    if (!YAML::convert<bool>::decode(since, applied.since_reference)) {
+      file.refuse(since, "since_reference is neither true nor false", "give one of these");
+    }
+  }
   const std::vector<std::string> names = number_names(*applied.effect);
   file.check_keys(node["values"], "values", names, {});
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -142,8 +156,9 @@ std::string curve_text(const Robot& robot, const Curve& curve) {
   if (!shape.empty()) shape = fmt::format("    shape: {{{}}}\n", shape);
   return fmt::format(
       "  - effect: {}\n    site: {}\n{}    over: {}\n    at: [{}]\n    number: [{}]\n", law.id,
-      site_name(robot, law.site, curve.law.site), shape, variable_name(curve.over, robot),
-      fmt::join(curve.at, ", "), fmt::join(curve.number, ", "));
+      scalar(site_name(robot, law.site, curve.law.site)), shape,
+      scalar(variable_name(curve.over, robot)), fmt::join(curve.at, ", "),
+      fmt::join(curve.number, ", "));
 }
 
 }  // namespace
@@ -152,7 +167,7 @@ std::string write_effects_yaml(const Robot& robot, const KnownEffects& known) {
   std::string text = known.effects.empty() ? "effects: []\n" : "effects:\n";
   for (const AppliedEffect& a : known.effects) {
     text += fmt::format("  - effect: {}\n    site: {}\n    values: {{", a.effect->id,
-                        site_name(robot, a.effect->site, a.site));
+                        scalar(site_name(robot, a.effect->site, a.site)));
     const std::vector<std::string> names = number_names(*a.effect);
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
@@ -160,6 +175,7 @@ std::string write_effects_yaml(const Robot& robot, const KnownEffects& known) {
       text += fmt::format("{}{}: {}", i == 0 ? "" : ", ", names[i], value);
     }
     text += "}\n";
+    if (a.since_reference) text += "    since_reference: true\n";
   }
   if (!known.curves.empty()) text += "curves:\n";
   for (const Curve& curve : known.curves) text += curve_text(robot, curve);
@@ -172,7 +188,14 @@ KnownEffects read_effects_yaml(const std::string& path, const Robot& robot) {
   const YAML::Node list = file.root()["effects"];
   if (!list.IsSequence()) file.refuse(list, "effects is no list", "give a list of effects");
   KnownEffects known;
-  for (const YAML::Node& node : list) known.effects.push_back(read_entry(file, node, robot));
+  for (const YAML::Node& node : list) {
+    const AppliedEffect effect = read_entry(file, node, robot);
+    if (has_place_of(known.effects, effect)) {
+      file.refuse(node, fmt::format("{} is there already", hypothesis_id(robot, effect)),
+                  "give one entry an effect and place");
+    }
+    known.effects.push_back(effect);
+  }
   const YAML::Node curves = file.root()["curves"];
   if (!curves) return known;
   if (!curves.IsSequence()) file.refuse(curves, "curves is no list", "give a list of curves");

@@ -17,9 +17,8 @@ constexpr double part_of_size = 0.01;
 std::vector<AppliedEffect> stepped(std::vector<AppliedEffect> effects,
                                    const AppliedEffect& hypothesis, Eigen::Index parameter,
                                    double step) {
-  auto place = std::find_if(effects.begin(), effects.end(), [&](const AppliedEffect& a) {
-    return a.effect == hypothesis.effect && a.site == hypothesis.site;
-  });
+  auto place = std::find_if(effects.begin(), effects.end(),
+                            [&](const AppliedEffect& a) { return same_place(a, hypothesis); });
   if (place == effects.end()) place = effects.insert(effects.end(), hypothesis);
   place->value[parameter] += step;
   return effects;

@@ -108,7 +108,6 @@ class Loop {
       return state_.is_applied_transformation(h) || is_banned(h) ||
              (moments_describe_ > 1 && begins(h));
     };
-    rule.came_since = [this](const AppliedEffect& h) { return state_.came_since(h); };
     rule.choices = [this](const AppliedEffect& h) { return periods_told_apart(state_.log, h); };
     return candidates(state_.robot, fits, rule);
   }
@@ -145,7 +144,7 @@ class Loop {
         const Candidate& c = list[k];
         const bool accepted = std::any_of(selection.accepted.begin(), selection.accepted.end(),
                                           [&](const Verdict& v) { return v.candidate == k; });
-        if (!c.effect.effect->transform.any() || c.since_reference || accepted) continue;
+        if (!c.effect.effect->transform.any() || c.effect.since_reference || accepted) continue;
         std::vector<Term> with = beside;
         with.push_back(c.term);
         const double error = fits.held_out(with).sum();
@@ -321,7 +320,10 @@ class Loop {
   }
 
   [[nodiscard]] bool is_banned(const AppliedEffect& h) const {
-    return has_place_of(banned_, h) || has_place_of(forces_, h);
+    const auto has_place = [&h](const AppliedEffect& force) {
+      return force.effect == h.effect && force.site == h.site;
+    };
+    return has_place_of(banned_, h) || std::any_of(forces_.begin(), forces_.end(), has_place);
   }
 
   LoopState state_;

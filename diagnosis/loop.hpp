@@ -39,8 +39,7 @@ struct Found {
   AppliedEffect effect;
   std::string id;
   Eigen::VectorXd standard_error;
-  double gain = 0.0, t = 0.0;    ///< of having it, all others in
-  bool since_reference = false;  ///< not there in the reference log
+  double gain = 0.0, t = 0.0;  ///< of having it, all others in
   std::vector<std::string> ambiguous_with = {};
   /// A law without a name that predicts better in its place, though not by more than chance.
   std::optional<Stranger> rival = {};

@@ -56,7 +56,7 @@ BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
     add_to_tally(tally, robot, settings.rows, earlier_model(), *reference, options, true);
     // The change of what was not there yet is none.
     for (std::size_t k = 0; k < hypotheses.size(); ++k) {
-      if (!is_applied_transformation(hypotheses[k]) || !came_since(hypotheses[k])) continue;
+      if (!is_applied_transformation(hypotheses[k]) || !hypotheses[k].since_reference) continue;
       const Eigen::Index n = hypotheses[k].value.size();
       for (Block& block : tally.blocks) {
         block.sums.middleRows(tally.first[k], n).setZero();
@@ -145,14 +145,8 @@ void LoopState::set_masses(const Fit& fit) {
 
 RichModel LoopState::earlier_model() const {
   RichModel earlier = result.model;
-  std::erase_if(earlier.effects, [&](const AppliedEffect& a) { return came_since(a); });
+  std::erase_if(earlier.effects, [](const AppliedEffect& a) { return a.since_reference; });
   return earlier;
-}
-
-bool LoopState::came_since(const AppliedEffect& effect) const {
-  return std::any_of(result.found.begin(), result.found.end(), [&](const Found& f) {
-    return f.since_reference && same_place(f.effect, effect);
-  });
 }
 
 bool LoopState::is_applied_transformation(const AppliedEffect& effect) const {
@@ -176,7 +170,7 @@ std::vector<Term> LoopState::terms_of_model(const BlockFits& fits, std::size_t e
     const AppliedEffect& a = fits.tally().hypotheses[k];
     if (a.effect->transform.any()) continue;
     terms.push_back(term_of(robot, fits.tally(), k));
-    if (came_since(a)) terms.back().from_block = fits.first_block();
+    if (a.since_reference) terms.back().from_block = fits.first_block();
   }
   return terms;
 }
@@ -192,7 +186,7 @@ std::vector<Gain> LoopState::gains_by_derivative() {
   for (std::size_t k = 0; k < result.model.effects.size(); ++k) {
     const AppliedEffect& a = result.model.effects[k];
     terms.push_back(term_of(robot, fits.tally(), k));
-    if (came_since(a)) terms.back().from_block = fits.first_block();
+    if (a.since_reference) terms.back().from_block = fits.first_block();
   }
   const FitsAround around(fits, std::move(terms));
   std::vector<Gain> gains(result.model.effects.size());

@@ -50,8 +50,6 @@ struct LoopState {
 
   /// The present model as the reference log has it.
   [[nodiscard]] RichModel earlier_model() const;
-  /// Whether it was found as something that the reference log has not.
-  [[nodiscard]] bool came_since(const AppliedEffect& effect) const;
   [[nodiscard]] bool is_applied_transformation(const AppliedEffect& effect) const;
   /// Masses and the changes of transformations that are applied already: fitted along always.
   [[nodiscard]] Term always(const Tally& tally) const;

@@ -13,7 +13,6 @@ namespace shapeid::diagnosis {
 struct Candidate {
   AppliedEffect effect;
   Term term;
-  bool since_reference = false;  ///< active in the log, absent in the reference log
   /// Of a group (friction at every joint): candidates that it stands for. Accepted together, judged
   /// one by one at the end.
   std::vector<std::size_t> members;

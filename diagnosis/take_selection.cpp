@@ -49,7 +49,6 @@ void take_selection(const BlockFits& fits, const Term& fixed, const std::vector<
                 selection.fit.standard_error.segment(column, n),
                 verdict.gain,
                 verdict.t,
-                candidate.since_reference,
                 {},
                 {},
                 {}};

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "shapeid/diagnosis/hypotheses.hpp"
 
 namespace shapeid::diagnosis {
@@ -111,6 +113,13 @@ struct Links {
 };
 )";
 
+constexpr const char* contacts = R"(
+/// Takes off what contact forces provide, if there are any.
+inline void take_off(const double* contact, double* torque) {
+  for (int i = 0; contact != nullptr && i < joint_count; ++i) torque[i] -= contact[i];
+}
+)";
+
 constexpr const char* interpolation = R"(
 /// In straight lines from knot to knot, constant beyond the first and the last.
 inline double curve(const double* knots, const double* numbers, int count, double x) {
@@ -133,12 +142,20 @@ std::string matrix_text(const Eigen::Matrix3d& m) {
                      vector_text(m.row(1).transpose()), vector_text(m.row(2).transpose()));
 }
 
+/// A name in a comment to the end of its line: a backslash there would take the next one in.
+std::string in_comment(std::string name) {
+  const auto ends_lines = [](char c) { return c == '\\' || static_cast<unsigned char>(c) < ' '; };
+  std::replace_if(name.begin(), name.end(), ends_lines, '?');
+  return name;
+}
+
 std::string link_text(const Link& link, const InertialParameters& inertia) {
   return fmt::format("    {{{}, {}, {}, {}, {}, {}, {}, {}}},  // {}\n", link.parent,
                      link.joint.kind == JointKind::prismatic, vector_text(link.joint.axis),
                      vector_text(link.joint.placement.translation()),
                      matrix_text(link.joint.placement.linear()), inertia.mass(),
-                     vector_text(inertia.first_moment()), matrix_text(inertia.tensor()), link.name);
+                     vector_text(inertia.first_moment()), matrix_text(inertia.tensor()),
+                     in_comment(link.name));
 }
 
 std::string declared(const std::string& name, double value) {
@@ -198,26 +215,28 @@ std::string corrected(const std::string& motion) {
 std::string load_code(const std::string& motion) {
   return "\n/// What the rigid links ask for, N m; arguments as of predict().\n"
          "inline void rigid_load(const double* q_logged, const double* dq, const double* ddq,\n"
-         "                       const double* base, double* load) {\n" +
+         "                       const double* base, double* load,\n"
+         "                       const double* contact = nullptr) {\n" +
          corrected(motion) +
          "  for (int i = 0; i < joint_count; ++i) load[i] = 0.0;\n"
-         "  Links rigid;\n  rigid.move(q, dq, ddq, base);\n  rigid.torques(load);\n}\n";
+         "  Links rigid;\n  rigid.move(q, dq, ddq, base);\n  rigid.torques(load);\n"
+         "  take_off(contact, load);\n}\n";
 }
 
 std::string prediction_from_three(double step) {
   return fmt::format(
       R"(
 struct Motion {{
-  const double *q, *dq, *ddq, *base;
+  const double *q, *dq, *ddq, *base, *contact = nullptr;
 }};
 
 /// The same from the motion now, and {0} s before and after: load_rate is their difference.
 inline void predict(const Motion& before, const Motion& now, const Motion& after, double* tau) {{
   double earlier[joint_count + 1], later[joint_count + 1], load_rate[joint_count + 1];
-  rigid_load(before.q, before.dq, before.ddq, before.base, earlier);
-  rigid_load(after.q, after.dq, after.ddq, after.base, later);
+  rigid_load(before.q, before.dq, before.ddq, before.base, earlier, before.contact);
+  rigid_load(after.q, after.dq, after.ddq, after.base, later, after.contact);
   for (int i = 0; i < joint_count; ++i) load_rate[i] = (later[i] - earlier[i]) / (2 * {0});
-  predict(now.q, now.dq, now.ddq, now.base, load_rate, tau);
+  predict(now.q, now.dq, now.ddq, now.base, load_rate, tau, now.contact);
 }}
 )",
       step);
@@ -237,7 +256,7 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
     if (!code.torque.empty()) (scales ? scaling : torque) += scoped(a, code.torque);
     const bool in_robot = a.effect->transform.robot != nullptr;
     if (code.motion.empty() && code.link.empty() && code.torque.empty() && !in_robot) {
-      left_out += fmt::format("//   {}\n", hypothesis_id(robot, a));
+      left_out += fmt::format("//   {}\n", in_comment(hypothesis_id(robot, a)));
     }
   }
   for (const Curve& curve : model.curves) torque += curve_code(curve);
@@ -247,12 +266,10 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
   }
   std::string names;
   for (int j = 0; j < robot.joint_count(); ++j) {
-    names += fmt::format("//   {} {}\n", j, robot.joint(j).name);
+    names += fmt::format("//   {} {}\n", j, in_comment(robot.joint(j).name));
   }
-  std::string text = "// Joint torques of " + robot.name +
-                     ", as shapeid identified it. Without contact forces f on the robot: subtract "
-                     "J^T f.\n// Joints:\n" +
-                     names;
+  std::string text = "// Joint torques of " + in_comment(robot.name) +
+                     ", as shapeid identified it.\n// Joints:\n" + names;
   if (!left_out.empty()) text += "// Found, and not part of this prediction:\n" + left_out;
   text += "#pragma once\n\n#include <cmath>\n\nnamespace shapeid_model {\n";
   text += algebra;
@@ -260,27 +277,28 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
                       robot.link_count());
   text += "const Link links[link_count] = {\n" + inertias + "};\n";
   text += dynamics;
+  text += contacts;
   if (!model.curves.empty()) text += interpolation;
   const bool rate = needs_load_rate(model.effects);
   if (rate) text += load_code(motion);
   text +=
       "\n/// q, dq, ddq, tau: joint_count numbers each (rad, N m). base: gyro, its derivative, "
-      "specific\n/// force, in base axes; null: fixed and upright.\n";
+      "specific\n/// force, in base axes; null: fixed and upright. contact: J^T f at the joints "
+      "(joint_count numbers)\n/// of the contact forces f on the robot, with J where joints and "
+      "contact points are found to be\n/// (effects.yaml); null: nothing touches.\n";
   if (rate) {
-    text +=
-        "/// load_rate (N m/s): the change of rigid_load() a second; that of -J^T f "
-        "counts too\n/// where contact forces f are known.\n";
+    text += "/// load_rate (N m/s): the change of rigid_load() a second.\n";
   }
   text +=
       "inline void predict(const double* q_logged, const double* dq, const double* ddq,\n"
       "                    const double* base, " +
-      std::string(rate ? "const double* load_rate, " : "") + "double* tau) {\n" +
-      corrected(motion) +
+      std::string(rate ? "const double* load_rate, " : "") +
+      "double* tau,\n                    const double* contact = nullptr) {\n" + corrected(motion) +
       "  double load[joint_count + 1] = {};\n"
       "  Links at;\n  at.move(q, dq, ddq, base);\n"
       "  for (int i = 0; i < joint_count; ++i) tau[i] = 0.0;\n"
-      "  Links rigid = at;\n  rigid.torques(load);\n" +
-      between + "  at.torques(tau);\n" + torque + scaling + "}\n";
+      "  Links rigid = at;\n  rigid.torques(load);\n  take_off(contact, load);\n" +
+      between + "  at.torques(tau);\n  take_off(contact, tau);\n" + torque + scaling + "}\n";
   if (rate) text += prediction_from_three(neighbour_step(robot));
   text += "\n}  // namespace shapeid_model\n";
   return text;

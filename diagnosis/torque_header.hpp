@@ -9,12 +9,14 @@ namespace shapeid::diagnosis {
 
 /// The text of a header that defines
 ///   void shapeid_model::predict(const double* q, const double* dq, const double* ddq,
-///                               const double* base, double* tau);
+///                               const double* base, double* tau,
+///                               const double* contact = nullptr);
 /// tau (n, N m) for joint positions, velocities and accelerations (n each) and the base's nine
-/// numbers: gyro, its derivative, specific force, in base axes (null: fixed and upright). Contact
-/// forces f on the robot are not in it: subtract J^T f. Effects that change no joint torque, or
-/// move the log in time, are named in a comment. A model with an effect that needs the load's rate
-/// (torque_lag) has instead
+/// numbers: gyro, its derivative, specific force, in base axes (null: fixed and upright).
+/// `contact` is J^T f at the joints (n) of the contact forces f on the robot, with J of the model's
+/// own geometry (null: nothing touches). Effects that are not of joints and links, that change the
+/// log's signals or come at some moment are left out, and named in a comment. A model with an
+/// effect that needs the load's rate (torque_lag) has instead
 ///   void shapeid_model::predict(const Motion& before, const Motion& now, const Motion& after,
 ///                               double* tau);
 /// of the motion now and neighbour_step() to either side, and the same of one motion and the rate.

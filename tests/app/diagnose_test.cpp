@@ -298,6 +298,22 @@ TEST(Diagnose, RefusesAPathThatIsNone) {
   EXPECT_NE(run.err.find("--path"), std::string::npos) << run.err;
 }
 
+/// A lag asks for the samples around each one, in the fit as in the residual.
+TEST(Diagnose, MassesAreFoundBesideALagThatIsKnown) {
+  ASSERT_EQ(shapeid("simulate --seconds 4 --out even.csv.gz").status, 0);
+  const auto masses = [&](const std::string& yaml) {
+    scratch_file("known.yaml", yaml);
+    const CommandRun run = shapeid(fmt::format(
+        "identify {} --log even.csv.gz --effects known.yaml --divisions 2 --json", files));
+    EXPECT_EQ(run.status, 0) << run.err;
+    return nlohmann::json::parse(run.out)["links"].dump();
+  };
+  const std::string lag = "effects:\n  - {effect: torque_lag, site: FR_knee, values: {T: ";
+  const std::string none = masses("effects: []\n");
+  EXPECT_EQ(masses(lag + "0}}\n"), none);
+  EXPECT_NE(masses(lag + "0.03}}\n"), none);
+}
+
 TEST(Diagnose, ListsTheCatalogue) {
   const CommandRun run = shapeid("diagnose --list");
   EXPECT_EQ(run.status, 0);

@@ -51,6 +51,22 @@ TEST(Checks, TorqueThatIsACurrent) {
   EXPECT_EQ(check(changed(record({}), [](Sample& s) { s.tau *= 1.3; })), "accepted");
 }
 
+/// A factor that differs from joint to joint is a gain of each, to be found as that.
+TEST(Checks, FactorsInBothDirectionsAreNoCurrent) {
+  EXPECT_EQ(check(changed(record({}),
+                          [](Sample& s) {
+                            s.tau[0] *= 5.0;
+                            s.tau.tail<2>() *= 0.2;
+                          })),
+            "accepted");
+}
+
+TEST(Checks, TorqueOfTheOtherSign) {
+  for (const double scale : {-1.0, -10.0}) {
+    EXPECT_EQ(check(changed(record({}), [&](Sample& s) { s.tau *= scale; })), "torque-sign");
+  }
+}
+
 TEST(Checks, NoSample) { EXPECT_EQ(check(Recording({}, 100.0)), "no-data"); }
 
 /// The clock of the torque runs a thousandth slow: 20 ms in 20 s.

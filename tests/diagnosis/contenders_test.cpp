@@ -127,7 +127,7 @@ TEST(Contenders, MomentsOfOneLoadDoNotCrowdOutWhatIsSomethingElse) {
   EXPECT_TRUE(contenders.is_taken(onsets[0], {onsets[2]}));
   EXPECT_EQ(contenders.shortlist({onsets[2]}, 4).listed, (Chosen{other, elsewhere}));
   // What came since a reference log is another place.
-  log.candidates()[onsets[0]].since_reference = true;
+  log.candidates()[onsets[0]].effect.since_reference = true;
   EXPECT_FALSE(contenders.is_taken(onsets[0], {onsets[2]}));
 }
 

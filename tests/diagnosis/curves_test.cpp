@@ -113,6 +113,62 @@ TEST(Curves, FollowTheLawThatVaries) {
   EXPECT_GT(curves.front().number[curves.front().number.size() - 1], curves.front().number[0]);
 }
 
+/// Torque that is scaled by a gain is so with the curve in it.
+TEST(Curves, AreFittedInTheRowsThatTheModelScales) {
+  const Robot robot = test::arm();
+  const AppliedEffect gain = test::effect("torque_gain", 0, {0.5});
+  const Recording log = test::record({{gain}}, [](std::vector<Sample>& samples) {
+    for (Sample& s : samples) s.tau[0] += 0.4 * std::tanh(2.0 * s.q[1]);
+  });
+  LoopResult loop;
+  loop.model = {stacked_parameters(robot), {gain}};
+  RichModel model = loop.model;
+  model.curves = curves_for(robot, no_contacts, model, loop, log, stride);
+  ASSERT_FALSE(model.curves.empty());
+  const double without = series(robot, no_contacts, loop.model, log, stride).rms()[0];
+  const double with = series(robot, no_contacts, model, log, stride).rms()[0];
+  EXPECT_LT(with, 0.2 * without);  // a curve that comes out half as large again leaves half
+}
+
+/// Names mean something to YAML as well.
+TEST(EffectsYaml, NamesOfAnyKindAreReadBack) {
+  for (const char* name : {"leg #2", "left: knee", "[a]", "*x", "- a", "true", "~", "1e3", "it's",
+                           "\"q\"", "{b}", "% c", "a\\n"}) {
+    Robot robot = test::arm();
+    robot.links[2].joint.name = name;
+    KnownEffects known{{test::effect("torque_offset", 1, {0.25})}, {}};
+    known.curves = {curve("torque_offset", 1, {CurveSignal::speed, 1}, {-1.5, 0.1}, {0.3, -0.4})};
+    const test::Scratch scratch;
+    const std::string text = write_effects_yaml(robot, known);
+    const KnownEffects again = read_effects_yaml(scratch.file("effects.yaml", text), robot);
+    EXPECT_EQ(again.effects.at(0).site, 1) << text;
+    EXPECT_EQ(again.curves.at(0).over, (CurveVariable{CurveSignal::speed, 1})) << text;
+  }
+}
+
+TEST(EffectsYaml, OneEntryAnEffectAndPlaceAndOneOfWhatCameSince) {
+  const Robot robot = test::arm();
+  const auto read = [&](const std::vector<AppliedEffect>& effects) {
+    const test::Scratch scratch;
+    return read_effects_yaml(scratch.file("effects.yaml", write_effects_yaml(robot, {effects, {}})),
+                             robot)
+        .effects;
+  };
+  const AppliedEffect friction = test::effect("viscous_friction", 1, {0.25});
+  AppliedEffect more = test::effect("viscous_friction", 1, {0.1});
+  more.since_reference = true;
+  const std::vector<AppliedEffect> both = read({friction, more});
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_FALSE(both[0].since_reference);
+  EXPECT_TRUE(both[1].since_reference);
+  EXPECT_THROW(static_cast<void>(read({friction, friction})), InputError);
+  // Two delays of one log together would look further than there is anything to see.
+  const AppliedEffect delay = test::effect("torque_delay", 0, {0.018});
+  AppliedEffect later = delay;
+  later.since_reference = true;
+  EXPECT_THROW(static_cast<void>(read({delay, later})), InputError);
+}
+
 TEST(CurvesYaml, IsReadBackTheSame) {
   const Robot robot = test::arm();
   KnownEffects known{{test::effect("torque_offset", 2, {0.25})}, {}};

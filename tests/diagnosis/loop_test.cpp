@@ -143,7 +143,7 @@ TEST(Loop, StaticLoadIsFoundAgainstAReferenceLogAndNotWithout) {
   EXPECT_EQ(found_ids(close_loop(arm(), with, nullptr, arm_settings())), Ids{});
   const LoopResult result = close_loop(arm(), with, &without, arm_settings());
   ASSERT_EQ(found_ids(result), Ids{"payload@link3"});
-  EXPECT_TRUE(result.found[0].since_reference);
+  EXPECT_TRUE(result.found[0].effect.since_reference);
   EXPECT_LT(std::abs(result.found[0].effect.value[0] - 0.8), 0.1);
 }
 
@@ -164,8 +164,35 @@ TEST(Loop, AGainThatCameSinceIsFoundAsThat) {
   const Recording reference = record({});
   const LoopResult result = close_loop(arm(), log, &reference, arm_settings());
   ASSERT_EQ(found_ids(result), Ids{"torque_gain@joint2"});
-  EXPECT_TRUE(result.found[0].since_reference);
+  EXPECT_TRUE(result.found[0].effect.since_reference);
   expect_value(result.found[0], {0.2});
+}
+
+/// What was there and grew is there twice: as it was, and what came on top.
+TEST(Loop, WhatGrewSinceTheReferenceIsWhatItWasAndWhatCame) {
+  const auto reference = [](const std::string& id, double value) {
+    return record({{effect(id, 1, {value})}, 20.0, 0.02, 7});
+  };
+  const auto grown = [&](const std::string& id, double before, double after) {
+    const Recording earlier = reference(id, before);
+    const Recording log = record({{effect(id, 1, {after})}});
+    const LoopSettings settings = arm_settings();
+    const LoopResult result = close_loop(arm(), log, &earlier, settings);
+    const Consistent consistent = make_consistent(arm(), log, &earlier, settings, result);
+    const std::string name = id + "@joint2";
+    EXPECT_EQ(found_ids(result), (Ids{name, name}));
+    double was = 1.0, came = 1.0, sum = 0.0;
+    for (const AppliedEffect& a : consistent.model.effects) {
+      (a.since_reference ? came : was) += a.value[0];
+      sum += a.value[0];
+    }
+    // A gain on top of a gain is their product.
+    const bool scales = id == "torque_gain";
+    EXPECT_NEAR(was, 1.0 + before, 0.01) << id;
+    EXPECT_NEAR(scales ? was * came - 1.0 : sum, after, 0.01) << id;
+  };
+  grown("viscous_friction", 0.2, 0.4);
+  grown("torque_gain", 0.2, 0.4);
 }
 
 /// Of what was not there yet the reference log knows nothing: it would make its number look twice
@@ -177,7 +204,7 @@ TEST(Loop, WhatCameSinceHasNoColumnInTheReference) {
   LoopState state(robot, log, &reference, settings);
   state.fit_masses();
   Found gain{effect("torque_gain", 1, {0.2}), "torque_gain@joint2", Eigen::VectorXd::Zero(1)};
-  gain.since_reference = true;
+  gain.effect.since_reference = true;
   state.result.found.push_back(gain);
   state.collect_effects();
   const BlockFits fits = state.tallied({gain.effect});

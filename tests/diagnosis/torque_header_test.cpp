@@ -147,5 +147,66 @@ TEST(TorqueHeader, LagOfADriveFollowsTheLoadOfTheRigidLinksInTheAir) {
   expect_lag_follows_the_rigid_links(Root::floating);
 }
 
+/// With what feet carry taken off, where a gain, friction by load and a lag see it as the library
+/// does.
+TEST(TorqueHeader, TakesOffContactForcesBeforeWhatDependsOnThem) {
+  Robot robot = test::arm();
+  robot.root = Root::floating;
+  robot.contacts = {{"tip", 3, ContactKind::point, Eigen::Isometry3d::Identity()}};
+  robot.contacts[0].frame.translation() = Eigen::Vector3d(0.02, -0.01, -0.2);
+  const std::vector<AppliedEffect> effects = {test::effect("torque_gain", 1, {0.3}),
+                                              test::effect("torque_lag", 2, {0.03}),
+                                              test::effect("load_friction", 0, {0.05})};
+  const RichModel model{stacked_parameters(robot), effects};
+  const Recording recording = test::record({}, [&](std::vector<Sample>& samples) {
+    for (Sample& s : samples) {
+      s.base_angular_velocity = {0.8 * std::sin(3.0 * s.time), 0.5, std::sin(s.time)};
+      s.base_angular_acceleration = {2.4 * std::cos(3.0 * s.time), 0.0, std::cos(s.time)};
+      s.base_specific_force = {std::sin(5.0 * s.time), 0.3, 9.6 + std::cos(2.0 * s.time)};
+      s.in_contact = {true};
+    }
+  });
+  const Viewer viewer(robot, reference::ContactTreatment::project, effects);
+  const std::size_t at = 700;
+  const View view = viewer.view(recording, at);
+  const Prediction predicted = predict(viewer, view, model);
+  const Eigen::VectorXd& f = predicted.load.force;
+  ASSERT_GT(f.norm(), 1.0);
+  const Eigen::VectorXd wanted = (predicted.force - predicted.J.transpose() * f).tail<3>();
+  std::string arrays, call;
+  const double step = neighbour_step(robot);
+  ASSERT_EQ(view.around.size(), 2U);
+  for (const int place : {0, 1, 2}) {
+    const Eigen::MatrixXd& J = place == 1 ? view.J : view.around[place == 0 ? 0 : 1].J;
+    const Eigen::MatrixXd& Y = place == 1 ? view.Y : view.around[place == 0 ? 0 : 1].Y;
+    const Eigen::VectorXd force =
+        predicted_load(robot, Eigen::VectorXd::Zero(robot.dof()), Y * model.Phi, J).force;
+    const Eigen::VectorXd contact = (J.transpose() * force).tail<3>();
+    const std::string name = fmt::format("contact{}", place);
+    call += (call.empty() ? "{" : ", {") +
+            arguments(recording.shifted(at, (place - 1) * step), robot.root, arrays) + ", " + name +
+            "}";
+    arrays += fmt::format("  const double {}[] = {{{}}};\n", name, fmt::join(contact, ", "));
+  }
+  const Eigen::MatrixXd got = said_by_header(torque_header(robot, model), arrays, {call});
+  const double magnified = (1.0 + 0.03 / step) * (1.0 + f.norm());
+  EXPECT_LT(test::scaled_difference(got.col(0), wanted, 20), magnified * test::few_hundred_eps);
+}
+
+/// What a name says in a comment stays in it.
+TEST(TorqueHeader, NamesEndNoLine) {
+  Robot robot = test::arm();
+  robot.links[1].name = "upper\\";
+  robot.links[2].joint.name = "elbow\\";
+  const RichModel model{stacked_parameters(robot), {}};
+  const Recording recording = test::record({});
+  const Viewer viewer(robot, reference::ContactTreatment::ignore, {});
+  const Eigen::VectorXd wanted = predict(viewer, viewer.view(recording, 500), model).force;
+  std::string arrays;
+  const std::string call = arguments(recording[500], robot.root, arrays);
+  const Eigen::MatrixXd got = said_by_header(torque_header(robot, model), arrays, {call});
+  EXPECT_LT(test::scaled_difference(got, wanted, 20), test::few_hundred_eps);
+}
+
 }  // namespace
 }  // namespace shapeid::diagnosis
