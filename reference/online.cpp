@@ -1,5 +1,6 @@
 #include "shapeid/reference/online.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "shapeid/models/error.hpp"
@@ -13,21 +14,30 @@ Eigen::VectorXd weight_of(const Robot& robot, const OnlineSettings& settings) {
                                     : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
 }
 
+OnlineSettings checked(OnlineSettings settings) {
+  if (settings.window == 0 || settings.stride == 0) {
+    throw InputError("a window or stride of no samples", "both count samples, at least 1");
+  }
+  if (!(settings.expected_mass > 0.0) || !std::isfinite(settings.expected_mass)) {
+    throw InputError("the expected mass is no positive number", "kg, of all free shapes together");
+  }
+  if (!(settings.alpha > 0.0 && settings.alpha <= 1.0)) {
+    throw InputError("alpha of filter (17) is not in (0, 1]", "1 does not smooth");
+  }
+  if (settings.lambda && (!(*settings.lambda >= 0.0) || !std::isfinite(*settings.lambda))) {
+    throw InputError("lambda is negative, or no number", "zero or positive");
+  }
+  return settings;
+}
+
 }  // namespace
 
 OnlineIdentifier::OnlineIdentifier(const Robot& robot, BodyModel model, OnlineSettings settings)
     : model_(std::move(model)),
-      settings_(std::move(settings)),
+      settings_(checked(std::move(settings))),
       rows_(robot, model_, settings_.contacts, weight_of(robot, settings_)),
       filter_(settings_.alpha),
-      masses_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model_.shapes.size()))) {
-  if (settings_.window == 0 || settings_.stride == 0) {
-    throw InputError("a window or stride of no samples", "both count samples, at least 1");
-  }
-  if (!(settings_.expected_mass > 0.0)) {
-    throw InputError("the expected mass is not positive", "kg, of all free shapes together");
-  }
-}
+      masses_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model_.shapes.size()))) {}
 
 std::optional<OnlineResult> OnlineIdentifier::feed(const Sample& sample) {
   recent_.push_back(sample);

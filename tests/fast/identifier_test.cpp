@@ -204,6 +204,32 @@ TEST(FastDivision, ADeclinedStartLeavesTheMasses) {
   }
 }
 
+TEST(FastIdentifier, TheReferenceRefusesTheSameSettings) {
+  const Robot robot = read_urdf(SHAPEID_SOURCE_DIR "/models/robots/quadruped.urdf").robot;
+  const BodyModel model = test::base_model(robot);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto refuse_both = [&](const auto& change) {
+    fast::IdentifierSettings settings;
+    reference::OnlineSettings same;
+    settings.expected_mass = same.expected_mass = 1.0;
+    change(settings);
+    change(same);
+    EXPECT_THROW(Identifier(robot, model, settings), InputError);
+    EXPECT_THROW(reference::OnlineIdentifier(robot, model, same), InputError);
+  };
+  refuse_both([](auto& s) { s.window = 0; });
+  refuse_both([](auto& s) { s.stride = 0; });
+  for (const double alpha : {0.0, -0.5, 1.5, std::nan("")}) {
+    refuse_both([&](auto& s) { s.alpha = alpha; });
+  }
+  for (const double lambda : {-1.0, infinity, std::nan("")}) {
+    refuse_both([&](auto& s) { s.lambda = lambda; });
+  }
+  for (const double mass : {0.0, -1.0, infinity, std::nan("")}) {
+    refuse_both([&](auto& s) { s.expected_mass = mass; });
+  }
+}
+
 TEST(FastIdentifier, RefusesSettingsThatMakeNoSense) {
   const Robot robot = read_urdf(SHAPEID_SOURCE_DIR "/models/robots/quadruped.urdf").robot;
   const BodyModel model = test::base_model(robot);
