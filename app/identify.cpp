@@ -74,7 +74,8 @@ void identify(Options& options) {
     throw Refusal(
         "no-mass",
         "the log asks for no mass at all where some is sought: the sign of the torques or "
-        "of the accelerometer is wrong, or the given inertias are too large");
+        "of the accelerometer is wrong, the given inertias are too large, or what carries the "
+        "robot is no contact of it");
   }
   const Judgement judged = judge(result);
   const std::optional<double>& floor = judged.certified.proof.floor;

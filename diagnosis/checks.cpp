@@ -68,7 +68,7 @@ void check_torque_scale(const Robot& robot, const Recording& recording,
   if (against == telling) {
     throw Refusal("torque-sign",
                   fmt::format("the logged torque runs against the given model at {} joints, and "
-                              "with it at none: turn its sign in the mapping (scale: -1)",
+                              "with it at none: turn it in the mapping (sign: -1)",
                               telling));
   }
   if (above == telling || below == telling) {
