@@ -103,7 +103,11 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
     if (!rule.has_reference || h.effect->built_in) continue;
     if (!h.since_reference) {
       c.effect.since_reference = true;
-      if (has_place_of(tally.hypotheses, c.effect)) continue;  // it has numbers of its own
+      const bool has_own_numbers = std::any_of(
+          tally.hypotheses.begin(), tally.hypotheses.end(), [&](const AppliedEffect& other) {
+            return other.since_reference && same_place(other, c.effect);
+          });
+      if (has_own_numbers) continue;
       if (h.effect->transform.any()) c.effect.value.setZero();
     }
     c.term.from_block = fits.first_block();

@@ -8,7 +8,6 @@
 #include <functional>
 #include <optional>
 
-#include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/hypotheses.hpp"
 #include "shapeid/models/yaml_input.hpp"

@@ -168,6 +168,18 @@ TEST(Loop, AGainThatCameSinceIsFoundAsThat) {
   expect_value(result.found[0], {0.2});
 }
 
+/// What moves samples is at its place once, from the beginning or since.
+TEST(Loop, ADelayThatCameSinceIsFoundAsThat) {
+  const Recording log = record({{effect("torque_delay", 0, {0.012})}, 20.0, 0.02, 2});
+  const Recording without = record({}), with = record({{effect("torque_delay", 0, {0.012})}});
+  for (const bool came : {true, false}) {
+    const LoopResult result = close_loop(arm(), log, came ? &without : &with, arm_settings());
+    ASSERT_EQ(found_ids(result), Ids{"torque_delay@all"});
+    EXPECT_EQ(result.found[0].effect.since_reference, came);
+    EXPECT_NEAR(result.found[0].effect.value[0], 0.012, 0.001);
+  }
+}
+
 /// What was there and grew is there twice: as it was, and what came on top.
 TEST(Loop, WhatGrewSinceTheReferenceIsWhatItWasAndWhatCame) {
   const auto reference = [](const std::string& id, double value) {
