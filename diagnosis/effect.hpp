@@ -147,7 +147,8 @@ struct AppliedEffect {
 };
 
 /// The same effect at the same place, there from the beginning or since the reference log. What
-/// moves samples in time is at its place once: what both ways together reach has a limit.
+/// changes samples is at its place once, whichever: how far all together may look in time has a
+/// limit (largest_shift).
 [[nodiscard]] bool same_place(const AppliedEffect& a, const AppliedEffect& b);
 /// Whether one of them is the same effect at the same place.
 [[nodiscard]] bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a);

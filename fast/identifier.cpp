@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/online_numbers.hpp"
 
 namespace shapeid::fast {
 namespace {
@@ -17,22 +18,8 @@ double seconds_since(Clock::time_point start) noexcept {
 }
 
 const IdentifierSettings& checked(const IdentifierSettings& settings) {
-  if (settings.window == 0 || settings.stride == 0) {
-    throw InputError("a window or stride of no samples", "both count samples, at least 1");
-  }
-  constexpr std::size_t longest = 1'000'000'000;  // a negative number in C comes as more
-  if (settings.window > longest || settings.stride > longest) {
-    throw InputError("a window or stride of more than a billion samples", "some dozens");
-  }
-  if (!(settings.expected_mass > 0.0) || !std::isfinite(settings.expected_mass)) {
-    throw InputError("the expected mass is no positive number", "kg, of all free shapes together");
-  }
-  if (!(settings.alpha > 0.0 && settings.alpha <= 1.0)) {
-    throw InputError("alpha of filter (17) is not in (0, 1]", "1 does not smooth");
-  }
-  if (settings.lambda && (!(*settings.lambda >= 0.0) || !std::isfinite(*settings.lambda))) {
-    throw InputError("lambda is negative, or no number", "zero or positive");
-  }
+  check_online(
+      {settings.window, settings.stride, settings.alpha, settings.expected_mass, settings.lambda});
   if (settings.mass_bound &&
       (!(*settings.mass_bound > 0.0) || !std::isfinite(*settings.mass_bound))) {
     throw InputError("the mass bound is no positive number", "kg, of all free shapes together");

@@ -1,9 +1,8 @@
 #include "shapeid/reference/online.hpp"
 
-#include <cmath>
 #include <utility>
 
-#include "shapeid/models/error.hpp"
+#include "shapeid/models/online_numbers.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 
 namespace shapeid::reference {
@@ -15,18 +14,8 @@ Eigen::VectorXd weight_of(const Robot& robot, const OnlineSettings& settings) {
 }
 
 OnlineSettings checked(OnlineSettings settings) {
-  if (settings.window == 0 || settings.stride == 0) {
-    throw InputError("a window or stride of no samples", "both count samples, at least 1");
-  }
-  if (!(settings.expected_mass > 0.0) || !std::isfinite(settings.expected_mass)) {
-    throw InputError("the expected mass is no positive number", "kg, of all free shapes together");
-  }
-  if (!(settings.alpha > 0.0 && settings.alpha <= 1.0)) {
-    throw InputError("alpha of filter (17) is not in (0, 1]", "1 does not smooth");
-  }
-  if (settings.lambda && (!(*settings.lambda >= 0.0) || !std::isfinite(*settings.lambda))) {
-    throw InputError("lambda is negative, or no number", "zero or positive");
-  }
+  check_online(
+      {settings.window, settings.stride, settings.alpha, settings.expected_mass, settings.lambda});
   return settings;
 }
 

@@ -168,7 +168,7 @@ TEST(Loop, AGainThatCameSinceIsFoundAsThat) {
   expect_value(result.found[0], {0.2});
 }
 
-/// What moves samples is at its place once, from the beginning or since.
+/// What changes samples is at its place once, from the beginning or since.
 TEST(Loop, ADelayThatCameSinceIsFoundAsThat) {
   const Recording log = record({{effect("torque_delay", 0, {0.012})}, 20.0, 0.02, 2});
   const Recording without = record({}), with = record({{effect("torque_delay", 0, {0.012})}});

@@ -1,0 +1,89 @@
+// What a solver keeps from call to call: the scale of its rows, lambda, and whether its masses are
+// an answer.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "shapeid/fast/mass_solver.hpp"
+
+namespace shapeid {
+namespace {
+
+using Eigen::MatrixXd;
+using fast::MassSolver;
+using fast::Outcome;
+
+/// In any unit: a slope is small beside what the rows make it of.
+TEST(FastMassState, PartsOfAShapeWithoutMassAreAskedInAnyUnit) {
+  for (const double unit : {1.0, 1e-8, 1e8}) {
+    MatrixXd R = MatrixXd::Zero(11, 11);
+    R(0, 0) = R(1, 1) = R(2, 2) = unit;
+    R(0, 10) = 2.0 * unit;
+    R(1, 10) = unit;
+    MassSolver solver(1, 4);
+    ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(0), 1.0));
+    ASSERT_TRUE(solver.append(0, -MassSolver::Column::Unit(1), 2.0));
+    ASSERT_EQ(solver.solve(R), Outcome::solved);
+    ASSERT_TRUE(solver.divide(1, -3.0 * MassSolver::Column::Unit(1), 1.0,
+                              MassSolver::Column::Unit(1), 1.0));
+    ASSERT_EQ(solver.solve_again(), Outcome::solved);
+    EXPECT_NEAR(solver.m()[2], 1.0, 1e-9) << unit;
+  }
+}
+
+/// The density term is that of the lambda that is set, whatever it was before.
+TEST(FastMassState, ALambdaThatIsTakenAwayLeavesNothing) {
+  MatrixXd R = MatrixXd::Zero(21, 21);
+  R.diagonal().head(20).setOnes();
+  R.col(20).head(20).setOnes();
+  MassSolver solver(2, 8);
+  solver.set_lambda(1e-3);
+  for (const int link : {0, 1}) {
+    for (const int i : {0, 1, 2}) {
+      ASSERT_TRUE(solver.append(link, MassSolver::Column::Unit(i), 0.5));
+    }
+  }
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  EXPECT_GT(solver.value().density, 0.0);
+  solver.set_lambda(0.0);
+  ASSERT_EQ(solver.solve_again(), Outcome::solved);
+  EXPECT_EQ(solver.value().density, 0.0);
+  for (const double m : solver.m()) EXPECT_NEAR(m, 1.0, 1e-12);
+}
+
+/// A stiffness that overflows has no answer, and is not given one.
+TEST(FastMassState, NoMassesAreGivenOutThatAreNoNumbers) {
+  MatrixXd R = MatrixXd::Identity(11, 11);
+  R.col(10).setOnes();
+  R(10, 10) = 0.0;
+  for (const double lambda : {std::numeric_limits<double>::infinity(), 1e300}) {
+    MassSolver solver(1, 4);
+    solver.set_lambda(lambda);
+    for (const int i : {0, 1, 2}) {
+      ASSERT_TRUE(
+          solver.append(0, MassSolver::Column::Unit(i) + 0.5 * MassSolver::Column::Unit(3), 1e-12));
+    }
+    const Outcome outcome = solver.solve(R);
+    EXPECT_TRUE(outcome != Outcome::solved || solver.m().allFinite()) << lambda;
+  }
+}
+
+/// Masses to start at are no answer that a division could change.
+TEST(FastMassState, DividesMassesThatWereSetSinceTheLastAnswer) {
+  MatrixXd R = MatrixXd::Identity(11, 11);
+  R.col(10).setOnes();
+  R(10, 10) = 0.0;
+  MassSolver solver(1, 4);
+  ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(0), 1.0));
+  ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(1), 1.0));
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  solver.start_at(0, 5.0);
+  ASSERT_TRUE(
+      solver.divide(0, 2.0 * MassSolver::Column::Unit(0), 0.5, MassSolver::Column::Zero(), 0.5));
+  EXPECT_FALSE(solver.why_changed());
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  EXPECT_NEAR(solver.m()[0], 0.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace shapeid
