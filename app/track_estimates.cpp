@@ -54,8 +54,7 @@ double rows_of(const Robot& robot, const Sample& sample, ContactTreatment treatm
   if (treatment != ContactTreatment::project) return rows;
   for (std::size_t c = 0; c < sample.in_contact.size(); ++c) {
     if (!sample.in_contact[c]) continue;
-    const ContactKind kind = robot.contacts[c].kind;
-    rows -= kind == ContactKind::point ? 3.0 : kind == ContactKind::line ? 5.0 : 6.0;
+    rows -= static_cast<double>(force_numbers(robot.contacts[c].kind));
   }
   return std::max(rows, 0.0);
 }

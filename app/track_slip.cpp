@@ -6,10 +6,6 @@
 namespace shapeid::app {
 namespace {
 
-Eigen::Index rows_of(ContactKind kind) {
-  return kind == ContactKind::point ? 3 : kind == ContactKind::line ? 5 : 6;
-}
-
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t half = values.size() / 2;
@@ -43,7 +39,7 @@ std::vector<int> SlipWatch::watch(const Sample& sample) {
     }
     touching.push_back(c);
     seen_from_base.emplace_back(velocities.segment<3>(row));
-    row += rows_of(robot_.contacts[c].kind);
+    row += force_numbers(robot_.contacts[c].kind);
   }
   Eigen::Vector3d common = Eigen::Vector3d::Zero();  // a fixed base stands still
   if (robot_.root == Root::floating && !touching.empty()) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 
 namespace shapeid::diagnosis {
 
@@ -17,6 +18,18 @@ bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect
                      [&](const AppliedEffect& b) { return same_place(a, b); });
 }
 
+namespace {
+
+/// Several contacts of a link share its name.
+std::string contact_name(const Robot& robot, int contact) {
+  const auto here = robot.contacts.begin() + contact;
+  const auto before = std::count_if(robot.contacts.begin(), here,
+                                    [&](const Contact& c) { return c.name == here->name; });
+  return before == 0 ? here->name : here->name + " #" + std::to_string(before + 1);
+}
+
+}  // namespace
+
 std::string site_name(const Robot& robot, SiteKind kind, int site) {
   switch (kind) {
     case SiteKind::joint:
@@ -24,7 +37,7 @@ std::string site_name(const Robot& robot, SiteKind kind, int site) {
     case SiteKind::link:
       return robot.links[static_cast<std::size_t>(site)].name;
     case SiteKind::contact:
-      return robot.contacts[static_cast<std::size_t>(site)].name;
+      return contact_name(robot, site);
     case SiteKind::accelerometer:
       return "base.accel";
     case SiteKind::whole:

@@ -153,7 +153,8 @@ struct AppliedEffect {
 /// Whether one of them is the same effect at the same place.
 [[nodiscard]] bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a);
 
-/// Names of places: a joint, a link, a contact, "base.accel" or "all".
+/// Names of places: a joint, a link, a contact, "base.accel" or "all". Of several contacts on one
+/// link the second is "LINK #2".
 [[nodiscard]] std::string site_name(const Robot& robot, SiteKind kind, int site);
 /// How many sites of a kind the robot has.
 [[nodiscard]] int site_count(const Robot& robot, SiteKind kind);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "shapeid/diagnosis/effects.hpp"
@@ -14,6 +15,8 @@
 
 namespace shapeid::diagnosis {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A name as YAML reads it back, in quotes where it needs them.
 std::string scalar(const std::string& name) {
@@ -61,14 +64,16 @@ void check_shape(const YamlInput& file, const YAML::Node& node, const ShapeNumbe
               fmt::format("{:g} to {:g} {}", shape.lower, shape.upper, shape.unit));
 }
 
-void check_value(const YamlInput& file, const YAML::Node& node, const Parameter& parameter,
-                 double value) {
-  const double least = parameter.nonnegative ? 0.0 : -parameter.limit;
-  if (value >= least && value <= parameter.limit) return;
+/// Limits of columns are of what is believed when they are sought; a number that is known may be
+/// any. A transformation works within its limits alone.
+void check_value(const YamlInput& file, const YAML::Node& node, const Effect& effect,
+                 const Parameter& parameter, double value) {
+  const double limit = effect.transform.any() ? parameter.limit : infinity;
+  const double least = parameter.nonnegative ? 0.0 : -limit;
+  if (value >= least && value <= limit) return;
   file.refuse(node, fmt::format("{} is {:g}", parameter.name, value),
-              std::isfinite(parameter.limit)
-                  ? fmt::format("{:g} to {:g} {}", least, parameter.limit, parameter.unit)
-                  : fmt::format("at least 0 {}", parameter.unit));
+              std::isfinite(limit) ? fmt::format("{:g} to {:g} {}", least, limit, parameter.unit)
+                                   : fmt::format("at least 0 {}", parameter.unit));
 }
 
 AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Robot& robot) {
@@ -89,7 +94,7 @@ AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Ro
       check_shape(file, number, applied.effect->shape[i], value);
       applied.shape[static_cast<Eigen::Index>(i)] = value;
     } else {
-      check_value(file, number, applied.effect->parameters[i - shapes], value);
+      check_value(file, number, *applied.effect, applied.effect->parameters[i - shapes], value);
       applied.value[static_cast<Eigen::Index>(i - shapes)] = value;
     }
   }

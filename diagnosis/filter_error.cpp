@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "shapeid/models/segment_filter.hpp"
-#include "shapeid/reference/contact.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -35,7 +34,7 @@ class ForceSlots {
   explicit ForceSlots(const Robot& robot) {
     for (const Contact& contact : robot.contacts) {
       first_.push_back(size_);
-      size_ += reference::force_numbers(contact.kind);
+      size_ += force_numbers(contact.kind);
     }
     first_.push_back(size_);
   }

@@ -18,7 +18,7 @@ std::vector<int> all_links(const Robot& robot) {
 
 Eigen::Index most_forces(const Robot& robot) {
   Eigen::Index count = 0;
-  for (const Contact& contact : robot.contacts) count += reference::force_numbers(contact.kind);
+  for (const Contact& contact : robot.contacts) count += force_numbers(contact.kind);
   return count;
 }
 

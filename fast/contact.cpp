@@ -17,18 +17,6 @@ using Eigen::Vector3d;
   return "not a flag for each contact";
 }
 
-Eigen::Index rows_of(ContactKind kind) noexcept {
-  switch (kind) {
-    case ContactKind::point:
-      return 3;
-    case ContactKind::line:
-      return 5;
-    case ContactKind::plane:
-      return 6;
-  }
-  return 0;
-}
-
 /// The axes of the moments that a contact holds, by columns in base axes, after the three forces.
 Matrix3d held_axes(const Contact& contact, const Matrix3d& R) noexcept {
   Matrix3d axes = Matrix3d::Identity();
@@ -47,7 +35,7 @@ Vector3d place_of(const Contact& contact, Kinematics& kinematics) noexcept {
 
 ContactJacobian::ContactJacobian(const Robot& robot) : contacts_(robot.contacts) {
   Eigen::Index most = 0;
-  for (const Contact& contact : contacts_) most += rows_of(contact.kind);
+  for (const Contact& contact : contacts_) most += force_numbers(contact.kind);
   transposed_.setZero(robot.dof(), most);
 }
 
@@ -59,7 +47,7 @@ void ContactJacobian::update(Kinematics& kinematics, const Sample& sample) noexc
     if (!sample.in_contact[c]) continue;
     const Contact& contact = contacts_[c];
     const Vector3d point = place_of(contact, kinematics);
-    const Eigen::Index moments = rows_of(contact.kind) - 3;
+    const Eigen::Index moments = force_numbers(contact.kind) - 3;
     const Matrix3d held = held_axes(contact, kinematics.pose(contact.link).R);
     auto JT = transposed_.middleCols(rows_, 3 + moments);
     JT.setZero();

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "shapeid/models/contract.hpp"
+
 namespace shapeid::fast {
 namespace {
 
@@ -37,6 +39,7 @@ Division::Division(const BodyModel& model, const DivisionOptions& options)
       solver_(static_cast<int>(model.free_links.size()),
               static_cast<int>(model.shapes.size()) + options.most_divisions),
       last_Phi_(Eigen::VectorXd::Zero(10 * static_cast<Eigen::Index>(model.free_links.size()))) {
+  SHAPEID_CONTRACT(why_on_known_links(model));
   for (std::size_t j = 0; j < model.shapes.size(); ++j) {
     const auto link =
         std::find(model.free_links.begin(), model.free_links.end(), model.shapes[j].link);

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "shapeid/fast/asked_of_masses.hpp"
 #include "shapeid/fast/many_links.hpp"
 #include "shapeid/fast/one_link.hpp"
 
@@ -46,6 +47,7 @@ void MassSolver::clear() noexcept {
 }
 
 bool MassSolver::append(int link, const Column& u, double V) noexcept {
+  SHAPEID_CONTRACT(why_no_shape(link, u, V, links()));
   guess_ = nullptr;  // which knows nothing of it
   return add(link, u, V);
 }
@@ -60,6 +62,7 @@ bool MassSolver::add(int link, const Column& u, double V) noexcept {
 }
 
 void MassSolver::set_lambda(double lambda) noexcept {
+  SHAPEID_CONTRACT(why_no_lambda(lambda));
   if (lambda == lambda_) return;
   lambda_ = lambda;
   guess_ = nullptr;
@@ -78,6 +81,7 @@ void MassSolver::forget_masses() noexcept {
 }
 
 void MassSolver::start_at(int j, double mass) noexcept {
+  SHAPEID_CONTRACT(why_no_start(j, mass, shapes()));
   guess_ = nullptr;
   has_answer_ = false;
   method_.start_at(j, mass);
@@ -85,6 +89,7 @@ void MassSolver::start_at(int j, double mass) noexcept {
 }
 
 Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
+  SHAPEID_CONTRACT(why_no_triangle(R, links()));
   if (!method_.take(R)) return Outcome::not_finite;
   const bool has_many = links() == 1 && !few_.fits();  // few enter at little cost
   start_watching();
@@ -235,6 +240,7 @@ bool MassSolver::keep_guess_to_divide() noexcept {
 
 bool MassSolver::divide(int j, const Column& first, double V1, const Column& second,
                         double V2) noexcept {
+  SHAPEID_CONTRACT(why_no_parts(columns_.column(j), V_[j], first, V1, second, V2));
   const int other = shapes();
   if (!add(columns_.link(j), second, V2)) return false;
   // Where nothing is factorised yet, masses are but a place to start at.

@@ -4,12 +4,38 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace shapeid::fast {
+
+Violation why_no_belief(const Eigen::VectorXd& start, const Eigen::VectorXd& spread,
+                        const Eigen::VectorXd& wander) {
+  if (spread.size() != start.size() || wander.size() != start.size()) {
+    return "a mean of " + std::to_string(start.size()) + " parameters, a spread of " +
+           std::to_string(spread.size()) + ", a wander of " + std::to_string(wander.size());
+  }
+  if (!start.allFinite()) return "a mean is not finite";
+  if (!spread.allFinite() || !(spread.array() > 0.0).all())
+    return "a spread is not positive and finite";
+  if (!wander.allFinite() || !(wander.array() >= 0.0).all())
+    return "a wander is negative or not finite";
+  return std::nullopt;
+}
+
+Violation why_no_time(double seconds) {
+  if (seconds >= 0.0 && std::isfinite(seconds)) return std::nullopt;
+  return "a time of " + std::to_string(seconds) + " s";
+}
+
+Violation why_no_variance(double variance) {
+  if (variance > 0.0 && std::isfinite(variance)) return std::nullopt;
+  return "a variance of " + std::to_string(variance);
+}
 
 ParameterTracker::ParameterTracker(const Eigen::VectorXd& start, const Eigen::VectorXd& spread,
                                    const Eigen::VectorXd& wander)
     : spread_(spread), wander_(wander), rows_(start.size()) {
+  SHAPEID_CONTRACT(why_no_belief(start, spread, wander));
   set(start, spread.cwiseAbs2().asDiagonal());
 }
 
@@ -34,12 +60,14 @@ void ParameterTracker::set(const Eigen::VectorXd& mean, const Eigen::MatrixXd& c
 }
 
 void ParameterTracker::drift(double seconds) {
+  SHAPEID_CONTRACT(why_no_time(seconds));
   Eigen::MatrixXd P = covariance();
   P.diagonal() += seconds * wander_.cwiseAbs2();
   set(mean(), P);
 }
 
 void ParameterTracker::measure(const Triangle& window, double variance) {
+  SHAPEID_CONTRACT(why_no_variance(variance));
   Eigen::MatrixXd rows = window.R() / std::sqrt(variance);
   rows_.absorb(rows);
 }

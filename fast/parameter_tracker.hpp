@@ -6,8 +6,17 @@
 #include <Eigen/Core>
 
 #include "shapeid/fast/triangle.hpp"
+#include "shapeid/models/contract.hpp"
 
 namespace shapeid::fast {
+
+/// What the tracker asks of its caller: as many numbers each, finite; spread > 0, wander >= 0.
+[[nodiscard]] Violation why_no_belief(const Eigen::VectorXd& start, const Eigen::VectorXd& spread,
+                                      const Eigen::VectorXd& wander);
+/// Empty for a time >= 0, s.
+[[nodiscard]] Violation why_no_time(double seconds);
+/// Empty for a variance > 0.
+[[nodiscard]] Violation why_no_variance(double variance);
 
 /// x(t + dt) = x(t) + w, w ~ N(0, dt diag(wander^2));  R x = c + noise of one variance: each window
 /// is a triangle [R c]. (docs/tracking.md)
@@ -18,7 +27,7 @@ class ParameterTracker {
   ParameterTracker(const Eigen::VectorXd& start, const Eigen::VectorXd& spread,
                    const Eigen::VectorXd& wander);
 
-  /// Time goes by, s: every parameter is known a little less well.
+  /// Time goes by, s (>= 0): every parameter is known a little less well.
   void drift(double seconds);
   /// The rows of a window, each with noise of this variance (> 0).
   void measure(const Triangle& window, double variance);

@@ -2,19 +2,12 @@
 
 #include <cmath>
 
-#include "shapeid/models/contract.hpp"
-
 namespace shapeid::fast {
 namespace {
 
 // Enough rows that a pass over them is not all latency; few enough to stay in the nearest cache,
 // and that the call in which they are compressed is no burst.
 constexpr Eigen::Index rows_at_once = 64;
-
-[[maybe_unused]] Violation why_no_factor(double factor) {
-  if (factor >= 0.0 && factor <= 1.0) return std::nullopt;
-  return "a forgetting factor is not between 0 and 1";
-}
 
 }  // namespace
 
@@ -45,7 +38,6 @@ void Window::clear() noexcept {
 }
 
 void Window::forget(double factor) noexcept {
-  SHAPEID_CONTRACT(why_no_factor(factor));
   compress();
   triangle_.forget(factor);
 }

@@ -15,6 +15,13 @@ Eigen::Index place_of(const BodyModel& model, int link) {
 
 }  // namespace
 
+Violation why_on_known_links(const BodyModel& model) {
+  for (const SoughtShape& s : model.shapes) {
+    if (place_of(model, s.link) < 0) return fmt::format("shape {} is on no free link", s.id);
+  }
+  return std::nullopt;
+}
+
 Violation why_malformed(const BodyModel& model, const Robot& robot) {
   if (model.known.size() != 10 * robot.link_count()) {
     return fmt::format("known parameters have {} entries, the robot needs {}", model.known.size(),
@@ -29,10 +36,7 @@ Violation why_malformed(const BodyModel& model, const Robot& robot) {
                                        [&](const SoughtShape& s) { return s.link == link; });
     if (!has_shape) return fmt::format("free link {} has no shape", link);
   }
-  for (const SoughtShape& s : model.shapes) {
-    if (place_of(model, s.link) < 0) return fmt::format("shape {} is on no free link", s.id);
-  }
-  return std::nullopt;
+  return why_on_known_links(model);
 }
 
 Eigen::MatrixXd shape_columns(const BodyModel& model) {

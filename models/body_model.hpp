@@ -27,6 +27,9 @@ struct BodyModel {
   std::vector<SoughtShape> shapes;
 };
 
+/// Empty if every shape's link is free.
+[[nodiscard]] Violation why_on_known_links(const BodyModel& model);
+
 /// Empty if every shape's link is free, every free link has a shape, and sizes agree.
 [[nodiscard]] Violation why_malformed(const BodyModel& model, const Robot& robot);
 

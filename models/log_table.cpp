@@ -8,9 +8,12 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
+
+#include "shapeid/models/number.hpp"
 
 namespace shapeid {
 namespace {
@@ -21,25 +24,19 @@ constexpr std::size_t longest_line = 1 << 20;
 
 double number(std::string_view text, const Place& place) {
   if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::string_view digits = text;
-  const bool signed_twice = digits.size() > 1 && (digits[1] == '+' || digits[1] == '-');
-  if (digits.front() == '+' && !signed_twice) digits.remove_prefix(1);  // from_chars knows only -
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::result_out_of_range) {
-    throw InputError(place, fmt::format("\"{}\" does not fit a double", text), "check the value");
-  }
-  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
-    throw InputError(place, fmt::format("\"{}\" is not a number", text),
+  const std::optional<double> value = parse_number(text);
+  if (!value) {
+    throw InputError(place, why_no_number(text),
                      "write decimals with a point, and nothing for a missing value");
   }
-  if (std::abs(value) > largest_reading) {
+  if (std::abs(*value) > largest_reading) {
     throw InputError(place, fmt::format("\"{}\" is more than any sensor reads", text),
                      "check the value and its unit");
   }
-  return value;
+  return *value;
 }
 
+/// Of a header, where "nan" is no name either.
 bool is_number(const std::string& text) {
   double value = 0.0;
   const char* const end = text.data() + text.size();

@@ -76,6 +76,19 @@ enum class ContactKind {
   plane   ///< a full wrench: six components
 };
 
+/// How many numbers the force of a contact of this kind has; as many rows has its Jacobian.
+[[nodiscard]] constexpr Eigen::Index force_numbers(ContactKind kind) noexcept {
+  switch (kind) {
+    case ContactKind::point:
+      return 3;
+    case ContactKind::line:
+      return 5;
+    case ContactKind::plane:
+      break;
+  }
+  return 6;
+}
+
 /// A place where the robot may touch the world.
 struct Contact {
   std::string name;  ///< the URDF link that it belongs to, also when a fixed joint lumps it

@@ -43,18 +43,6 @@ Eigen::MatrixXd contact_rows(const Robot& robot, const std::vector<LinkMotion>& 
 
 }  // namespace
 
-Eigen::Index force_numbers(ContactKind kind) {
-  switch (kind) {
-    case ContactKind::point:
-      return 3;
-    case ContactKind::line:
-      return 5;
-    case ContactKind::plane:
-      return 6;
-  }
-  throw Defect("a contact of no known kind");
-}
-
 Eigen::MatrixXd contact_jacobian(const Robot& robot, const Sample& sample) {
   const std::vector<LinkMotion> motions = link_motions(robot, sample);
   Eigen::MatrixXd J(0, robot.dof());

@@ -8,9 +8,6 @@
 
 namespace shapeid::reference {
 
-/// Rows of J that a contact of this kind has while it touches: how many numbers its force has.
-[[nodiscard]] Eigen::Index force_numbers(ContactKind kind);
-
 /// Rows of J of every contact that touches in this sample, in the robot's order of contacts;
 /// columns in generalised order. A point has 3 rows, the velocity of its origin in base axes; a
 /// line 5, the angular velocity about its frame's y and z added; a plane 6, the angular velocity in

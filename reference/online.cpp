@@ -40,9 +40,9 @@ std::optional<OnlineResult> OnlineIdentifier::feed(const Sample& sample) {
   MassProblem problem = rows_.problem(model_);
   problem.lambda =
       settings_.lambda ? *settings_.lambda : default_lambda(problem, settings_.expected_mass);
-  if (!problem.F.isZero(0.0)) settings_.lambda = problem.lambda;  // no forces give no scale
 
   OnlineResult result{sample.time, solve_masses(problem, masses_), {}};
+  if (!problem.F.isZero(0.0)) settings_.lambda = problem.lambda;  // no forces give no scale
   masses_ = result.solution.m;
   result.filtered = filter_.update(result.solution.Phi);
   return result;

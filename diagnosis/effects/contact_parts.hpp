@@ -47,7 +47,7 @@ inline std::optional<Eigen::Index> stance_row(const Robot& robot, const Sample& 
   if (wanted >= sample.in_contact.size() || !sample.in_contact[wanted]) return std::nullopt;
   Eigen::Index row = 0;
   for (std::size_t c = 0; c < wanted; ++c) {
-    if (sample.in_contact[c]) row += reference::force_numbers(robot.contacts[c].kind);
+    if (sample.in_contact[c]) row += force_numbers(robot.contacts[c].kind);
   }
   return row;
 }

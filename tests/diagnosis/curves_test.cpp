@@ -169,6 +169,45 @@ TEST(EffectsYaml, OneEntryAnEffectAndPlaceAndOneOfWhatCameSince) {
   EXPECT_THROW(static_cast<void>(read({delay, later})), InputError);
 }
 
+/// Several contacts of one link share its flag and its name, and are places of their own.
+TEST(EffectsYaml, TellsContactsOfOneLinkApart) {
+  Robot robot = test::arm();
+  for (const int link : {1, 3, 3, 1, 3}) {
+    Contact contact;
+    contact.link = link;
+    contact.name = robot.links[static_cast<std::size_t>(link)].name;
+    robot.contacts.push_back(contact);
+  }
+  KnownEffects known;
+  for (const int contact : {4, 0, 3, 2, 1}) {
+    known.effects.push_back(test::effect("contact_point", contact, {0.01 * contact, 0.0, 0.002}));
+  }
+  const test::Scratch scratch;
+  const KnownEffects again =
+      read_effects_yaml(scratch.file("effects.yaml", write_effects_yaml(robot, known)), robot);
+  ASSERT_EQ(again.effects.size(), known.effects.size());
+  for (std::size_t i = 0; i < known.effects.size(); ++i) {
+    EXPECT_EQ(again.effects[i].site, known.effects[i].site);
+    EXPECT_EQ(again.effects[i].value, known.effects[i].value);
+  }
+}
+
+/// All that a fit may end at is read back; a transformation has limits that it works within.
+TEST(EffectsYaml, LimitsOfWhatIsBelievedAreNoLimitsOfWhatIsKnown) {
+  const Robot robot = test::arm();
+  const auto read = [&](const AppliedEffect& effect) {
+    const test::Scratch scratch;
+    return read_effects_yaml(
+               scratch.file("effects.yaml", write_effects_yaml(robot, {{effect}, {}})), robot)
+        .effects.at(0)
+        .value[0];
+  };
+  EXPECT_EQ(read(test::effect("torque_lag", 1, {0.07})), 0.07);
+  EXPECT_THROW(read(test::effect("torque_lag", 1, {-0.001})), InputError);
+  EXPECT_EQ(read(test::effect("torque_delay", 0, {-0.019})), -0.019);
+  EXPECT_THROW(read(test::effect("torque_delay", 0, {0.5})), InputError);
+}
+
 TEST(CurvesYaml, IsReadBackTheSame) {
   const Robot robot = test::arm();
   KnownEffects known{{test::effect("torque_offset", 2, {0.25})}, {}};

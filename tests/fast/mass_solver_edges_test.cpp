@@ -117,7 +117,8 @@ TEST(FastMassEdges, TooLittleRoomChangesNothing) {
   const State before(solver);
   EXPECT_FALSE(solver.append(0, given.column(0), 1.0));
   const int j = solver.passive().front();
-  EXPECT_FALSE(solver.divide(j, given.column(j), 1.0, given.column(j), 1.0));
+  const double half = given.problem.V[j] / 2.0;
+  EXPECT_FALSE(solver.divide(j, given.column(j), half, given.column(j), half));
   EXPECT_EQ(State(solver), before);
   EXPECT_EQ(solver.shapes(), given.shapes());
   EXPECT_EQ(solver.solve_again(), Outcome::solved);

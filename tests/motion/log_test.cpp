@@ -57,6 +57,7 @@ TEST(LogReader, SaysWhatIsWrongWithBrokenFiles) {
   struct Broken {
     std::string text, message;
   };
+  const std::string right = "write decimals with a point, and nothing for a missing value";
   const Broken table[] = {
       {"", "x.csv: is empty; begin with a row of column names"},
       {"\n\n", "x.csv: is empty; begin with a row of column names"},
@@ -71,24 +72,15 @@ TEST(LogReader, SaysWhatIsWrongWithBrokenFiles) {
        "x.csv:2: has 3 fields where the header has 2; give one number a column, decimals with a "
        "point"},
       {"a,b\n1,\"2,5\"\n",
-       "x.csv:2, column b: \"2,5\" is not a number; write decimals with a point, and nothing for a "
-       "missing value"},
-      {"a,b\n1,nan\n",
-       "x.csv:2, column b: \"nan\" is not a number; write decimals with a point, and nothing for a "
-       "missing value"},
-      {"a,b\ninf,1\n",
-       "x.csv:2, column a: \"inf\" is not a number; write decimals with a point, and nothing for a "
-       "missing value"},
-      {"a,b\n-Infinity,1\n",
-       "x.csv:2, column a: \"-Infinity\" is not a number; write decimals with a point, and nothing "
-       "for a missing value"},
-      {"a,b\n1abc,1\n",
-       "x.csv:2, column a: \"1abc\" is not a number; write decimals with a point, and nothing for "
-       "a missing value"},
-      {"a,b\n+-1,1\n",
-       "x.csv:2, column a: \"+-1\" is not a number; write decimals with a point, and nothing for "
-       "a missing value"},
-      {"a,b\n1,1e999\n", "x.csv:2, column b: \"1e999\" does not fit a double; check the value"},
+       "x.csv:2, column b: is not a number (\"2,5\": decimals take a point, not a comma); " +
+           right},
+      {"a,b\n1,nan\n", "x.csv:2, column b: is not a finite number (\"nan\"); " + right},
+      {"a,b\ninf,1\n", "x.csv:2, column a: is not a finite number (\"inf\"); " + right},
+      {"a,b\n-Infinity,1\n", "x.csv:2, column a: is not a finite number (\"-Infinity\"); " + right},
+      {"a,b\n1abc,1\n", "x.csv:2, column a: is not a number (\"1abc\"); " + right},
+      {"a,b\n+-1,1\n", "x.csv:2, column a: is not a number (\"+-1\"); " + right},
+      {"a,b\n1,\" \"\n", "x.csv:2, column b: is empty; " + right},
+      {"a,b\n1,1e999\n", "x.csv:2, column b: does not fit into a double (\"1e999\"); " + right},
       {"a,b\n1,-1e101\n",
        "x.csv:2, column b: \"-1e101\" is more than any sensor reads; check the value and its unit"},
       {"a,b\n1,2\n\n3,4\n", "x.csv:3: is blank; remove it"},

@@ -100,7 +100,7 @@ RC_GTEST_PROP(ContactJacobian, HasTheRowsOfWhatTouchesInOrder, ()) {
     Sample s_alone = s;
     s_alone.in_contact = {true};
     const Eigen::MatrixXd rows = reference::contact_jacobian(alone, s_alone);
-    RC_ASSERT(rows.rows() == reference::force_numbers(robot.contacts[c].kind));
+    RC_ASSERT(rows.rows() == force_numbers(robot.contacts[c].kind));
     Eigen::MatrixXd stacked(expected.rows() + rows.rows(), robot.dof());
     stacked << expected, rows;
     expected = stacked;

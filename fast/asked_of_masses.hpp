@@ -1,0 +1,32 @@
+// What MassSolver asks of its caller, each condition written once: debug builds check them, tests
+// call them. Claim C3.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "shapeid/models/contract.hpp"
+
+namespace shapeid::fast {
+
+using UnitParameters = Eigen::Matrix<double, 10, 1>;
+
+/// Empty if a shape of these unit parameters and this volume (m^3) can stand on free link `link` of
+/// `links`: all finite, V > 0.
+[[nodiscard]] Violation why_no_shape(int link, const UnitParameters& u, double V, int links);
+
+/// Empty for lambda >= 0; also where it is so large that no answer can be had.
+[[nodiscard]] Violation why_no_lambda(double lambda);
+
+/// Empty if R has 10 links + 1 rows and columns. Its numbers are judged by the solver.
+[[nodiscard]] Violation why_no_triangle(const Eigen::MatrixXd& R, int links);
+
+/// Empty if shape `j` of `shapes` can start at this mass (kg): finite, > 0.
+[[nodiscard]] Violation why_no_start(int j, double mass, int shapes);
+
+/// Empty if two parts make up the shape (u, V) at its density: V1 + V2 = V and V1 first + V2 second
+/// = V u, to half the digits. Moments are judged by the size of the parts, not number by
+/// number: those that cancel are rounded as those that do not.
+[[nodiscard]] Violation why_no_parts(const UnitParameters& u, double V, const UnitParameters& first,
+                                     double V1, const UnitParameters& second, double V2);
+
+}  // namespace shapeid::fast
