@@ -18,13 +18,12 @@ namespace shapeid::reference {
 
 struct OnlineSettings {
   ContactTreatment contacts = ContactTreatment::project;
-  Eigen::VectorXd weight;      ///< diagonal of W; empty: ones
-  std::size_t window = 10;     ///< samples a window
-  std::size_t stride = 10;     ///< samples from one window to the next: 10 at 500 Hz is 20 ms
-  double alpha = 0.5;          ///< equation (17)
-  double expected_mass = 0.0;  ///< M0 > 0, kg
-  std::optional<double>
-      lambda;  ///< default: that of the first solved window with forces, then kept
+  Eigen::VectorXd weight;        ///< diagonal of W; empty: ones
+  std::size_t window = 10;       ///< samples a window
+  std::size_t stride = 10;       ///< samples from one window to the next: 10 at 500 Hz is 20 ms
+  double alpha = 0.5;            ///< equation (17)
+  double expected_mass = 0.0;    ///< M0 > 0, kg
+  std::optional<double> lambda;  ///< default: that of the first solved with forces, then kept
 };
 
 /// One window's answer.
