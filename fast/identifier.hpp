@@ -20,12 +20,12 @@ namespace shapeid::fast {
 
 struct IdentifierSettings {
   ContactTreatment contacts = ContactTreatment::project;
-  Eigen::VectorXd weight;        ///< diagonal of W, generalised order; empty: ones
-  std::size_t window = 10;       ///< samples a window
-  std::size_t stride = 10;       ///< samples from one window to the next: 10 at 500 Hz is 20 ms
-  double alpha = 0.5;            ///< equation (17), in (0, 1]
-  double expected_mass = 0.0;    ///< M0 > 0, kg, of all free shapes together
-  std::optional<double> lambda;  ///< default: that of the first solved with forces, then kept
+  Eigen::VectorXd weight;            ///< diagonal of W, generalised order; empty: ones
+  std::size_t window = 10;           ///< samples a window
+  std::size_t stride = 10;           ///< samples from one window to the next: 10 at 500 Hz is 20 ms
+  double alpha = 0.5;                ///< equation (17), in (0, 1]
+  double expected_mass = 0.0;        ///< M0 > 0, kg, of all free shapes together
+  std::optional<double> lambda;      ///< default: that of the first solved with forces, then kept
   std::optional<double> mass_bound;  ///< kg, for the gap; default: ten times M0
   /// Windows start at the masses of the one before. If not, an answer depends on its window alone,
   /// to the last bit: what a restart in the middle of a stream needs.
