@@ -95,6 +95,7 @@ void refuse_repeated(const std::vector<std::string>& logs) {
 }  // namespace
 
 void batch(const BatchOptions& options, Peers& peers) {
+  for (const std::string& log : options.logs) check_no_stream(log);
   refuse_repeated(options.logs);
   check_solver(options.settings);
   const RobotInputs robot = read_robot_with_any(options.inputs, options.logs);

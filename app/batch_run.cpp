@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -138,32 +139,32 @@ class Shares {
              });
   }
 
-  /// Blocks of neighbouring logs, at most so many, at number 0; empty elsewhere.
+  /// Blocks of neighbours among the logs that are used, at most so many, at number 0; empty
+  /// elsewhere.
   std::vector<reference::RowBlock> merge(std::size_t most) {
+    const std::vector<std::size_t> used = used_logs();
     std::vector<Eigen::MatrixXd> rows;
     for (const CompressedLog& log : all_) rows.push_back(log.rows);
     const std::size_t stride =
-        merge_neighbours(all_.size(), most, [&](std::size_t left, std::size_t right) {
+        merge_neighbours(used.size(), most, [&](std::size_t first, std::size_t second) {
+          const std::size_t left = used[first], right = used[second];
           if (!is_mine(left)) {
             if (is_mine(right)) peers_.send(packed(rows[right]), owner(left));
             return;
           }
           if (!is_mine(right)) rows[right] = unpacked(peers_.receive(owner(right)));
-          if (rows[left].rows() == 0) {
-            rows[left] = rows[right];
-          } else if (rows[right].rows() > 0) {
-            rows[left] = reference::triangle(reference::stacked(rows[left], rows[right]));
-          }
+          rows[left] = reference::triangle(reference::stacked(rows[left], rows[right]));
           rows[right].resize(0, 0);
         });
     std::vector<reference::RowBlock> blocks;
-    for (std::size_t k = 0; k < all_.size(); k += stride) {
+    for (std::size_t place = 0; place < used.size(); place += stride) {
+      const std::size_t k = used[place];
       if (peers_.rank() != 0) {
         if (is_mine(k)) peers_.send(packed(rows[k]), 0);
         continue;
       }
       if (!is_mine(k)) rows[k] = unpacked(peers_.receive(owner(k)));
-      if (rows[k].rows() > 0) blocks.push_back({rows[k]});
+      blocks.push_back({rows[k]});
     }
     return blocks;
   }
@@ -194,6 +195,24 @@ class Shares {
  private:
   [[nodiscard]] std::size_t owner(std::size_t k) const { return k * peers_.count() / all_.size(); }
   [[nodiscard]] bool is_mine(std::size_t k) const { return owner(k) == peers_.rank(); }
+
+  /// Number 0 knows, and tells the others.
+  std::vector<std::size_t> used_logs() {
+    Eigen::MatrixXd is_used = Eigen::MatrixXd::Zero(1, std::ssize(all_));
+    if (peers_.rank() == 0) {
+      for (std::size_t k = 0; k < all_.size(); ++k) {
+        if (all_[k].log.refused.empty()) is_used(0, static_cast<Eigen::Index>(k)) = 1.0;
+      }
+      for (std::size_t p = 1; p < peers_.count(); ++p) peers_.send(packed(is_used), p);
+    } else {
+      is_used = unpacked(peers_.receive(0));
+    }
+    std::vector<std::size_t> used;
+    for (std::size_t k = 0; k < all_.size(); ++k) {
+      if (is_used(0, static_cast<Eigen::Index>(k)) > 0.0) used.push_back(k);
+    }
+    return used;
+  }
 
   /// `say` is called for every log where it was read, `hear` at number 0 for the others' logs.
   void to_first(const std::function<std::string(std::size_t)>& say,
@@ -264,10 +283,13 @@ Result solved(const std::vector<BatchLog>& logs, std::vector<reference::RowBlock
   }
   Result result;
   result.robot_file = options.inputs.robot;
-  result.log_file = fmt::format("{} logs", logs.size());
+  const auto used = std::count_if(logs.begin(), logs.end(),
+                                  [](const BatchLog& log) { return log.refused.empty(); });
+  result.log_file = fmt::format("{} logs", used);
   result.sought = model;
   result.motion = motion_of(logs);
   result.found = identify(model, {std::move(blocks), result.motion.samples}, options.settings);
+  check_some_mass(result, options.settings.expected_mass);
   result.notes = robot.robot.notes;
   result.notes.insert(result.notes.end(), robot.warnings.begin(), robot.warnings.end());
   result.notes.insert(result.notes.end(), result.motion.notes.begin(), result.motion.notes.end());

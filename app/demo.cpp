@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "shapeid/app/bundled.hpp"
+#include "shapeid/app/gnuplot.hpp"
 #include "shapeid/app/html.hpp"
 #include "shapeid/app/identification.hpp"
 #include "shapeid/app/json_text.hpp"
+#include "shapeid/app/output_folder.hpp"
 #include "shapeid/app/plots.hpp"
 #include "shapeid/app/recording.hpp"
 #include "shapeid/app/verbs.hpp"
-#include "shapeid/models/error.hpp"
-#include "shapeid/models/file_output.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
 #include "shapeid/models/simbody/load.hpp"
 
@@ -35,6 +35,7 @@ struct Demo {
   bool json = false;  ///< print one JSON document instead of tables
   Page page{"shapeid: a quadruped's base and its load, from joints and IMU alone"};
   nlohmann::json document = nlohmann::json::object();
+  std::vector<OutputFile> pictures;
 
   [[nodiscard]] std::string file(const std::string& name) const {
     return (std::filesystem::path(folder) / name).string();
@@ -178,8 +179,7 @@ void unknown_load(Demo& demo) {
   say(demo, residual_sentence(result, robot.robot));
   const std::string division = division_picture(run.model, run.solution.m, load.centre);
   const std::string trace = trace_picture(watch.trace);
-  write_file(demo.file("division.svg"), division);
-  write_file(demo.file("trace.svg"), trace);
+  demo.pictures = {{"division.svg", division}, {"trace.svg", trace}};
   demo.page.picture(division,
                     "The plate from above after the last division, darker where denser. Cross: the "
                     "block's true centre; circle: centre of the mass that was found.");
@@ -188,9 +188,8 @@ void unknown_load(Demo& demo) {
 }
 
 void run_demo(Demo& demo) {
-  std::error_code failed;
-  std::filesystem::create_directories(demo.folder, failed);
-  if (failed) throw InputError({demo.folder}, "cannot be made: " + failed.message(), "another");
+  check_gnuplot();
+  const OutputFolder folder(demo.folder);
   demo.page.paragraph(
       "A 12-joint quadruped trots in an independent simulator (Simbody) on compliant ground. Its "
       "log holds joint angles, joint torques, the IMU and contact flags, with sensor noise; no "
@@ -199,7 +198,9 @@ void run_demo(Demo& demo) {
   base_link(demo);
   unknown_load(demo);
   const std::string report = demo.file("report.html");
-  write_file(report, demo.page.html());
+  std::vector<OutputFile> files = demo.pictures;
+  files.push_back({"report.html", demo.page.html()});
+  folder.write(files);
   demo.document["report"] = report;
   if (demo.json) {
     fmt::print("{}\n", json_text(demo.document, 2));

@@ -42,7 +42,13 @@ void write_files(const Options& options, const RobotInputs& robot, DiagnosisRun&
 
 void diagnose(Options& options) {
   if (!options.delivery.folder.empty()) check_gnuplot();
-  const RobotInputs robot = read_robot(options.diagnose.inputs);
+  DiagnoseOptions& d = options.diagnose;
+  if (d.inputs.exact) d.inputs.cutoff = 0.0;  // nothing is smoothed
+  for (const auto& logs : {d.also, d.test}) {
+    for (const std::string& log : logs) check_no_stream(log);
+  }
+  check_no_stream(d.reference);
+  const RobotInputs robot = read_robot(d.inputs);
   DiagnosisRun run = run_diagnosis(robot, options.diagnose);
   if (!options.delivery.folder.empty()) write_files(options, robot, run);
   if (options.delivery.json) {
@@ -92,7 +98,8 @@ void add_diagnose(CLI::App& app) {
   whole->excludes(shapes);
   verb->add_option("--expected-mass", d.expected_mass,
                    "kg, of all sought links (default: as given)")
-      ->check(mass_of_a_robot());
+      ->check(mass_of_a_robot())
+      ->excludes(trust);
   verb->add_option("--least-t", d.rule.least_t,
                    "standard errors by which an effect must lower the held-out error")
       ->check(above_zero())
@@ -106,9 +113,9 @@ void add_diagnose(CLI::App& app) {
           "who computes rows and masses")
       ->check(CLI::IsMember({"reference", "fast"}))
       ->default_str("reference");
-  verb->add_flag(
-      "--curves", d.curves,
-      "write effects.yaml and predict_torque.hpp with curves for what stays unexplained");
+  verb->add_flag("--curves", d.curves,
+                 "write effects.yaml and predict_torque.hpp with curves for what stays unexplained")
+      ->needs(verb->get_option("--out"));
   verb->add_flag("--strict", options->strict, "exit status 1 if structure stays unexplained");
   verb->callback([options] { diagnose(*options); });
 }

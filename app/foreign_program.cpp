@@ -1,16 +1,24 @@
 #include "shapeid/app/foreign_program.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::app {
 namespace {
+
+// Half a second to end by itself.
+constexpr int looks_at_its_end = 50;
+constexpr std::chrono::milliseconds between_looks{10};
 
 // Bytes: no answer to any vector has a thousandth of it.
 constexpr std::size_t longest_answer = std::size_t{1} << 26U;
@@ -27,6 +35,7 @@ ForeignProgram::ForeignProgram(const std::string& command) : command_(command) {
   std::signal(SIGPIPE, SIG_IGN);  // a program that has ended is an error of writing, said below
   child_ = fork();
   if (child_ == 0) {
+    setpgid(0, 0);  // what it starts ends with it
     dup2(in[0], STDIN_FILENO);
     dup2(out[1], STDOUT_FILENO);
     for (const int end : {in[0], in[1], out[0], out[1]}) close(end);
@@ -36,6 +45,7 @@ ForeignProgram::ForeignProgram(const std::string& command) : command_(command) {
   }
   close(in[0]);
   close(out[1]);
+  fcntl(in[1], F_SETFL, O_NONBLOCK);  // a program that does not read is not waited for
   to_ = in[1];
   from_ = out[0];
   if (child_ < 0) throw InputError(command + ": cannot be started", what_is_right);
@@ -44,37 +54,47 @@ ForeignProgram::ForeignProgram(const std::string& command) : command_(command) {
 ForeignProgram::~ForeignProgram() {
   close(to_);  // the end of its input: it should end by itself
   close(from_);
-  if (child_ > 0) waitpid(child_, nullptr, 0);
+  if (child_ <= 0) return;
+  for (int look = 0; look < looks_at_its_end; ++look) {
+    if (waitpid(child_, nullptr, WNOHANG) != 0) return;
+    std::this_thread::sleep_for(between_looks);
+  }
+  kill(-child_, SIGKILL);
+  waitpid(child_, nullptr, 0);
 }
 
-void ForeignProgram::write_all(const std::string& text) const {
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t count = write(to_, text.data() + done, text.size() - done);
-    if (count <= 0) throw InputError(command_ + ": ended before it was asked", what_is_right);
-    done += static_cast<std::size_t>(count);
-  }
+/// As much of the question as it takes now.
+void ForeignProgram::write_some(std::string_view& question) const {
+  const ssize_t count = write(to_, question.data(), question.size());
+  if (count < 0 && errno == EAGAIN) return;
+  if (count <= 0) throw InputError(command_ + ": ended before it was asked", what_is_right);
+  question.remove_prefix(static_cast<std::size_t>(count));
+}
+
+void ForeignProgram::read_some() {
+  std::array<char, 65536> buffer{};
+  const ssize_t count = read(from_, buffer.data(), buffer.size());
+  if (count <= 0) throw InputError(command_ + ": ended without an answer", what_is_right);
+  unread_.append(buffer.data(), static_cast<std::size_t>(count));
+  if (unread_.size() <= longest_answer) return;
+  kill(-child_, SIGTERM);
+  throw InputError(command_ + ": answers without end", what_is_right);
 }
 
 std::string ForeignProgram::ask(const std::string& line, int patience) {
-  write_all(line + "\n");
-  std::size_t end = unread_.find('\n');
-  while (end == std::string::npos) {
-    pollfd waiting{from_, POLLIN, 0};
-    if (poll(&waiting, 1, patience) <= 0) {
-      kill(child_, SIGTERM);
+  const std::string whole = line + "\n";
+  std::string_view question = whole;
+  while (!question.empty() || unread_.find('\n') == std::string::npos) {
+    std::array<pollfd, 2> ends = {pollfd{from_, POLLIN, 0},
+                                  pollfd{question.empty() ? -1 : to_, POLLOUT, 0}};
+    if (poll(ends.data(), ends.size(), patience) <= 0) {
+      kill(-child_, SIGTERM);
       throw InputError(command_ + ": no answer in time", what_is_right);
     }
-    std::array<char, 65536> buffer{};
-    const ssize_t count = read(from_, buffer.data(), buffer.size());
-    if (count <= 0) throw InputError(command_ + ": ended without an answer", what_is_right);
-    unread_.append(buffer.data(), static_cast<std::size_t>(count));
-    if (unread_.size() > longest_answer) {
-      kill(child_, SIGTERM);
-      throw InputError(command_ + ": answers with an endless line", what_is_right);
-    }
-    end = unread_.find('\n');
+    if (ends[1].revents != 0) write_some(question);
+    if (ends[0].revents != 0) read_some();
   }
+  const std::size_t end = unread_.find('\n');
   std::string answer = unread_.substr(0, end);
   unread_.erase(0, end + 1);
   return answer;

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <string>
+#include <string_view>
 
 namespace shapeid::app {
 
@@ -11,6 +12,7 @@ class ForeignProgram {
  public:
   /// Starts `command` through the shell. Throws InputError if that is not possible.
   explicit ForeignProgram(const std::string& command);
+  /// Closes its input, and ends it if it does not end by itself.
   ~ForeignProgram();
   ForeignProgram(const ForeignProgram&) = delete;
   ForeignProgram& operator=(const ForeignProgram&) = delete;
@@ -20,7 +22,8 @@ class ForeignProgram {
   [[nodiscard]] std::string ask(const std::string& line, int patience = 30000);
 
  private:
-  void write_all(const std::string& text) const;
+  void write_some(std::string_view& question) const;
+  void read_some();
 
   std::string command_;
   pid_t child_ = -1;

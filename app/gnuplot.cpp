@@ -1,18 +1,17 @@
 #include "shapeid/app/gnuplot.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
+#include <sys/mman.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <filesystem>
+#include <cstdlib>
 
 #include "shapeid/models/contract.hpp"
 #include "shapeid/models/error.hpp"
-#include "shapeid/models/file_output.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -23,8 +22,32 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
+/// A text as a file without a place on a disk, which a child can read.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::string& text) : file_(::memfd_create("gnuplot", 0)) {
+    std::size_t done = 0;
+    while (file_ >= 0 && done < text.size()) {
+      const ssize_t count = ::write(file_, text.data() + done, text.size() - done);
+      if (count <= 0) break;
+      done += static_cast<std::size_t>(count);
+    }
+    if (file_ < 0 || done < text.size()) {
+      throw InputError("there is no memory for what gnuplot is to draw", "free some");
+    }
+  }
+  ~MemoryFile() { ::close(file_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  [[nodiscard]] int descriptor() const { return file_; }
+
+ private:
+  int file_;
+};
+
 InputError missing() {
-  return {"gnuplot is missing", "install Debian's gnuplot-nox, or leave out --out"};
+  return {"gnuplot is missing", "install Debian's gnuplot-nox, or ask for no pictures"};
 }
 
 }  // namespace
@@ -49,11 +72,10 @@ void check_gnuplot() {
 }
 
 std::string gnuplot(const std::string& script) {
-  const auto file =
-      std::filesystem::temp_directory_path() / fmt::format("shapeid-{}.gnuplot", ::getpid());
-  write_file(file.string(), script);
+  const MemoryFile file(script);
   std::string output;
-  const std::string command = fmt::format("gnuplot '{}' 2>/dev/null", file.string());
+  // A user's own settings would change the pictures.
+  const std::string command = fmt::format("gnuplot -d /dev/fd/{} 2>/dev/null", file.descriptor());
   int status = -1;
   if (std::FILE* pipe = ::popen(command.c_str(), "r")) {
     std::array<char, 4096> buffer{};
@@ -62,7 +84,6 @@ std::string gnuplot(const std::string& script) {
     }
     status = ::pclose(pipe);
   }
-  std::filesystem::remove(file);
   constexpr int not_found = 127;  // of the shell
   if (WIFEXITED(status) && WEXITSTATUS(status) == not_found) {
     throw missing();

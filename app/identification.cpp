@@ -144,6 +144,7 @@ reference::IdentifySettings settings_for(const LogSamples& log, const RobotInput
 Result run_identification(const RobotInputs& robot, const BodyModel& model,
                           const MotionInputs& inputs, const RunOptions& options,
                           const std::function<void(const reference::DivisionRun&)>& watch) {
+  check_no_stream(options.test_log);
   if (!options.test_log.empty() && same_file({inputs.log, options.test_log})) {
     throw InputError({options.test_log}, "is fitted, too",
                      "a test on data that are used for nothing else");

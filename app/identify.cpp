@@ -1,6 +1,7 @@
 // shapeid identify: masses, parameters and a URDF from a robot and a log.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -26,6 +27,7 @@ struct Options {
 
 void identify_windows(const Options& options, const RobotInputs& robot, const BodyModel& model,
                       double mass) {
+  say_warnings(robot);
   reference::OnlineSettings settings;
   MotionInputs inputs = options.inputs;
   inputs.causal = true;
@@ -52,8 +54,9 @@ void identify_windows(const Options& options, const RobotInputs& robot, const Bo
     fmt::print("{}\n", line.dump());
   }
   if (windows == 0) {
-    throw Refusal("too-short", fmt::format("the log has {} samples, a window needs {}",
-                                           log.report().samples, options.window));
+    throw Refusal("too-short",
+                  fmt::format("the log has {} samples, and the first answer needs {}",
+                              log.report().samples, std::max(options.window, options.stride)));
   }
   fmt::print(stderr, "smoothed forward in time; group delay {:.1f} ms\n",
              1e3 * log.report().group_delay);
@@ -67,16 +70,7 @@ void identify(Options& options) {
 
   options.run.settings.expected_mass = mass;
   const Result result = run_identification(robot, model, options.inputs, options.run);
-  double found = 0.0;
-  for (const int link : model.free_links) found += result.found.Phi[Eigen::Index{10} * link];
-  constexpr double nothing = 1e-9;  // of what is expected: rounding of bounds that are active
-  if (!(found > nothing * mass)) {
-    throw Refusal(
-        "no-mass",
-        "the log asks for no mass at all where some is sought: the sign of the torques or "
-        "of the accelerometer is wrong, the given inertias are too large, or what carries the "
-        "robot is no contact of it");
-  }
+  check_some_mass(result, mass);
   const Judgement judged = judge(result);
   const std::optional<double>& floor = judged.certified.proof.floor;
   deliver(options.delivery, result_json(result, floor, robot.robot),

@@ -116,14 +116,23 @@ ContactRule contact_rule(const MotionInputs& inputs, const Robot& robot) {
   };
 }
 
-RobotInputs read_robot(const MotionInputs& inputs) {
+void check_no_stream(const std::string& log) {
   std::error_code unknown;  // a log that is not there is said when it is opened
-  const auto kind = std::filesystem::status(inputs.log, unknown).type();
-  if (inputs.log == "-" || kind == std::filesystem::file_type::fifo ||
-      kind == std::filesystem::file_type::character) {
-    throw InputError({inputs.log}, "is a stream, and a log is read more than once",
-                     "a file; `shapeid track -` follows a stream");
+  const auto kind = std::filesystem::status(log, unknown).type();
+  if (log != "-" && kind != std::filesystem::file_type::fifo &&
+      kind != std::filesystem::file_type::character) {
+    return;
   }
+  throw InputError({log}, "is a stream, and a log is read more than once",
+                   "a file; `shapeid track -` follows a stream");
+}
+
+void say_warnings(const RobotInputs& inputs) {
+  for (const std::string& warning : inputs.warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
+RobotInputs read_robot(const MotionInputs& inputs) {
+  check_no_stream(inputs.log);
   return read_robot(inputs, LogReader(inputs.log).table());
 }
 

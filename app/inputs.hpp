@@ -41,8 +41,14 @@ struct RobotInputs {
   Robot robot;
   RobotNotes notes;
   std::optional<Mapping> mapping;
-  std::vector<std::string> warnings;  ///< impossible inertias that were accepted
+  std::vector<std::string> warnings;  ///< what is taken for granted
 };
+
+/// On standard error, where no notes of a result say them.
+void say_warnings(const RobotInputs& inputs);
+
+/// Throws InputError for a log that flows by, which can be read once only.
+void check_no_stream(const std::string& log);
 
 /// Reads URDF, robot.yaml and mapping.yaml. The root is floating if the log has an IMU. Throws
 /// InputError also for contacts that cannot be treated as asked for.

@@ -157,6 +157,8 @@ void inspect_motion(Options& options) {
       touching[c] += sample->in_contact[c];
   }
   const MotionReport& report = samples.report();
+  std::vector<std::string> notes = robot.warnings;
+  notes.insert(notes.end(), report.notes.begin(), report.notes.end());
   json contacts = json::object();
   for (std::size_t c = 0; c < touching.size(); ++c) {
     contacts[robot.robot.contacts[c].name] =
@@ -174,7 +176,7 @@ void inspect_motion(Options& options) {
                          {"contacts_derived", report.contacts_derived},
                          {"share_of_time_in_contact", contacts},
                          {"extra_columns", report.extra},
-                         {"notes", report.notes}};
+                         {"notes", notes}};
   if (options.json) {
     fmt::print("{}\n", json_text(document, 2));
     return;
@@ -208,6 +210,9 @@ void add_inspect(CLI::App& app) {
                                  "URDF: read the log as this robot's motion");
   verb->add_option("--mapping", options->inputs.mapping, "mapping.yaml of the log")->needs(robot);
   verb->add_option("--robot-yaml", options->inputs.robot_yaml, "robot.yaml (default: beside)")
+      ->needs(robot);
+  verb->add_flag("--accept-impossible", options->inputs.accept_impossible,
+                 "read a robot with inertias that no body can have, too")
       ->needs(robot);
   options->inputs.add_smoothing_to(*verb);
   for (const char* option : {"--cutoff", "--rate", "--exact"}) {

@@ -60,6 +60,12 @@ bool is_count(const std::string& text) {
   return error == std::errc() && stop == end;
 }
 
+/// CLI11 takes leading zeros for that.
+bool is_octal(const std::string& text) {
+  const std::size_t first = text.find_first_not_of("+-");
+  return first != std::string::npos && text.size() > first + 1 && text[first] == '0';
+}
+
 void check_value(const CLI::Option& option, const std::string& value) {
   const std::string name = option.get_name(), type = option.get_type_name();
   if (value.empty()) {
@@ -70,6 +76,11 @@ void check_value(const CLI::Option& option, const std::string& value) {
   }
   if (type.starts_with("UINT") && !is_count(value)) {
     throw InputError(fmt::format("{} is \"{}\"", name, value), "give a count, 0 or more");
+  }
+  const bool is_whole = type.starts_with("UINT") || type.starts_with("INT");
+  if (is_whole && is_octal(value)) {
+    throw InputError(fmt::format("{} is \"{}\", which some read as octal", name, value),
+                     "give a decimal count without leading zeros");
   }
 }
 

@@ -17,11 +17,12 @@ OutputFolder::OutputFolder(const std::string& folder) : folder_(folder) {
 }
 
 void OutputFolder::write(const std::vector<OutputFile>& files) const {
+  std::vector<FileText> texts;
   for (const OutputFile& file : files) {
-    const std::string path = (folder_ / file.name).string();
-    write_file(path, file.content);
-    fmt::print(stderr, "wrote {}\n", path);
+    texts.push_back({(folder_ / file.name).string(), file.content});
   }
+  write_files(texts);
+  for (const FileText& text : texts) fmt::print(stderr, "wrote {}\n", text.path);
 }
 
 }  // namespace shapeid::app

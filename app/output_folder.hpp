@@ -16,8 +16,8 @@ class OutputFolder {
  public:
   explicit OutputFolder(const std::string& folder);
 
-  /// All that belong together at once, so that what cannot be made prevents them all. Each beside
-  /// its place first, then renamed; says on standard error what was written.
+  /// All that belong together at once, so that what cannot be made or written prevents them all:
+  /// beside their places first, then renamed. Says on standard error what was written.
   void write(const std::vector<OutputFile>& files) const;
 
  private:

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "shapeid/app/division_history.hpp"
+#include "shapeid/models/error.hpp"
 #include "shapeid/models/problem_json.hpp"
 #include "shapeid/models/student.hpp"
 #include "shapeid/models/version.hpp"
@@ -33,31 +34,47 @@ const Link& link_at(const Robot& robot, int index) {
   return robot.links[static_cast<std::size_t>(index)];
 }
 
-/// What the data say of ten parameters by themselves; not finite where they say nothing.
-Eigen::VectorXd data_values(const reference::Determination& data, Eigen::Index at) {
-  const auto known = data.standard_error.segment<10>(at).array().isFinite();
-  return known.select(data.value.segment<10>(at), std::numeric_limits<double>::infinity());
+/// Ten parameters of a free link: all of it, and the part that was sought. They differ where a load
+/// is sought on a link that is known.
+struct FreeLink {
+  FreeLink(const Result& result, std::size_t place)
+      : link(result.found.run.model.free_links[place]),
+        at(Eigen::Index{10} * static_cast<Eigen::Index>(place)),
+        known(result.sought.known.segment<10>(Eigen::Index{10} * link)),
+        whole(result.found.Phi.segment<10>(Eigen::Index{10} * link)),
+        sought(result.found.run.solution.Phi.segment<10>(at)) {}
+
+  int link;
+  Eigen::Index at;  ///< among the sought parameters
+  Vector10 known, whole, sought;
+};
+
+/// What the data say of a link's ten parameters by themselves; not finite where they say nothing.
+Eigen::VectorXd data_values(const reference::Determination& data, const FreeLink& link) {
+  const auto told = data.standard_error.segment<10>(link.at).array().isFinite();
+  return told.select(link.known + data.value.segment<10>(link.at),
+                     std::numeric_limits<double>::infinity());
 }
 
 json links_json(const Result& result, const Robot& robot) {
   json links = json::array();
   const auto& free_links = result.found.run.model.free_links;
   for (std::size_t i = 0; i < free_links.size(); ++i) {
-    const Link& link = link_at(robot, free_links[i]);
-    const auto at = 10 * static_cast<Eigen::Index>(i);
-    const Eigen::VectorXd Phi = result.found.Phi.segment<10>(Eigen::Index{10} * free_links[i]);
+    const FreeLink free(result, i);
+    const Link& link = link_at(robot, free.link);
+    const Eigen::Index at = free.at;
     json determined = json::array(), against_data = json::array();
-    for (Eigen::Index p = at; p < at + 10; ++p) {
+    for (Eigen::Index p = 0; p < 10; ++p) {
       determined.push_back(
-          static_cast<bool>(result.found.data.determined[static_cast<std::size_t>(p)]));
-      against_data.push_back(!result.found.data.agrees(p, Phi[p - at]));
+          static_cast<bool>(result.found.data.determined[static_cast<std::size_t>(at + p)]));
+      against_data.push_back(!result.found.data.agrees(at + p, free.sought[p]));
     }
     links.push_back(
         {{"name", link.name},
-         {"parameters", numbers(Phi)},
+         {"parameters", numbers(free.whole)},
          {"given", numbers(link.inertia.values)},
          {"standard_error", numbers(result.found.standard_error.segment<10>(at))},
-         {"data_value", numbers(data_values(result.found.data, at))},
+         {"data_value", numbers(data_values(result.found.data, free))},
          {"data_standard_error", numbers(result.found.data.standard_error.segment<10>(at))},
          {"determined", determined},
          {"against_data", against_data}});
@@ -98,19 +115,18 @@ std::string links_text(const Result& result, const Robot& robot) {
   std::string text;
   const auto& free_links = result.found.run.model.free_links;
   for (std::size_t i = 0; i < free_links.size(); ++i) {
-    const Link& link = link_at(robot, free_links[i]);
+    const FreeLink free(result, i);
+    const Link& link = link_at(robot, free.link);
     text += fmt::format("\nlink {}\n  {:<6}{:>12}{:>12}{:>12}{:>14}  {:<7} {}\n", link.name, "",
                         "given", "found", "s.e.", "data's s.e.", "unit", "determined by");
     for (Eigen::Index p = 0; p < 10; ++p) {
-      const Eigen::Index at = 10 * static_cast<Eigen::Index>(i) + p;
+      const Eigen::Index at = free.at + p;
       const auto k = static_cast<std::size_t>(p);
-      text += fmt::format("  {:<6}{:>12.5g}{:>12.5g}{:>12}{:>14}  {:<7} {}\n", parameter_names[k],
-                          link.inertia.values[p],
-                          result.found.Phi[Eigen::Index{10} * free_links[i] + p],
-                          shown(result.found.standard_error[at]),
-                          shown(result.found.data.standard_error[at]), parameter_units[k],
-                          determined_by(result.found.data, at,
-                                        result.found.Phi[Eigen::Index{10} * free_links[i] + p]));
+      text +=
+          fmt::format("  {:<6}{:>12.5g}{:>12.5g}{:>12}{:>14}  {:<7} {}\n", parameter_names[k],
+                      link.inertia.values[p], free.whole[p], shown(result.found.standard_error[at]),
+                      shown(result.found.data.standard_error[at]), parameter_units[k],
+                      determined_by(result.found.data, at, free.sought[p]));
     }
   }
   return text;
@@ -177,12 +193,26 @@ StatedProblem stated_problem(const Result& result) {
   return {result.found.run.problem, {}, placed(result.sought), placed(result.found.run.model)};
 }
 
+void check_some_mass(const Result& result, double expected_mass) {
+  double found = 0.0;
+  for (const int link : result.sought.free_links) {
+    found += result.found.Phi[Eigen::Index{10} * link];
+  }
+  constexpr double nothing = 1e-9;  // of what is expected: rounding of bounds that are active
+  if (found > nothing * expected_mass) return;
+  throw Refusal("no-mass",
+                "the log asks for no mass at all where some is sought: the sign of the torques or "
+                "of the accelerometer is wrong, the given inertias are too large, or what carries "
+                "the robot is no contact of it");
+}
+
 void choose_written_links(Result& result, const Robot& robot, double least_mass) {
   for (const int index : result.found.run.model.free_links) {
     const InertialParameters inertia{result.found.Phi.segment<10>(Eigen::Index{10} * index)};
     const std::string& name = link_at(robot, index).name;
     const double given = link_at(robot, index).inertia.mass();
-    if (given > 0.0 && inertia.mass() > far_from_given * given) {
+    const bool carries_a_load = result.sought.known[Eigen::Index{10} * index] > 0.0;
+    if (!carries_a_load && given > 0.0 && inertia.mass() > far_from_given * given) {
       result.notes.push_back(
           fmt::format("link {} was found with {:.3g} kg, given {:.3g}: some effect that is not a "
                       "rigid body may "

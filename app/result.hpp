@@ -38,6 +38,9 @@ struct Result {
 /// problem.json.
 [[nodiscard]] StatedProblem stated_problem(const Result& result);
 
+/// Throws Refusal ("no-mass") if next to nothing of what was expected (kg) was found.
+void check_some_mass(const Result& result, double expected_mass);
+
 /// Which free links get a new inertia: those with more than `least_mass` (kg) that a URDF reader,
 /// ours included, accepts. Adds a note for each link that keeps the given one.
 void choose_written_links(Result& result, const Robot& robot, double least_mass);

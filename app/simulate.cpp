@@ -26,8 +26,10 @@ struct Options {
 };
 
 void simulate_log(Options& options) {
+  std::error_code unknown;  // what cannot be looked at is said when it is opened
   if (!options.out.ends_with(".csv") && !options.out.ends_with(".csv.gz") &&
-      !std::filesystem::is_character_file(options.out) && !std::filesystem::is_fifo(options.out)) {
+      !std::filesystem::is_character_file(options.out, unknown) &&
+      !std::filesystem::is_fifo(options.out, unknown)) {
     throw InputError({options.out}, "is no name of a log", "NAME.csv or NAME.csv.gz");
   }
   if (options.robot.empty()) {

@@ -117,7 +117,8 @@ class Source {
 
 void track(Options& options) {
   std::optional<Checkpoint> checkpoint;
-  if (options.resume && std::filesystem::exists(options.checkpoint)) {
+  std::error_code unknown;  // what cannot be looked at is said when it is written
+  if (options.resume && std::filesystem::exists(options.checkpoint, unknown)) {
     checkpoint = read_checkpoint(options.checkpoint);
   } else if (!options.checkpoint.empty()) {
     check_replaceable(options.checkpoint);
@@ -125,6 +126,7 @@ void track(Options& options) {
   Source source(options, checkpoint);
   LogTable table(options.inputs.log, source.position().header, 1);
   const RobotInputs robot = read_robot(options.inputs, table);
+  say_warnings(robot);
   const BodyModel model = sought_bodies(options.sought, robot.robot);
   const TrackSettings settings = settings_for(options, robot, model);
   const std::string setup = setup_digest(robot, model, settings);

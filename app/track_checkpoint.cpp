@@ -19,11 +19,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* format = "shapeid-checkpoint-4";
+constexpr const char* format = "shapeid-checkpoint-5";
 constexpr const char* any_format = "shapeid-checkpoint-";
 constexpr const char* what_is_right = "give a checkpoint that --checkpoint wrote";
 
-/// Bytes: an hour of windows of a whole robot fits; beyond it something else was named.
+/// Bytes: four numbers more than Estimates keeps at most fit; beyond it something else was named.
 constexpr std::size_t largest_checkpoint = std::size_t{1} << 30U;
 
 json rows_of(const Eigen::MatrixXd& M) { return matrix_json(M); }
@@ -37,7 +37,8 @@ json robot_json(const Robot& robot) {
                      {"joint", link.joint.name},
                      {"kind", static_cast<int>(link.joint.kind)},
                      {"axis", vector_json(link.joint.axis)},
-                     {"placement", rows_of(link.joint.placement.matrix())}});
+                     {"placement", rows_of(link.joint.placement.matrix())},
+                     {"rotor", link.joint.rotor_inertia}});
   }
   json contacts = json::array();
   for (const Contact& contact : robot.contacts) {
@@ -52,7 +53,8 @@ InputError not_whole(const std::string& path, const json::exception& e) {
 }
 
 bool is_checkpoint(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) return false;
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown)) return false;
   const std::string text = read_small_file(path, largest_checkpoint);
   try {
     const json document = parse_json(text, {path, "docs/formats/track.md"});

@@ -1,9 +1,13 @@
 #include "shapeid/app/track_estimates.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "shapeid/models/error.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -48,6 +52,21 @@ void append_shapes(const BodyModel& model, fast::MassSolver& solver) {
   }
 }
 
+/// Windows that the longer one is made of. What they take, in memory and in a checkpoint, is
+/// limited before the first one comes.
+std::size_t recent_windows(const EstimateSettings& settings, double window_seconds) {
+  constexpr double most_numbers = 1e7;  // of eight bytes, and of some twenty in a checkpoint
+  const double size = static_cast<double>(settings.natural_size.size()) + 1.0;
+  const double most = most_numbers / (fast::SlidingTriangle::triangles_a_block * size * size);
+  if (settings.recent > most * window_seconds) {
+    throw InputError(
+        fmt::format("--recent {:g}: {:.0f} windows of {} parameters are kept", settings.recent,
+                    settings.recent / window_seconds, settings.natural_size.size()),
+        fmt::format("at most {:.3g} s here, or longer windows", most * window_seconds));
+  }
+  return windows_in(settings.recent, window_seconds);
+}
+
 /// Rows of a sample that are left when contact forces are out.
 double rows_of(const Robot& robot, const Sample& sample, ContactTreatment treatment) {
   double rows = robot.dof();
@@ -67,7 +86,7 @@ Estimates::Estimates(const Robot& robot, const BodyModel& model, const EstimateS
       settings_(settings),
       window_seconds_(static_cast<double>(settings.identifier.window) / rate),
       correlation_(std::max(1.0, rate * stance)),
-      windows_in_recent_(windows_in(settings.recent, window_seconds_)),
+      windows_in_recent_(recent_windows(settings, window_seconds_)),
       noise_(windows_in(noise_memory, window_seconds_)),
       identifier_(robot, model, settings.identifier),
       recent_block_(settings.natural_size.size()),

@@ -25,12 +25,15 @@ constexpr std::chrono::milliseconds between_looks{10};
 
 LineFollower::LineFollower(std::string path, const FollowOptions& options)
     : path_(std::move(path)), options_(options) {
-  file_ = is_stream() ? STDIN_FILENO : ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  file_ = path_ == "-" ? STDIN_FILENO : ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0) throw InputError({path_}, "cannot be opened", "give a readable CSV file");
+  struct stat opened {};
+  is_stream_ = path_ == "-" || (::fstat(file_, &opened) == 0 && !S_ISREG(opened.st_mode) &&
+                                !S_ISDIR(opened.st_mode));
 }
 
 LineFollower::~LineFollower() {
-  if (!is_stream()) ::close(file_);
+  if (file_ != STDIN_FILENO) ::close(file_);
 }
 
 std::optional<Line> LineFollower::next() {
@@ -77,7 +80,7 @@ bool LineFollower::wait_for_more() {
   while (true) {
     refuse_shrunk();
     struct stat now {};
-    if (::fstat(file_, &now) == 0 && S_ISREG(now.st_mode) && std::cmp_greater(now.st_size, byte_)) {
+    if (::fstat(file_, &now) == 0 && std::cmp_greater(now.st_size, byte_)) {
       return true;  // block_ is empty: the caller comes back for the bytes
     }
     const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
@@ -88,9 +91,7 @@ bool LineFollower::wait_for_more() {
 
 void LineFollower::refuse_shrunk() const {
   struct stat now {};
-  if (::fstat(file_, &now) != 0 || !S_ISREG(now.st_mode) || !std::cmp_less(now.st_size, byte_)) {
-    return;
-  }
+  if (::fstat(file_, &now) != 0 || !std::cmp_less(now.st_size, byte_)) return;
   throw InputError({path_, number_},
                    fmt::format("has {} bytes, and {} were read from it", now.st_size, byte_),
                    "give a log that only grows");

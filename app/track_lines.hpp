@@ -24,7 +24,8 @@ struct FollowOptions {
 /// waited for, or left.
 class LineFollower {
  public:
-  /// `path` "-" reads standard input. Throws InputError if it cannot be opened, or is compressed.
+  /// `path` "-" reads standard input; it and a pipe are streams, which end when their writer has
+  /// gone. Throws InputError if it cannot be opened, or is compressed.
   LineFollower(std::string path, const FollowOptions& options);
   ~LineFollower();
   LineFollower(const LineFollower&) = delete;
@@ -38,7 +39,7 @@ class LineFollower {
 
   /// Bytes at the end that are no line yet.
   [[nodiscard]] std::size_t unfinished() const { return line_.size(); }
-  [[nodiscard]] bool is_stream() const { return path_ == "-"; }
+  [[nodiscard]] bool is_stream() const { return is_stream_; }
 
  private:
   [[nodiscard]] bool fill();
@@ -48,6 +49,7 @@ class LineFollower {
   std::string path_;
   FollowOptions options_;
   int file_ = -1;
+  bool is_stream_ = false;
   std::string block_;  ///< read, not yet handed on
   std::size_t in_block_ = 0;
   std::string line_;        ///< the beginning of the next line

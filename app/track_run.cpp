@@ -65,7 +65,7 @@ std::vector<json> TrackRun::push(const LogRow& row) {
 void TrackRun::watch_clock(MeasuredRow row) {
   ++events_.rows;
   const double time = row.time;
-  const double usual = stream_.rate() > 0.0 ? 1.0 / stream_.rate() : row_step_.value_or(0.0);
+  const double usual = stream_.row_step() > 0.0 ? stream_.row_step() : row_step_.value_or(0.0);
   bool follows = true;
   if (row_time_) {
     const double step = time - *row_time_;

@@ -1,6 +1,8 @@
 // shapeid vectors: another implementation, asked all vectors by pipe.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -41,8 +43,16 @@ std::string failure_text(const json& vector, const std::vector<std::string>& fou
   return text;
 }
 
+void check_kind(const Vectors& all, const std::string& kind) {
+  std::vector<std::string> kinds;
+  for (const VectorFile& file : all.files) kinds.push_back(file.kind);
+  if (kind.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) return;
+  throw InputError("--kind: no vectors of kind " + kind, fmt::format("{}", fmt::join(kinds, ", ")));
+}
+
 void vectors(const Options& options) {
   const Vectors all = read_vectors(options.folder);
+  check_kind(all, options.kind);
   ForeignProgram program(options.program);
   std::map<std::string, Tally> tallies;
   json failures = json::array();
@@ -62,7 +72,6 @@ void vectors(const Options& options) {
       failures.push_back({{"id", vector["id"]}, {"found", found}});
     }
   }
-  if (tallies.empty()) throw InputError("--kind: no vectors of kind " + options.kind, "see --help");
   json summary;
   for (const auto& [kind, tally] : tallies) {
     summary[kind] = {{"cases", tally.cases}, {"failed", tally.failed}};

@@ -242,6 +242,16 @@ inline void predict(const Motion& before, const Motion& now, const Motion& after
       step);
 }
 
+/// Of declared rotors: beside all that was found, since the logged torque was taken without them.
+std::string rotor_code(const Robot& robot) {
+  std::string text;
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    const double inertia = robot.joint(j).rotor_inertia;
+    if (inertia > 0.0) text += fmt::format("  tau[{0}] += {1} * ddq[{0}];  // rotor\n", j, inertia);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string torque_header(const Robot& robot, const RichModel& model) {
@@ -298,7 +308,8 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
       "  Links at;\n  at.move(q, dq, ddq, base);\n"
       "  for (int i = 0; i < joint_count; ++i) tau[i] = 0.0;\n"
       "  Links rigid = at;\n  rigid.torques(load);\n  take_off(contact, load);\n" +
-      between + "  at.torques(tau);\n  take_off(contact, tau);\n" + torque + scaling + "}\n";
+      between + "  at.torques(tau);\n  take_off(contact, tau);\n" + torque + scaling +
+      rotor_code(robot) + "}\n";
   if (rate) text += prediction_from_three(neighbour_step(robot));
   text += "\n}  // namespace shapeid_model\n";
   return text;

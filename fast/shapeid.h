@@ -62,7 +62,7 @@ void shapeid_default_settings(shapeid_settings* settings);
 /** Reads the files and makes an identifier, or returns NULL and says in `error` why: one line that
  * names the file and what is wrong with it, cut off at `error_size` bytes and ended by a zero.
  *
- * robot_yaml: contacts and expected masses (docs/formats/robot-yaml.md); NULL: nothing ever
+ * robot_yaml: contacts, rotors and expected masses (docs/formats/robot-yaml.md); NULL: nothing ever
  * touches. shapes_yaml: which links are sought (docs/formats/shapes-yaml.md); NULL: the floating
  * base, made of its collision bodies. settings: NULL for the defaults. error: may be NULL. */
 shapeid_identifier* shapeid_create(const char* urdf, const char* robot_yaml,
@@ -97,9 +97,10 @@ typedef struct shapeid_sample {
   const double* q;                     /**< rad or m */
   const double* dq;                    /**< rad/s or m/s */
   const double* ddq;                   /**< rad/s^2 or m/s^2 */
-  const double* tau;                   /**< joint-side torques or forces, N m or N */
-  size_t contact_count;                /**< numbers in in_contact: all contacts */
-  const unsigned char* in_contact;     /**< not zero: it touches. NULL: nothing touches */
+  /** Joint-side torques or forces, N m or N; what the rotors of robot_yaml take is taken off. */
+  const double* tau;
+  size_t contact_count;            /**< numbers in in_contact: all contacts */
+  const unsigned char* in_contact; /**< not zero: it touches. NULL: nothing touches */
   /** Forces in base axes, N: x, y, z of contact 0, of contact 1, ...; NULL: not measured. */
   const double* contact_force;
 } shapeid_sample;

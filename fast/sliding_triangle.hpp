@@ -21,6 +21,9 @@ namespace shapeid::fast {
 /// then merge all. Memory: 3/2 most + 3 triangles. After construction nothing allocates or throws.
 class SlidingTriangle {
  public:
+  /// Memory, in triangles a block of the window.
+  static constexpr double triangles_a_block = 1.5;
+
   /// `unknowns` as in Triangle; `most` blocks, at least one.
   SlidingTriangle(Eigen::Index unknowns, std::size_t most);
 

@@ -93,13 +93,27 @@ void OutputPlace::fail(const std::string& wrong) const {
   throw InputError({path_}, wrong, "name a writable file, where there is room for it");
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  const OutputPlace place(path);
-  std::ofstream out(place.writable(), std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) place.fail("cannot be written");
-  place.finish();
+void write_file(const std::string& path, const std::string& text) { write_files({{path, text}}); }
+
+void write_files(const std::vector<FileText>& files) {
+  std::vector<OutputPlace> places;
+  places.reserve(files.size());
+  const auto discard_all = [&] {
+    for (const OutputPlace& place : places) place.discard();
+  };
+  for (const FileText& file : files) {
+    try {
+      const OutputPlace& place = places.emplace_back(file.path);
+      std::ofstream out(place.writable(), std::ios::binary);
+      out << file.text;
+      out.close();
+      if (!out) place.fail("cannot be written");
+    } catch (...) {
+      discard_all();
+      throw;
+    }
+  }
+  for (const OutputPlace& place : places) place.finish();
 }
 
 }  // namespace shapeid

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace shapeid {
 
@@ -35,5 +36,12 @@ void remove_unfinished_files() noexcept;
 /// replaces a good one. Throws InputError if the place cannot be written (missing folder, full
 /// disk).
 void write_file(const std::string& path, const std::string& text);
+
+struct FileText {
+  std::string path, text;
+};
+
+/// The same for files that belong together: none takes its place before all are written.
+void write_files(const std::vector<FileText>& files);
 
 }  // namespace shapeid

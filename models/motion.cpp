@@ -114,12 +114,7 @@ struct MotionReader::State {
     const Eigen::VectorXd steps = median_steps(head, source.plan(), source.path());
     const double logged_rate = 1.0 / row_step;
     report.rate = options.rate > 0.0 ? options.rate : logged_rate;
-    constexpr double rate_slack = 0.99;  // a median of jittered stamps
-    if (report.rate < rate_slack * logged_rate) {
-      throw InputError(
-          fmt::format("a grid of {:g} Hz for a log of {:g} Hz", report.rate, logged_rate),
-          "leave the log's rate: picking rows would fold noise into the motion");
-    }
+    check_grid(report.rate, logged_rate);
     const Butterworth design(options.order, options.cutoff, report.rate);
     if (options.smoothing == Smoothing::causal) report.group_delay = design.group_delay(0.0);
     grid.emplace(report.rate, options.gap * steps.cwiseMax(row_step));

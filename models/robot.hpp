@@ -25,6 +25,9 @@ struct Joint {
   double upper = std::numeric_limits<double>::infinity();
   double effort = std::numeric_limits<double>::infinity();    ///< N m or N
   double velocity = std::numeric_limits<double>::infinity();  ///< rad/s or m/s
+  /// kg m^2, or kg where it slides: of the drive's rotor, seen through its gear. It takes this
+  /// times ddq of the drive's torque before the links see any.
+  double rotor_inertia = 0.0;
 };
 
 /// The unit of a quantity at this joint, from that at one that turns: where it slides, N m is N,

@@ -96,17 +96,26 @@ void read_noise(const YamlInput& in, const YAML::Node& node, const Robot& robot,
   }
 }
 
-void read_rotors(const YamlInput& in, const YAML::Node& node, const Robot& robot,
-                 RobotNotes& notes) {
-  for (const std::string& joint : in.keys(node, "rotors")) {
-    const YAML::Node rotor = node[joint];
-    if (!robot.find_joint(joint)) {
-      in.refuse(rotor, fmt::format("{} has no moving joint {}", robot.name, joint), "name a joint");
+/// Inertias behind the gear, one a joint: what turns g times as fast counts g^2 times.
+std::vector<double> read_rotors(const YamlInput& in, const YAML::Node& node, const Robot& robot) {
+  std::vector<double> inertias(static_cast<std::size_t>(robot.joint_count()), 0.0);
+  for (const std::string& name : in.keys(node, "rotors")) {
+    const YAML::Node rotor = node[name];
+    const std::optional<int> joint = robot.find_joint(name);
+    if (!joint) {
+      in.refuse(rotor, fmt::format("{} has no moving joint {}", robot.name, name), "name a joint");
     }
-    in.check_keys(rotor, "the rotor of " + joint, {"inertia", "gear"}, {});
-    notes.rotors[joint] = {in.positive(rotor["inertia"], "inertia"),
-                           in.positive(rotor["gear"], "gear")};
+    in.check_keys(rotor, "the rotor of " + name, {"inertia", "gear"}, {});
+    const double gear = in.positive(rotor["gear"], "gear");
+    const double inertia = in.positive(rotor["inertia"], "inertia") * gear * gear;
+    constexpr double largest = 1e6;  // kg m^2: more than any robot's link
+    if (!(inertia <= largest)) {
+      in.refuse(rotor, fmt::format("the rotor of {} counts as {:g} kg m^2", name, inertia),
+                "its inertia before the gear, kg m^2, and the gear's ratio");
+    }
+    inertias[static_cast<std::size_t>(*joint)] = inertia;
   }
+  return inertias;
 }
 
 void read_masses(const YamlInput& in, const YAML::Node& node, const Robot& robot,
@@ -146,11 +155,15 @@ RobotNotes read_robot_yaml(const std::string& path, Robot& robot) {
     for (const YAML::Node& node : list) contacts.push_back(read_contact(in, node, robot));
   }
   if (root["noise"]) read_noise(in, root["noise"], robot, notes);
-  if (root["rotors"]) read_rotors(in, root["rotors"], robot, notes);
+  std::vector<double> rotors;
+  if (root["rotors"]) rotors = read_rotors(in, root["rotors"], robot);
   if (root["expected_mass"]) read_masses(in, root["expected_mass"], robot, notes);
   // Nothing has been refused: only now does the robot change.
   notes.contacts_given = static_cast<bool>(root["contacts"]);
   if (notes.contacts_given) robot.contacts = std::move(contacts);
+  for (std::size_t j = 0; j < rotors.size(); ++j) {
+    robot.links[j + 1].joint.rotor_inertia = rotors[j];
+  }
   return notes;
 }
 

@@ -14,11 +14,6 @@ namespace shapeid {
 struct RobotNotes {
   Eigen::Isometry3d imu = Eigen::Isometry3d::Identity();
   std::map<std::string, double> noise_sigma;  ///< per channel of the log, in the channel's unit
-  struct Rotor {
-    double inertia = 0.0;  ///< kg m^2 about its spin axis, before the gear
-    double gear = 1.0;
-  };
-  std::map<std::string, Rotor> rotors;  ///< per joint
   struct MassRange {
     double lower = 0.0, upper = 0.0;  ///< kg
   };
@@ -26,7 +21,8 @@ struct RobotNotes {
   bool contacts_given = false;  ///< the robot's contacts are those of the file, if only none
 };
 
-/// Reads robot.yaml and puts its contacts into `robot` (replacing those there). Throws InputError.
+/// Reads robot.yaml and puts its contacts (replacing those there) and rotors into `robot`. Throws
+/// InputError.
 [[nodiscard]] RobotNotes read_robot_yaml(const std::string& path, Robot& robot);
 
 /// M0, kg: what these links weigh together, each by the middle of its range in robot.yaml, else by

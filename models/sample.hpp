@@ -25,7 +25,7 @@ struct Sample {
   Eigen::VectorXd q;    ///< joint positions, n; rad or m
   Eigen::VectorXd dq;   ///< joint velocities, n
   Eigen::VectorXd ddq;  ///< joint accelerations, n
-  Eigen::VectorXd tau;  ///< joint-side torques or forces, n; N m or N
+  Eigen::VectorXd tau;  ///< joint-side torques or forces on the links, n; N m or N
 
   /// One entry for each contact of the robot: does it touch? Empty: nothing touches.
   std::vector<bool> in_contact;

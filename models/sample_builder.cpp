@@ -16,12 +16,14 @@ void set_base(const Eigen::Isometry3d& imu, const Eigen::Vector3d& gyro,
 
 namespace {
 
-/// All but the derivatives, which `sample` has already.
+/// All but the derivatives, which `sample` has already. What a drive's rotor takes of its torque,
+/// the links do not see.
 void set_values(const ChannelPlan& plan, const Robot& robot, const Eigen::VectorXd& values,
                 Sample& sample) {
   const Eigen::Index n = robot.joint_count();
   sample.q = values.segment(plan.q, n);
   sample.tau = values.segment(plan.tau, n);
+  for (int j = 0; j < n; ++j) sample.tau[j] -= robot.joint(j).rotor_inertia * sample.ddq[j];
   if (plan.force < 0) return;
   for (std::size_t c = 0; c < robot.contacts.size(); ++c) {
     sample.contact_force.emplace_back(

@@ -45,7 +45,9 @@ void SampleStream::push(const MeasuredRow& row) {
 void SampleStream::learn_rate() {
   const double step = median_row_step(head_);
   check_clock(path_, plan_.time.from, step);
+  row_step_ = step;
   rate_ = options_.rate > 0.0 ? options_.rate : 1.0 / step;
+  check_grid(rate_, 1.0 / step);
   longest_step_ = gap * median_steps(head_, plan_, path_).cwiseMax(step);
 }
 

@@ -43,6 +43,8 @@ class SampleStream {
 
   /// Hz; 0 as long as it is not known.
   [[nodiscard]] double rate() const { return rate_; }
+  /// s, from row to row of the log; 0 before the rate is known.
+  [[nodiscard]] double row_step() const { return row_step_; }
   /// s, at low frequency, of every channel; only once the rate is known.
   [[nodiscard]] double group_delay() const;
   /// s: no sample comes that is older than the newest row pushed by more; only once the rate is
@@ -56,6 +58,7 @@ class SampleStream {
   template <class Archive>
   void state(Archive& archive) {
     archive("rate", rate_);
+    archive("row_step", row_step_);
     archive("longest_step", longest_step_);
     if (rate_ > 0.0 && !grid_) prepare();
     archive("head", head_);
@@ -75,7 +78,7 @@ class SampleStream {
   const Robot& robot_;
   Eigen::Isometry3d imu_;
   StreamOptions options_;
-  double rate_ = 0.0;
+  double rate_ = 0.0, row_step_ = 0.0;
   Eigen::VectorXd longest_step_;  ///< s, one a channel
   std::deque<MeasuredRow> head_;
   std::optional<Resampler> grid_;

@@ -25,7 +25,8 @@ struct SensorOptions {
 
 /// Columns and rows of a log in the format of docs/formats. A floating robot has base.gyro and
 /// base.accel at the IMU's pose in the IMU's axes (and base.gyrodot in the same axes), and the
-/// base's attitude base.quat; forces are in base axes. Contact flags have no noise.
+/// base's attitude base.quat; forces are in base axes; tau is what the drives give, their rotors'
+/// share included. Contact flags have no noise.
 class Sensors {
  public:
   Sensors(const Robot& robot, const RobotNotes& notes, const SensorOptions& options);
@@ -42,6 +43,7 @@ class Sensors {
   std::vector<std::string> columns_;
   std::vector<double> sigma_;  ///< a column
   RobotNotes notes_;
+  Eigen::VectorXd rotor_inertia_;  ///< a joint
   SensorOptions options_;
   bool floating_;
   Random random_;

@@ -190,6 +190,36 @@ TEST_F(Given, ABatchOfWrongOptionsBlamesNoLog) {
                  "FR_foot has several contacts");
 }
 
+/// CLI11 would read 010 as eight.
+TEST_F(Given, CountsWithLeadingZeros) {
+  const std::string words = fmt::format("identify {} --log given.csv ", robot);
+  expect_refused(words + "--divisions 012", "--divisions is \"012\"");
+  expect_refused(words + "--online --window 010", "--window is \"010\"");
+  expect_refused("simulate --seconds 1 --seed 0123 --out no.csv", "--seed is \"0123\"");
+  EXPECT_EQ(shapeid(words + "--divisions 0").status, 0);
+}
+
+/// Options that would do nothing beside each other.
+TEST_F(Given, DiagnoseOptionsThatWouldDoNothing) {
+  const std::string words = fmt::format("diagnose {} --log given.csv ", robot);
+  expect_refused(words + "--curves", "--curves requires --out");
+  expect_refused(words + "--trust --expected-mass 5", "--trust");
+}
+
+/// A log is read more than once, wherever it is given.
+TEST_F(Given, StreamsAreNoLogs) {
+  const CommandRun pipe = program("mkfifo flow.csv");
+  ASSERT_EQ(pipe.status, 0) << pipe.err;
+  for (const std::string& words :
+       {fmt::format("identify {} --log given.csv --test flow.csv", robot),
+        fmt::format("diagnose {} --log given.csv --also flow.csv", robot),
+        fmt::format("diagnose {} --log given.csv --test flow.csv", robot),
+        fmt::format("diagnose {} --log given.csv --reference flow.csv", robot),
+        fmt::format("batch {} --log given.csv flow.csv", robot)}) {
+    expect_refused(words, "flow.csv: is a stream");
+  }
+}
+
 /// A log that is slower than the usual filter is looked at with another.
 TEST_F(Given, SlowLogsCanBeInspected) {
   LogReader log(scratch() + "/given.csv");
@@ -269,6 +299,9 @@ TEST_F(Given, LogsThatAskForNoMass) {
   expect_refused(identified, "asks for no mass", 1);
   scale("tau.", -1.0);
   expect_refused(identified, "asks for no mass", 1);
+  ASSERT_EQ(program("cp changed.csv likewise.csv").status, 0);
+  expect_refused(fmt::format("batch {} --log changed.csv likewise.csv --divisions 0", robot),
+                 "asks for no mass", 1);
   scale("tau.", 0.0);
   expect_refused(identified, "never changes while the joints move");
 }

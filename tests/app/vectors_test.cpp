@@ -64,6 +64,11 @@ TEST(Vectors, ProgramsThatDoNotAnswerAreSaid) {
   const CommandRun echo = check("cat", "--kind moments");  // answers, but not the question
   EXPECT_EQ(echo.status, 1);
   EXPECT_EQ(check("yes nonsense", "--kind moments").status, 1);
+  // Answers before it is asked, and never reads: all vectors are more than a pipe holds.
+  EXPECT_EQ(check("yes").status, 2);
+  // Does not end at the end of its input, nor when it is told to.
+  const CommandRun stubborn = check(R"(trap "" TERM; cat; sleep 1000)", "--kind moments");
+  EXPECT_EQ(stubborn.status, 1) << stubborn.err;
 }
 
 TEST(Vectors, ChangedFilesAreRefused) {

@@ -25,14 +25,6 @@ TEST(Verbs, VersionIsThatOfTheProject) {
   EXPECT_NE(project.find(fmt::format("project(shapeid VERSION {} ", version)), std::string::npos);
 }
 
-TEST(Verbs, ConvertGoesThereAndBack) {
-  const std::string numbers = "2 0.2 -0.4 0.6 1 0.1 1.2 -0.2 0.3 1.4";
-  const CommandRun there = shapeid("convert --from pinocchio --to idyntree " + numbers);
-  EXPECT_EQ(there.status, 0) << there.err;
-  // iDynTree keeps Ixz before Iyy, Pinocchio Iyy before Ixz: the two must have changed places.
-  EXPECT_EQ(there.out, "2 0.2 -0.4 0.6 1 0.1 -0.2 1.2 0.3 1.4\n");
-}
-
 TEST(Verbs, InspectSeesTheBundledRobot) {
   const CommandRun run = shapeid("inspect --json " + robots + "quadruped.urdf");
   ASSERT_EQ(run.status, 0) << run.err;

@@ -89,6 +89,15 @@ TEST(BatchThreads, ResidualsOfTheLogsAddUpToTheObjective) {
   EXPECT_LE(scaled(std::abs(sum - data), data, pieces), few_hundred_eps);
 }
 
+/// Logs that are skipped are no neighbours of those that are used.
+TEST(BatchThreads, BlocksAreOfTheLogsThatAreUsed) {
+  (void)piece_names();
+  const json found = done(batch(
+      "--skip-refused --divisions 0 --blocks 2 --log piece0.csv piece1.csv absent.csv gone.csv"));
+  EXPECT_EQ(found.at("blocks"), 2);
+  EXPECT_EQ(found.at("log"), "2 logs");
+}
+
 TEST(BatchThreads, ABadLogIsNamed) {
   scratch_file("degrees.csv", "time,base.gyro.x\n0,not a number\n");
   for (const std::string bad : {"degrees.csv", "absent.csv"}) {

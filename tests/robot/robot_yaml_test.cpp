@@ -53,8 +53,8 @@ expected_mass: {plate: [1, 4], load: [0, 10]}
 
   EXPECT_EQ(notes.noise_sigma.size(), 5U);
   EXPECT_EQ(notes.noise_sigma.at("tau.knee"), 0.5);
-  EXPECT_EQ(notes.rotors.at("knee").inertia, 6.3e-5);
-  EXPECT_EQ(notes.rotors.at("knee").gear, 9.33);
+  const auto knee = static_cast<std::size_t>(robot.find_joint("knee").value());
+  EXPECT_DOUBLE_EQ(robot.links[knee + 1].joint.rotor_inertia, 6.3e-5 * 9.33 * 9.33);
   // The plate is part of the trunk, and it is the trunk that is identified.
   EXPECT_EQ(notes.expected_mass.at("trunk").lower, 1.0);
   EXPECT_EQ(notes.expected_mass.at("trunk").upper, 4.0);
@@ -176,6 +176,9 @@ TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
       {"rotors: {knee: {inertia: 1}}\n",
        ":1: the rotor of knee does not give its gear; it needs inertia, gear"},
       {"rotors: {knee: {inertia: -1, gear: 1}}\n", ":1: inertia is -1; it must be above zero"},
+      {"rotors: {knee: {inertia: 1, gear: 1e4}}\n",
+       ":1: the rotor of knee counts as 1e+08 kg m^2; its inertia before the gear, kg m^2, and the "
+       "gear's ratio"},
       {"rotors: {knee: 3}\n", ":1: the rotor of knee is not a map; write lines of key: value"},
       {"expected_mass: {leg: 3}\n",
        ":1: the mass of leg is not a list of 2 numbers; write them in brackets, with commas "

@@ -79,7 +79,6 @@ TEST(Quadruped, NotesNameFourFeetAtTheTipsOfTheShanks) {
     EXPECT_EQ(contact.frame.translation().z(), -0.2) << contact.name;
   }
   EXPECT_FALSE(notes.imu.translation().isZero());
-  EXPECT_TRUE(notes.rotors.empty());
 }
 
 // The shapes that are sought are the collision bodies, in their order.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapeid/tests/app/command.hpp"
 #include "shapeid/tests/track/logs.hpp"
 
 namespace shapeid::test {
@@ -52,6 +53,46 @@ TEST(TrackEvents, AnOrdinaryTrotHasNone) {
   EXPECT_EQ(total(lines, "rows", "repeated") + total(lines, "rows", "missing"), 0U);
   EXPECT_EQ(lines.back().at("line"), lines.size() - 1);
   EXPECT_LT(std::abs(tracked_mass(lines.back()) - true_mass), near);
+}
+
+/// The clock is judged by the log's own rows, whatever the grid between them.
+TEST(TrackEvents, AFinerGridMissesNothing) {
+  const Lines log = trot_log();
+  for (const char* rate : {"1000", "3000"}) {
+    const std::vector<json> lines = tracked(log, fmt::format("--rate {} --window 60", rate));
+    ASSERT_GT(lines.size(), 50U) << rate;
+    EXPECT_EQ(total(lines, "rows", "missing") + total(lines, "rows", "gaps"), 0U) << rate;
+    EXPECT_EQ(total(lines, "rows", "repeated"), 0U) << rate;
+    EXPECT_LT(std::abs(tracked_mass(lines.back()) - true_mass), near) << rate;
+  }
+  scratch_file("trot.csv", joined(log));
+  const CommandRun coarse = shapeid(fmt::format("track {} --rate 100 trot.csv", bundled_robot()));
+  EXPECT_EQ(coarse.status, 2);
+  EXPECT_NE(coarse.err.find("a grid of 100 Hz for a log of 500 Hz"), std::string::npos)
+      << coarse.err;
+}
+
+/// What is kept for --recent has a limit that is told before the work.
+TEST(TrackEvents, ALongerWindowThanThereIsRoomForIsRefused) {
+  scratch_file("trot.csv", joined(trot_log()));
+  const std::string words = fmt::format(
+      "track --robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml --whole-body trot.csv ",
+      SHAPEID_SOURCE_DIR "/models/robots/");
+  const CommandRun refused = shapeid(words + "--recent 3600");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("--recent 3600: 180000 windows of 130 parameters"), std::string::npos)
+      << refused.err;
+  EXPECT_EQ(shapeid(words + "--recent 5").status, 0);
+}
+
+/// What is taken for granted is said where nothing else says it.
+TEST(TrackEvents, ARobotWithoutNotesIsSaidToHaveNone) {
+  scratch_file("trot.csv", joined(without_contacts(trot_log())));
+  const CommandRun copied =
+      program(fmt::format("cp {}quadruped.urdf alone.urdf", SHAPEID_SOURCE_DIR "/models/robots/"));
+  ASSERT_EQ(copied.status, 0) << copied.err;
+  const CommandRun run = shapeid("track --robot alone.urdf --contacts none trot.csv");
+  EXPECT_NE(run.err.find("warning: no robot.yaml beside alone.urdf"), std::string::npos) << run.err;
 }
 
 TEST(TrackEvents, OutliersAreLeftOut) {
