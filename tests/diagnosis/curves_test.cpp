@@ -204,7 +204,7 @@ TEST(EffectsYaml, LimitsOfWhatIsBelievedAreNoLimitsOfWhatIsKnown) {
   };
   EXPECT_EQ(read(test::effect("torque_lag", 1, {0.07})), 0.07);
   EXPECT_THROW(read(test::effect("torque_lag", 1, {-0.001})), InputError);
-  EXPECT_EQ(read(test::effect("torque_delay", 0, {-0.019})), -0.019);
+  EXPECT_EQ(read(test::effect("torque_delay", 0, {-0.017})), -0.017);
   EXPECT_THROW(read(test::effect("torque_delay", 0, {0.5})), InputError);
 }
 
