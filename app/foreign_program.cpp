@@ -78,7 +78,10 @@ void ForeignProgram::read_some() {
   unread_.append(buffer.data(), static_cast<std::size_t>(count));
   if (unread_.size() <= longest_answer) return;
   kill(-child_, SIGTERM);
-  throw InputError(command_ + ": answers without end", what_is_right);
+  const bool has_line = unread_.find('\n') != std::string::npos;
+  throw InputError(command_ + (has_line ? ": answers before it is asked, and does not read"
+                                        : ": answers with an endless line"),
+                   what_is_right);
 }
 
 std::string ForeignProgram::ask(const std::string& line, int patience) {

@@ -27,16 +27,6 @@ const IdentifierSettings& checked(const IdentifierSettings& settings) {
   return settings;
 }
 
-Eigen::VectorXd weight_of(const Robot& robot, const IdentifierSettings& settings) {
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(robot.dof());
-  const Eigen::VectorXd& weight = settings.weight.size() > 0 ? settings.weight : ones;
-  if (weight.size() != robot.dof() || !(weight.array() > 0.0).all() || !weight.allFinite()) {
-    throw InputError("the weight is not a positive number for each of the robot's equations",
-                     "one entry a generalised coordinate, 1 / sigma^2");
-  }
-  return weight;
-}
-
 /// || b ||^2 beyond which forces are none of a robot's, see Identifier. Legs carry and throw some
 /// weights of their robot; the rest is for links whose masses are unknown or expected wrongly.
 double most_squares(const Robot& robot, const BodyModel& model,
@@ -45,7 +35,8 @@ double most_squares(const Robot& robot, const BodyModel& model,
   double mass = settings.expected_mass;
   for (Eigen::Index i = 0; i < model.known.size(); i += 10) mass += std::abs(model.known[i]);
   const double force = times * gravity * mass;
-  return force * force * static_cast<double>(settings.window) * weight_of(robot, settings).sum();
+  return force * force * static_cast<double>(settings.window) *
+         online_weight(settings.weight, robot.dof()).sum();
 }
 
 DivisionOptions options_of(const IdentifierSettings& settings) {
@@ -72,7 +63,7 @@ Identifier::Identifier(const Robot& robot, const BodyModel& model,
       lambda_(settings.lambda),
       most_(most_squares(robot, model, settings)),
       volume_(shape_volumes(model).sum()),
-      rows_(robot, model, settings.contacts, weight_of(robot, settings)),
+      rows_(robot, model, settings.contacts, online_weight(settings.weight, robot.dof())),
       last_window_(10 * static_cast<Eigen::Index>(model.free_links.size())),
       Phi_(Eigen::VectorXd::Zero(10 * static_cast<Eigen::Index>(model.free_links.size()))),
       filtered_(Phi_) {

@@ -113,7 +113,12 @@ void write_files(const std::vector<FileText>& files) {
       throw;
     }
   }
-  for (const OutputPlace& place : places) place.finish();
+  try {
+    for (const OutputPlace& place : places) place.finish();
+  } catch (...) {
+    discard_all();  // those in place are there no more under their other names
+    throw;
+  }
 }
 
 }  // namespace shapeid

@@ -1,10 +1,18 @@
 #include "shapeid/models/log.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include "shapeid/models/error.hpp"
 
@@ -14,17 +22,105 @@ namespace {
 // Small enough that a live stream is not held back by more than a few dozen rows.
 constexpr std::size_t block_size = 1 << 14;
 
+/// Bytes of a file, plain or gzipped, in blocks. An archive may have several members, one behind
+/// the other, and nothing else: what stands behind a member and is none is damage, where zlib's own
+/// reader would see the end.
+class ByteSource {
+ public:
+  explicit ByteSource(const std::string& path) {
+    file_ = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file_ < 0) throw InputError({path}, "cannot be opened", "give a readable CSV file");
+  }
+  ~ByteSource() {
+    if (file_ != STDIN_FILENO) ::close(file_);
+    if (zipped_ && *zipped_) inflateEnd(&stream_);
+  }
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+
+  /// The next bytes; none at the end. Empty, with the reason in `wrong`, if they cannot be had.
+  std::string_view next(std::string& wrong) {
+    if (!read_more(wrong)) return {};
+    if (!zipped_ && !look(wrong)) return {};
+    if (*zipped_) return inflated(wrong);
+    return {raw_.data(), std::exchange(raw_size_, 0)};
+  }
+
+ private:
+  /// Something into raw_, unless there is something left in it.
+  bool read_more(std::string& wrong) {
+    while (raw_size_ == 0 && !at_end_) {
+      const ssize_t got = ::read(file_, raw_.data(), raw_.size());
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) {
+        wrong = std::strerror(errno);
+        return false;
+      }
+      at_end_ = got == 0;
+      raw_size_ = static_cast<std::size_t>(got);
+      stream_.next_in = reinterpret_cast<Bytef*>(raw_.data());
+      stream_.avail_in = static_cast<unsigned>(got);
+    }
+    return true;
+  }
+
+  /// Whether it is an archive. A pipe may hand out its first byte alone.
+  bool look(std::string& wrong) {
+    constexpr std::string_view magic = "\x1F\x8B";
+    while (raw_size_ == 1 && !at_end_) {
+      const ssize_t got = ::read(file_, raw_.data() + 1, raw_.size() - 1);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) {
+        wrong = std::strerror(errno);
+        return false;
+      }
+      at_end_ = got == 0;
+      raw_size_ += static_cast<std::size_t>(got);
+    }
+    stream_.avail_in = static_cast<unsigned>(raw_size_);
+    zipped_ = std::string_view(raw_.data(), raw_size_).starts_with(magic);
+    constexpr int gzip_only = 15 + 16;
+    if (*zipped_ && inflateInit2(&stream_, gzip_only) != Z_OK) throw std::bad_alloc();
+    return true;
+  }
+
+  std::string_view inflated(std::string& wrong) {
+    while (true) {
+      if (!read_more(wrong)) return {};
+      if (raw_size_ == 0) {
+        if (in_member_) wrong = "unexpected end of file";
+        return {};
+      }
+      if (!in_member_) inflateReset(&stream_);
+      in_member_ = true;
+      stream_.next_out = reinterpret_cast<Bytef*>(text_.data());
+      stream_.avail_out = static_cast<unsigned>(text_.size());
+      const int code = inflate(&stream_, Z_NO_FLUSH);
+      raw_size_ = stream_.avail_in;
+      if (code == Z_STREAM_END) {
+        in_member_ = false;
+      } else if (code != Z_OK && code != Z_BUF_ERROR) {
+        wrong = stream_.msg == nullptr ? "no gzip archive" : stream_.msg;
+        return {};
+      }
+      const std::size_t got = text_.size() - stream_.avail_out;
+      if (got > 0) return {text_.data(), got};
+    }
+  }
+
+  int file_ = -1;
+  std::array<char, block_size> raw_{}, text_{};
+  std::size_t raw_size_ = 0;  ///< bytes that are not used yet
+  bool at_end_ = false;
+  std::optional<bool> zipped_;
+  bool in_member_ = false;
+  z_stream stream_{};
+};
+
 /// Lines of a file, plain or gzipped, without their ends.
 class LineSource {
  public:
-  explicit LineSource(const std::string& path) : path_(path) {
-    constexpr int standard_input = 0;
-    file_ = path == "-" ? gzdopen(standard_input, "rb") : gzopen(path.c_str(), "rb");
-    if (file_ == nullptr) throw InputError({path}, "cannot be opened", "give a readable CSV file");
-  }
-  ~LineSource() { gzclose_r(file_); }
-  LineSource(const LineSource&) = delete;
-  LineSource& operator=(const LineSource&) = delete;
+  explicit LineSource(const std::string& path) : path_(path), bytes_(path) {}
 
   /// The next line into `line`; false at the end of the file.
   bool next(std::string& line) {
@@ -50,24 +146,21 @@ class LineSource {
 
  private:
   bool fill() {
-    const int got = gzread(file_, block_.data(), static_cast<unsigned>(block_.size()));
-    int code = Z_OK;
-    const char* text = gzerror(file_, &code);
-    // A truncated gzip file still hands out what it has: only the code tells.
-    if (got < 0 || (code != Z_OK && code != Z_STREAM_END)) {
-      throw InputError({path_, number_ + 1}, fmt::format("cannot be read: {}", text),
+    std::string wrong;
+    block_ = bytes_.next(wrong);
+    if (!wrong.empty()) {
+      throw InputError({path_, number_ + 1}, "cannot be read: " + wrong,
                        "give a complete CSV or gzipped CSV file");
     }
-    begin_ = block_.data();
-    end_ = begin_ + got;
-    return got > 0;
+    begin_ = block_.begin();
+    end_ = block_.end();
+    return !block_.empty();
   }
 
   std::string path_;
-  gzFile file_ = nullptr;
-  std::array<char, block_size> block_;
-  const char* begin_ = nullptr;
-  const char* end_ = nullptr;
+  ByteSource bytes_;
+  std::string_view block_;
+  std::string_view::iterator begin_ = nullptr, end_ = nullptr;
   int number_ = 0;
 };
 

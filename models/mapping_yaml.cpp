@@ -10,8 +10,12 @@ namespace {
 
 std::map<std::string, double> read_numbers(const YamlInput& file, const YAML::Node& node,
                                            const std::string& what) {
+  static_cast<void>(file.keys(node, what));  // a map, and no key twice
   std::map<std::string, double> values;
-  for (const std::string& key : file.keys(node, what)) values[key] = file.number(node[key], key);
+  for (const auto& entry : node) {
+    const std::string key = entry.first.Scalar();
+    values[key] = file.number(entry.second, key);
+  }
   return values;
 }
 
@@ -57,6 +61,11 @@ void read_torque(const YamlInput& file, const YAML::Node& node, Mapping& mapping
   file.check_keys(node, "torque", {"kind"}, {"factor"});
   mapping.torque = read_kind(file, node["kind"]);
   if (node["factor"]) mapping.torque_factor = read_numbers(file, node["factor"], "factor");
+  for (const auto& [joint, factor] : mapping.torque_factor) {
+    if (factor != 0.0) continue;
+    file.refuse(node["factor"][joint], fmt::format("the factor of {} is zero", joint),
+                "a gear ratio (motor) or N m per A (current)");
+  }
   const bool is_joint = mapping.torque == TorqueKind::joint;
   if (is_joint == mapping.torque_factor.empty()) return;
   file.refuse(
@@ -73,8 +82,10 @@ Mapping read_mapping_yaml(const std::string& path) {
   file.check_keys(root, "the mapping", {}, {"columns", "keep_rows", "torque"});
   Mapping mapping;
   if (const YAML::Node columns = root["columns"]) {
-    for (const std::string& ours : file.keys(columns, "columns")) {
-      mapping.columns[ours] = read_rule(file, columns[ours], ours);
+    static_cast<void>(file.keys(columns, "columns"));
+    for (const auto& entry : columns) {
+      const std::string ours = entry.first.Scalar();
+      mapping.columns[ours] = read_rule(file, entry.second, ours);
     }
   }
   if (const YAML::Node keep = root["keep_rows"]) {

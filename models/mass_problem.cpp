@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace shapeid {
 
 Violation why_malformed(const MassProblem& p) {
@@ -20,7 +22,9 @@ Violation why_malformed(const MassProblem& p) {
   if (!finite) return "a number of the mass problem is not finite";
   if (p.W.size() > 0 && p.W.minCoeff() <= 0.0) return "a weight is not positive";
   if (p.V.size() > 0 && p.V.minCoeff() <= 0.0) return "a volume is not positive";
-  if (!(p.lambda >= 0.0)) return fmt::format("lambda is {:g}, must be >= 0", p.lambda);
+  if (!(p.lambda >= 0.0 && std::isfinite(p.lambda))) {
+    return fmt::format("lambda is {:g}, must be finite and >= 0", p.lambda);
+  }
   return std::nullopt;
 }
 

@@ -99,11 +99,25 @@ class AsciiReader {
  public:
   AsciiReader(std::string_view text, const std::string& path) : words_(text), path_(path) {}
 
+  /// All solids of the file are one mesh.
   MeshFile read() {
-    expect("solid");
-    words_.skip_line();  // the name, of any number of words
     MeshFile mesh;
     Corners corners;
+    expect("solid");
+    do {
+      read_solid(mesh, corners);
+      const std::string_view word = words_.next();
+      if (word.empty()) break;
+      if (word != "solid") refuse(word, "another solid or the end");
+    } while (true);
+    mesh.vertices = corners.take();
+    return mesh;
+  }
+
+ private:
+  /// Behind its first word.
+  void read_solid(MeshFile& mesh, Corners& corners) {
+    words_.skip_line();  // the name, of any number of words
     std::string_view word = words_.next();
     for (; word == "facet"; word = words_.next()) {
       expect("normal");
@@ -123,11 +137,8 @@ class AsciiReader {
       mesh.faces.push_back(face);
     }
     if (word != "endsolid") refuse(word, "facet or endsolid");
-    mesh.vertices = corners.take();
-    return mesh;
+    words_.skip_line();  // the name again
   }
-
- private:
   [[noreturn]] void refuse(std::string_view found, std::string_view wanted) const {
     throw InputError({path_, words_.line(), {}}, fmt::format("\"{}\" is not STL here", found),
                      fmt::format("expected {}", wanted));

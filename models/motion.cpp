@@ -45,6 +45,11 @@ struct MotionReader::State {
         margin(o.at_contact_change,
                o.exact_derivatives ? 0.0 : o.contact_margin.value_or(margin_periods / o.cutoff)) {
     const ChannelPlan& plan = source.plan();
+    if (options.contact_margin && !(*options.contact_margin >= 0.0)) {
+      throw InputError(
+          fmt::format("a margin of {:g} s around a contact's change", *options.contact_margin),
+          "0 or more");
+    }
     if (options.exact_derivatives) check_exact(plan, path);
     if (options.use_logged_velocity && plan.dq < 0) {
       throw InputError({path}, "has no dq.* columns", "log them, or do not ask to use them");

@@ -1,6 +1,8 @@
 // What identifiers of windows ask of the numbers that they are given, whichever path they take.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <optional>
 
@@ -15,5 +17,9 @@ struct OnlineNumbers {
 
 /// Throws InputError for numbers that make no sense.
 void check_online(const OnlineNumbers& numbers);
+
+/// The diagonal of W, ones where none is given. Throws InputError unless there is a positive number
+/// for each of the robot's `dof` equations.
+[[nodiscard]] Eigen::VectorXd online_weight(const Eigen::VectorXd& given, Eigen::Index dof);
 
 }  // namespace shapeid

@@ -174,10 +174,14 @@ void Plausibility::judge_position(int j) const {
   }
 }
 
+bool Plausibility::moves(int j) const {
+  const double moved = robot_.joint(j).kind == JointKind::prismatic ? moved_length : moved_angle;
+  return range(plan_.q + j).width() > moved;
+}
+
 void Plausibility::judge_slope(int j) const {
   const Slope& s = slopes_[static_cast<std::size_t>(j)];
-  const double moved = robot_.joint(j).kind == JointKind::prismatic ? moved_length : moved_angle;
-  if (plan_.dq < 0 || range(plan_.q + j).width() < moved) return;
+  if (plan_.dq < 0 || !moves(j)) return;
   if (!(s.xy * s.xy > correlated * correlated * s.xx * s.yy)) return;
   const double slope = s.xy / s.xx;
   if (near(slope, 1.0)) return;
@@ -207,7 +211,6 @@ void Plausibility::judge_gravity() const {
 
 void Plausibility::judge_frozen() const {
   if (rows_ < enough_rows) return;
-  const auto moves = [&](int j) { return range(plan_.q + j).width() > moved_angle; };
   const auto refuse = [&](int channel) {
     throw InputError(place(channel),
                      fmt::format("stays at {:g} while the joints move", range(channel).least),

@@ -68,6 +68,7 @@ class Plausibility {
   void judge_position(int joint) const;
   void judge_slope(int joint) const;
   void judge_gravity() const;
+  [[nodiscard]] bool moves(int j) const;
   void judge_frozen() const;
 
   std::string path_;

@@ -96,7 +96,7 @@ Violation why_malformed(const Polyhedron& p) {
         "outside",
         sum / 6.0);
   }
-  if (sum <= roundings * size) return "the surface encloses no volume";
+  if (!(sum > roundings * size)) return "the surface encloses no volume";
   return std::nullopt;
 }
 

@@ -48,7 +48,12 @@ Contact read_contact(const YamlInput& in, const YAML::Node& node, const Robot& r
   }
   if (line) {
     const Eigen::Vector3d axis = in.three(node["axis"], "axis");
-    if (axis.norm() == 0.0) in.refuse(node["axis"], "the axis is zero", "write a direction");
+    const double size = axis.cwiseAbs().maxCoeff();
+    constexpr double least = 1e-6, most = 1e6;
+    if (size == 0.0) in.refuse(node["axis"], "the axis is zero", "write a direction");
+    if (!(size >= least && size <= most)) {
+      in.refuse(node["axis"], fmt::format("the axis is {:g} long", size), "write a unit vector");
+    }
     contact.frame.linear() = frame_along(axis.normalized());
   }
   contact.frame = site.pose * contact.frame;

@@ -19,7 +19,9 @@ Violation why_misplaced(const Region& region, const char* what, const StatedProb
 
 Violation why_malformed(const StatedProblem& p) {
   if (const Violation why = why_malformed(p.masses)) return why;
-  if (!(p.masses.mass_bound >= 0.0)) return "the mass bound is negative";
+  if (!(p.masses.mass_bound >= 0.0 && std::isfinite(p.masses.mass_bound))) {
+    return "the mass bound is negative or not finite";
+  }
   const OtherColumns& C = p.others;
   if (C.lower.size() != C.values.cols() || C.upper.size() != C.values.cols()) {
     return fmt::format("{} columns, {} lower and {} upper bounds", C.values.cols(), C.lower.size(),

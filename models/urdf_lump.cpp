@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <queue>
@@ -72,6 +73,7 @@ class Lumper {
   std::optional<double> standstill(const DocumentJoint& j) {
     if (j.type == DocumentJointType::fixed) return 0.0;
     if (const auto found = options_.locked.find(j.joint.name); found != options_.locked.end()) {
+      check_position(j, found->second);
       notes_.add(fmt::format("joints locked at {:g}", found->second), j.joint.name);
       return found->second;
     }
@@ -83,8 +85,17 @@ class Lumper {
                       j.mimic->joint),
           "make it fixed in the URDF, or remove <mimic> if this joint moves on its own");
     }
+    check_position(j, j.mimic->offset);
     notes_.add(fmt::format("mimic joints locked at {:g}", j.mimic->offset), j.joint.name);
     return j.mimic->offset;
+  }
+
+  void check_position(const DocumentJoint& j, double position) const {
+    constexpr double furthest = 1e6;  // rad or m
+    if (std::abs(position) <= furthest) return;
+    throw InputError({document_.file, j.line, {}},
+                     fmt::format("joint {} would be locked at {:g}", j.joint.name, position),
+                     "a position that it can reach, rad or m");
   }
 
   static Eigen::Isometry3d placement_at(const DocumentJoint& j, double position) {

@@ -21,14 +21,23 @@ constexpr std::size_t largest_yaml = std::size_t{1} << 20;
 void refuse_second_document(const std::string& text, const std::string& path) {
   std::istringstream lines(text);
   std::string line;
-  bool begun = false;  // anything but comments and blanks
+  bool begun = false;  // anything but comments, blanks and directives
+  bool ended = false;
   for (int number = 1; std::getline(lines, line); ++number) {
-    const bool marker = line.starts_with("---") && (line.size() == 3 || std::isspace(line[3]) != 0);
-    if (marker && begun) {
+    const auto is_marker = [&line](const char* three) {
+      return line.starts_with(three) &&
+             (line.size() == 3 || std::isspace(static_cast<unsigned char>(line[3])) != 0);
+    };
+    const auto first = line.find_first_not_of(" \t\r");
+    const bool is_content = first != std::string::npos && line[first] != '#';
+    if (is_marker("...")) {
+      ended = begun;
+      continue;
+    }
+    if (is_content && (ended || (is_marker("---") && begun))) {
       throw InputError({path, number, {}}, "a second document begins here", "one document a file");
     }
-    const auto first = line.find_first_not_of(" \t\r");
-    begun = begun || marker || (first != std::string::npos && line[first] != '#');
+    begun = begun || (is_content && line[0] != '%');
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "shapeid/models/error.hpp"
@@ -174,6 +175,9 @@ Eigen::MatrixXd merged(const std::vector<RowBlock>& blocks) {
 Identification identify(const BodyModel& model, const CompressedRows& rows,
                         const IdentifySettings& settings,
                         const std::function<void(const DivisionRun&)>& watch) {
+  DivisionOptions division = settings.division;
+  division.expected_mass = settings.expected_mass;
+  if (const Violation reason = why_senseless(division)) throw std::invalid_argument(*reason);
   Identification result;
   result.samples = rows.samples;
   result.data = determine(rows.blocks, natural_sizes(model, settings.expected_mass));
@@ -198,9 +202,6 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
   problem.U = shape_columns(model);
   problem.V = shape_volumes(model);
   problem.lambda = settings.lambda.value_or(default_lambda(problem, settings.expected_mass));
-  DivisionOptions division = settings.division;
-  division.expected_mass = settings.expected_mass;
-
   result.run = divide_and_solve(model, problem, division, watch);
   // Only certificates use it. What was expected may have been a guess: what was found fits in.
   const double found = result.run.solution.m.sum();

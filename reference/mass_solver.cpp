@@ -11,6 +11,8 @@
 #include <set>
 #include <utility>
 
+#include "shapeid/models/error.hpp"
+
 namespace shapeid::reference {
 namespace {
 
@@ -87,6 +89,9 @@ KktPoint solve_kkt(const ScaledProblem& s, const Places& passive) {
   for (int round = 0; round < most_rounds; ++round) {
     const Vector correction = factors.solve((rhs - K * z).cast<double>()).cast<Real>();
     const Real size = correction.norm();
+    if (!std::isfinite(size)) {
+      throw Refusal("not-finite", "the mass problem's numbers are none, or too large to be solved");
+    }
     if (!(size < last / 2)) break;
     z += correction;
     last = size;

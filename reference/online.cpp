@@ -8,11 +8,6 @@
 namespace shapeid::reference {
 namespace {
 
-Eigen::VectorXd weight_of(const Robot& robot, const OnlineSettings& settings) {
-  return settings.weight.size() > 0 ? settings.weight
-                                    : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
-}
-
 OnlineSettings checked(OnlineSettings settings) {
   check_online(
       {settings.window, settings.stride, settings.alpha, settings.expected_mass, settings.lambda});
@@ -24,7 +19,7 @@ OnlineSettings checked(OnlineSettings settings) {
 OnlineIdentifier::OnlineIdentifier(const Robot& robot, BodyModel model, OnlineSettings settings)
     : model_(std::move(model)),
       settings_(checked(std::move(settings))),
-      rows_(robot, model_, settings_.contacts, weight_of(robot, settings_)),
+      rows_(robot, model_, settings_.contacts, online_weight(settings_.weight, robot.dof())),
       filter_(settings_.alpha),
       masses_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model_.shapes.size()))) {}
 

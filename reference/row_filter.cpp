@@ -35,7 +35,7 @@ void RowFilter::push(const Sample& sample) {
 
 void RowFilter::push(double time, const SampleRows& rows) {
   constexpr double step_of_grid = 1.5;  // a missing sample makes it two
-  if (last_ && time - *last_ > step_of_grid / options_.rate) finish();
+  if (last_ && !(time > *last_ && time - *last_ <= step_of_grid / options_.rate)) finish();
   last_ = time;
   times_.push_back(time);
 

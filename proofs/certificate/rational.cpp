@@ -53,7 +53,7 @@ double rounded_down(const Rational& x) {
   return d;
 }
 
-double rounded_up(const Rational& x) { return -rounded_down(-x); }
+double rounded_up(const Rational& x) { return 0.0 - rounded_down(-x); }
 
 Rational root_above(const Rational& x) {
   if (sgn(x) == 0) return 0;

@@ -35,7 +35,8 @@ struct Relaxations {
   Interval masses, bodies, divisions, shapes;
 };
 
-/// `shapes`: what is known of the least data term of the shapes themselves. A bound of one set is
+/// `shapes`: what is known of the least objective of the shapes themselves, the data term where
+/// lambda = 0. A bound of one set is
 /// carried over to those that it implies.
 [[nodiscard]] Relaxations relaxations(const StatedProblem& problem, const Evidence& evidence,
                                       Interval shapes);

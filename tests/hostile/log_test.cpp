@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 
@@ -56,6 +57,32 @@ TEST(HostileLog, PackedRowsTakeNoMemory) {
 #ifndef __SANITIZE_ADDRESS__         // which keeps freed memory
   EXPECT_LT(peak_kilobytes() - before, few_blocks);
 #endif
+}
+
+// One archive behind the other is one log. What is no archive there is damage, where zlib's own
+// reader sees the end.
+TEST(HostileLog, WhatStandsBehindAnArchive) {
+  const test::ScratchFolder folder;
+  const auto packed = [&](const std::string& header, int rows) {
+    const std::string path = folder.path("part.csv.gz");
+    write_packed(path, header, "0.125,1\n", rows);
+    std::ifstream in(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const std::string first = packed("a,b\n", 300), second = packed("", 7000);
+  const auto written = [&](const std::string& bytes) { return folder.write("a.csv.gz", bytes); };
+  EXPECT_EQ(rows_of(written(first + second)), 7300U);
+  for (const std::size_t at : {0U, 1U, 2U}) {
+    std::string flipped = second;
+    flipped[at] = static_cast<char>(flipped[at] ^ 1);
+    EXPECT_TRUE(says(refusal_of(written(first + flipped)), "cannot be read: ")) << at;
+  }
+  for (const std::size_t size : {std::size_t{1}, std::size_t{12}, second.size() - 1}) {
+    EXPECT_TRUE(says(refusal_of(written(first + second.substr(0, size))),
+                     "cannot be read: unexpected end of file"))
+        << size;
+  }
+  EXPECT_TRUE(says(refusal_of(written(first + "1,2\n")), "cannot be read: "));
 }
 
 // Ten gigabytes of zeros, as a sparse file and packed a thousandfold: one line that never ends.

@@ -71,6 +71,26 @@ TEST(HostileYaml, AHundredThousandKeys) {
   expect_refused(text);
 }
 
+// The time that a megabyte of them takes is that of some hundred thousand lines.
+TEST(HostileYaml, ColumnsByTheTenThousand) {
+  const test::ScratchFolder folder;
+  std::string text = "columns:\n";
+  for (int i = 0; i < 80000; ++i) text += fmt::format(" k{}: a\n", i);
+  EXPECT_EQ(read_mapping_yaml(folder.write("m.yaml", text)).columns.size(), 80000U);
+}
+
+TEST(HostileYaml, DocumentsHaveTheirMarkers) {
+  const test::ScratchFolder folder;
+  const auto read = [&](const std::string& text) {
+    return refusal([&] { static_cast<void>(read_mapping_yaml(folder.write("m.yaml", text))); });
+  };
+  const std::string page = "columns: {time: t}\n";
+  EXPECT_EQ(read("%YAML 1.2\n---\n" + page), "accepted");
+  EXPECT_EQ(read("---\n" + page + "...\n# the end\n"), "accepted");
+  EXPECT_TRUE(says(read(page + "...\nkeep_rows: {a: 1}\n"), "m.yaml:3: a second document"));
+  EXPECT_TRUE(says(read(page + "---\n" + page), "m.yaml:2: a second document"));
+}
+
 TEST(HostileYaml, LargerThanAnyPage) {
   expect_refused(std::string((std::size_t{1} << 20) + 1, '#'), "larger than 1048576 bytes");
 }

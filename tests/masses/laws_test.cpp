@@ -3,9 +3,12 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 
+#include "shapeid/models/error.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/qp_generators.hpp"
@@ -142,6 +145,22 @@ TEST(MassLaws, NoRows) {
   p.V = Eigen::Vector2d(1.0, 2.0);
   p.lambda = 1e-3;
   EXPECT_EQ(solve_masses(p, Eigen::Vector2d(1.0, 0.0)).m, Eigen::Vector2d::Zero());
+}
+
+// No masses are given out for numbers that are none, or whose products overflow.
+TEST(MassLaws, WhatIsNoNumberIsRefused) {
+  for (const double force : {std::numeric_limits<double>::quiet_NaN(), 1e200}) {
+    MassProblem p;
+    p.Y = force * Eigen::RowVectorXd::Unit(10, 0);
+    p.F = Eigen::VectorXd::Constant(1, force);
+    p.W = Eigen::VectorXd::Constant(1, 1e300);
+    p.U = Eigen::VectorXd::Unit(10, 0);
+    p.V = Eigen::VectorXd::Ones(1);
+#ifndef NDEBUG
+    if (std::isnan(force)) continue;  // which a contract says before
+#endif
+    EXPECT_THROW(static_cast<void>(solve_masses(p)), Refusal) << force;
+  }
 }
 
 // One shape, one row, by hand: f = 2 (3 m - 6)^2 + 4 m^2 / 0.5 is least at m = 36 / 26.

@@ -148,6 +148,8 @@ TEST(Mapping, SaysWhatIsWrongWithBrokenFiles) {
       {"torque: {kind: current}\n",
        "m.yaml:1: current torque has no factors; give a gear ratio (motor) or N m per A (current) "
        "for every joint"},
+      {"torque: {kind: motor, factor: {j0: 2, j1: 0}}\n",
+       "m.yaml:1: the factor of j1 is zero; a gear ratio (motor) or N m per A (current)"},
       {"torque: {kind: joint, factor: {j0: 2}}\n",
        "m.yaml:1: joint torque has factors; give a gear ratio (motor) or N m per A (current) for "
        "every joint"},

@@ -150,6 +150,13 @@ TEST(Online, RefusesSettingsThatMakeNoSense) {
   settings.expected_mass = 5.5;
   settings.window = 0;
   EXPECT_THROW((reference::OnlineIdentifier{q.robot, q.base, settings}), InputError);
+  settings.window = 10;
+  settings.weight = Eigen::VectorXd::Ones(1);
+  EXPECT_THROW((reference::OnlineIdentifier{q.robot, q.base, settings}), InputError);
+  settings.weight = -Eigen::VectorXd::Ones(q.robot.dof());
+  EXPECT_THROW((reference::OnlineIdentifier{q.robot, q.base, settings}), InputError);
+  settings.weight = Eigen::VectorXd::Ones(q.robot.dof());
+  EXPECT_NO_THROW((reference::OnlineIdentifier{q.robot, q.base, settings}));
 }
 
 TEST(ContactDetection, AgreesWithTheGround) {

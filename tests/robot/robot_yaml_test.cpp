@@ -145,6 +145,8 @@ TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
        "about which no moment acts"},
       {"contacts:\n  - {link: leg, axis: [1, 0, 0]}\n",
        ":2: the contact of leg is no line; an axis belongs to kind: line"},
+      {"contacts:\n  - {link: leg, kind: line, axis: [0, 1e200, 0]}\n",
+       ":2: the axis is 1e+200 long; write a unit vector"},
       {"contacts:\n  - {link: leg, kind: line, axis: [0, 0, 0]}\n",
        ":2: the axis is zero; write a direction"},
       {"contacts:\n  - {link: leg}\n  - {link: leg, point: [0, 0, 0, 0]}\n",
