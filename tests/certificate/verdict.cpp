@@ -13,15 +13,21 @@ Files honest_files(const StatedProblem& problem, const Answer& answer, bool floo
           certificate_to_json(certify(problem, answer, {}, evidence).proof, evidence)};
 }
 
+std::vector<std::string> refusals(const Files& files) {
+  const StatedProblem problem = stated_problem_from_json(files.problem, "problem.json");
+  const Answer answer = answer_from_json(files.answer, "answer.json");
+  if (const Violation why = why_unfit(problem, answer)) return {*why};
+  if (files.certificate.empty()) return certify(problem, answer).reasons;
+  const Certificate given = certificate_from_json(files.certificate, "certificate.json", problem);
+  const Certified certified = certify(problem, answer, {}, given.evidence);
+  std::vector<std::string> reasons = false_claims(given, certified.proof);
+  reasons.insert(reasons.begin(), certified.reasons.begin(), certified.reasons.end());
+  return reasons;
+}
+
 bool accepted(const Files& files) {
   try {
-    const StatedProblem problem = stated_problem_from_json(files.problem, "problem.json");
-    const Answer answer = answer_from_json(files.answer, "answer.json");
-    if (why_unfit(problem, answer)) return false;
-    if (files.certificate.empty()) return certify(problem, answer).reasons.empty();
-    const Certificate given = certificate_from_json(files.certificate, "certificate.json", problem);
-    const Certified certified = certify(problem, answer, {}, given.evidence);
-    return certified.reasons.empty() && false_claims(given, certified.proof).empty();
+    return refusals(files).empty();
   } catch (const InputError&) {
     return false;
   }

@@ -95,8 +95,7 @@ double joint_equation(const std::string& id, const Scene& s, int j, int paramete
   if (id == "rotor_inertia") return ddq;
   if (id == "joint_spring") return parameter == 0 ? q : 1.0;
   if (id == "cogging") return parameter == 0 ? std::cos(12.0 * q) : std::sin(12.0 * q);
-  ADD_FAILURE() << id << " has no equation in this test";
-  return 0.0;
+  RC_FAIL(id + " has no equation in this test");
 }
 
 RC_GTEST_PROP(Effects, JointEffectsActOnTheirJointAloneAsTheirEquationSays, ()) {
@@ -296,10 +295,8 @@ RC_GTEST_PROP(Transformations, ZeroChangesNothing, ()) {
   }
 }
 
-/// On a floating base the predicted load contains no measured torque, and with the base carried
-/// exactly it is the torque that the contact forces ask for.
-// A robot that stays as it is while its contact flags flip: looking a little earlier or later
-// changes nothing, though other feet are in contact there.
+/// A robot that stays as it is while its contact flags flip: looking a little earlier or later
+/// changes nothing, though other feet are in contact there.
 RC_GTEST_PROP(Transformations, ContactsAreHeldWhereADelayLooksAcrossATouchdown, ()) {
   const Scene scene = any_scene(Root::floating);
   RC_PRE(scene.sample.in_contact.size() > 0);
@@ -326,6 +323,7 @@ RC_GTEST_PROP(Transformations, ContactsAreHeldWhereADelayLooksAcrossATouchdown, 
   RC_ASSERT(test::scaled(change.norm(), terms / step, scene.robot.dof()) < few_hundred_eps);
 }
 
+/// On a floating base the predicted load asks the motion alone.
 RC_GTEST_PROP(PredictedLoads, ContainNoMeasuredTorque, ()) {
   const Scene scene = any_scene(Root::floating);
   Sample other = scene.sample;

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <string>
 
 #include "shapeid/models/log_writer.hpp"
@@ -15,6 +14,7 @@
 #include "shapeid/models/simbody/simulation.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
+#include "shapeid/tests/motion/scratch.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -114,16 +114,16 @@ TEST(FilterError, IsTheResidualOfATrueModelOnItsFeet) {
   SensorOptions perfect;
   perfect.noise = false;
   Sensors sensors(robot, notes, perfect);
-  const auto path = std::filesystem::temp_directory_path() / "shapeid_filter_error.csv";
-  LogWriter writer(path.string(), sensors.columns());
+  const test::Scratch scratch;
+  const std::string path = scratch.path("trot.csv");
+  LogWriter writer(path, sensors.columns());
   simulate(robot, trot, [&](const SimulatedSample& s) {
     writer.write(sensors.measure(s.sample, Eigen::Quaterniond(s.state.base.linear())));
   });
   writer.close();
   constexpr double of_log = 40.0;  // Hz
-  Recording smooth = read(path.string(), robot, notes, of_log);
-  const Recording rough = read(path.string(), robot, notes, 3.0 * of_log);
-  std::filesystem::remove(path);
+  Recording smooth = read(path, robot, notes, of_log);
+  const Recording rough = read(path, robot, notes, 3.0 * of_log);
 
   const RichModel truth{stacked_parameters(robot), {}};
   const Viewer viewer(robot, reference::ContactTreatment::project, {});

@@ -76,7 +76,7 @@ RC_GTEST_PROP(Division, SplitChangesNeitherPhiNorObjective, ()) {
   }
 }
 
-// The contract above can fail: a start that puts a billionth of the mass elsewhere is noticed.
+// The contract above can fail: a start that puts a ten-millionth of the mass elsewhere is noticed.
 RC_GTEST_PROP(Division, WrongStartIsNoticed, ()) {
   const ModelWithRows given = *model_with_rows();
   RC_PRE(divisible(given.model.shapes.front().shape));

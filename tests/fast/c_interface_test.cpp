@@ -3,8 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,6 +13,7 @@
 #include "shapeid/models/version.hpp"
 #include "shapeid/tests/fast/allocations.hpp"
 #include "shapeid/tests/fast/cases.hpp"
+#include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/support/trot.hpp"
 
 namespace shapeid {
@@ -324,17 +323,17 @@ TEST(CInterface, SamplesOfAnotherRobotAreRefused) {
 
 // A body without joints has nothing to point at.
 TEST(CInterface, EmptyArraysMayBeNull) {
-  const std::string urdf = testing::TempDir() + "shapeid-body.urdf";
-  std::ofstream(urdf) << R"(<robot name="body"><link name="base"><inertial><mass value="2"/>
+  const test::Scratch scratch;
+  const std::string urdf =
+      scratch.file("body.urdf", R"(<robot name="body"><link name="base"><inertial><mass value="2"/>
 <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
-<collision><geometry><box size="0.5 0.5 0.5"/></geometry></collision></link></robot>)";
+<collision><geometry><box size="0.5 0.5 0.5"/></geometry></collision></link></robot>)");
   shapeid_settings settings = defaults();
   settings.expected_mass = 2.0;
   std::array<char, 200> error{};
   const Handle c(
       shapeid_create(urdf.c_str(), nullptr, nullptr, &settings, error.data(), error.size()),
       &shapeid_destroy);
-  std::filesystem::remove(urdf);
   ASSERT_NE(c, nullptr) << error.data();
   EXPECT_EQ(shapeid_joint_count(c.get()), 0U);
   const shapeid_sample sample{};

@@ -1,11 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/problem_json.hpp"
+#include "shapeid/models/strict_json.hpp"
 #include "shapeid/tests/support/load_problem.hpp"
 
 namespace shapeid {
@@ -35,11 +39,92 @@ TEST(ProblemJson, ReadsBackBitForBit) {
   EXPECT_EQ(problem_digest(p), problem_digest(q));
 }
 
+/// Everything that a problem may have.
+StatedProblem whole_problem() {
+  StatedProblem p{some_problem(), {}, {}};
+  const Eigen::Index rows = p.masses.F.size();
+  p.others = {Eigen::MatrixXd::Constant(rows, 2, 0.3), Eigen::Vector2d(0.0, -HUGE_VAL),
+              Eigen::Vector2d(HUGE_VAL, 1.0 / 3.0)};
+  const Eigen::Isometry3d pose(Eigen::Translation3d(0.1, -0.2, 0.3) *
+                               Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+  p.regions = {{0, make_cuboid({0.1, 0.2, 0.3}, pose)},
+               {0, make_cylinder(0.1, 0.2, pose)},
+               {0, make_ellipsoid({0.1, 0.2, 0.3}, pose)},
+               {0, make_convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, pose)},
+               {0, make_point({1, 2, 3}, 1e-6)}};
+  p.shapes.assign(6, p.regions.front());
+  return p;
+}
+
+using Numbers = std::vector<double*>;
+
+template <class Matrix>
+void append_entries(Numbers& numbers, Matrix& M) {
+  for (double& entry : M.reshaped()) numbers.push_back(&entry);
+}
+
+template <class Body>
+void append_solid(Numbers& numbers, Body& body) {
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index k = 0; k < 4; ++k) numbers.push_back(&body.frame(i, k));
+  }
+  append_entries(numbers, body.cell.lower);
+  append_entries(numbers, body.cell.upper);
+}
+
+void append_solid(Numbers& numbers, Polyhedron& body) {
+  for (Eigen::Vector3d& vertex : body.vertices) append_entries(numbers, vertex);
+}
+
+void append_solid(Numbers& numbers, Point& point) {
+  append_entries(numbers, point.position);
+  numbers.push_back(&point.nominal_volume);
+}
+
+/// Every double of a problem.
+Numbers numbers_of(StatedProblem& p) {
+  Numbers numbers = {&p.masses.lambda, &p.masses.mass_bound};
+  append_entries(numbers, p.masses.Y);
+  append_entries(numbers, p.masses.U);
+  append_entries(numbers, p.others.values);
+  for (Eigen::VectorXd* v :
+       {&p.masses.F, &p.masses.W, &p.masses.V, &p.others.lower, &p.others.upper}) {
+    append_entries(numbers, *v);
+  }
+  for (std::vector<Region>* list : {&p.regions, &p.shapes}) {
+    for (Region& region : *list) {
+      std::visit([&](auto& body) { append_solid(numbers, body); }, region.shape);
+    }
+  }
+  return numbers;
+}
+
+/// By one bit each; and no two of the changes look the same.
 TEST(ProblemJson, DigestSeesEveryNumber) {
-  const MassProblem p = some_problem();
-  MassProblem q = p;
-  q.Y(2, 5) = std::nextafter(q.Y(2, 5), 1e9);
-  EXPECT_NE(problem_digest(p), problem_digest(q));
+  StatedProblem p = whole_problem();
+  std::set<std::string> digests = {problem_digest(p)};
+  const Numbers numbers = numbers_of(p);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double before = std::exchange(*numbers[i], std::nextafter(*numbers[i], HUGE_VAL));
+    if (before == HUGE_VAL) *numbers[i] = 1.0;
+    EXPECT_TRUE(digests.insert(problem_digest(p)).second) << "number " << i;
+    *numbers[i] = before;
+  }
+  for (std::vector<Region>* list : {&p.regions, &p.shapes}) {
+    for (Region& region : *list) {
+      ++region.link;
+      EXPECT_TRUE(digests.insert(problem_digest(p)).second) << "a link";
+      --region.link;
+    }
+  }
+  EXPECT_TRUE(digests.contains(problem_digest(p)));
+}
+
+/// The texts and hashes that its authors publish.
+TEST(Digest, IsFnv1a) {
+  EXPECT_EQ(digest(""), "cbf29ce484222325");
+  EXPECT_EQ(digest("a"), "af63dc4c8601ec8c");
+  EXPECT_EQ(digest("foobar"), "85944171f73967e8");
 }
 
 TEST(AnswerJson, ReadsBack) {

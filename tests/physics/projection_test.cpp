@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "shapeid/reference/contact.hpp"
 #include "shapeid/reference/regressor.hpp"
@@ -23,6 +25,10 @@ using reference::contact_free_basis;
 using reference::contact_jacobian;
 using test::few_hundred_eps;
 using test::scaled;
+
+/// No arm of our robots and no weight makes as much; counting rounding to the rank makes a million
+/// times more.
+constexpr double largest_condition = 1e8;
 
 /// The range of A by singular values, which share nothing with the QR but the rank that it decided.
 struct Range {
@@ -69,7 +75,9 @@ RC_GTEST_PROP(ContactFreeBasis, SpansWhatThePseudoInverseLeaves, ()) {
   const MatrixXd left =
       MatrixXd::Identity(A.rows(), A.rows()) - range.basis * range.basis.transpose();
 
-  // What the rank leaves out is rounding, and a range is as well defined as its condition.
+  // What the rank leaves out is rounding, what it counts is not, and a range is as well defined as
+  // its condition.
+  RC_ASSERT(range.condition < largest_condition);
   RC_ASSERT(scaled(range.left_out, A.norm(), A.rows()) < few_hundred_eps);
   RC_ASSERT(scaled((Q2 * Q2.transpose() - left).norm(), range.condition, A.rows()) <
             few_hundred_eps);
@@ -103,6 +111,69 @@ TEST(Rank, StretchedLegOfAFixedBaseLosesOne) {
 TEST(Rank, StretchedLegOfAFloatingBaseLosesNothing) {
   EXPECT_EQ(rank_of(test::leg(Root::floating), test::posture(0.3, -0.8)), 3);
   EXPECT_EQ(rank_of(test::leg(Root::floating), test::posture(0.3, 0.0)), 3);
+}
+
+/// A floating base, something of it that touches, and so many legs of three joints whose feet do.
+Robot walker(int legs, ContactKind of_base) {
+  Robot robot;
+  robot.links.resize(1);
+  Contact belly;
+  belly.kind = of_base;
+  belly.frame = Eigen::AngleAxisd(0.4, Eigen::Vector3d(0.6, 0.0, 0.8));
+  belly.frame.translation() << 0.05, -0.02, -0.08;
+  robot.contacts = {belly};
+  for (int leg = 0; leg < legs; ++leg) {
+    const double x = leg % 2 == 0 ? 0.25 : -0.23, y = leg < 2 ? 0.12 : -0.13;
+    for (const auto& [axis, place] :
+         {std::pair(Eigen::Vector3d::UnitX(), Eigen::Vector3d(x, y, 0.02)),
+          std::pair(Eigen::Vector3d::UnitY(), Eigen::Vector3d(0.01, 0.06, -0.03)),
+          std::pair(Eigen::Vector3d::UnitY(), Eigen::Vector3d(0.0, 0.01, -0.35))}) {
+      const int parent = robot.link_count() == 3 * leg + 1 ? 0 : robot.link_count() - 1;
+      Link& link = robot.links.emplace_back();
+      link.parent = parent;
+      link.joint.axis = axis;
+      link.joint.placement.translation() = place;
+    }
+    Contact foot;
+    foot.link = robot.link_count() - 1;
+    foot.frame.translation() << 0.0, 0.03, -0.31;
+    robot.contacts.push_back(foot);
+  }
+  return robot;
+}
+
+/// Knees bent and hips below the base: every leg can move its foot in three directions.
+Sample crouching(int legs) {
+  Sample s;
+  s.q.resize(3 * legs);
+  for (int leg = 0; leg < legs; ++leg) {
+    s.q.segment<3>(3 * leg) << *test::real(-0.5, 0.5), *test::real(-0.5, 0.5),
+        *test::real(0.7, 1.4);
+  }
+  s.dq = s.ddq = s.tau = VectorXd::Zero(3 * legs);
+  return s;
+}
+
+// What touches the base asks for the base alone, each foot for its own leg: these are independent,
+// whatever the weights. Contacts that are named again add nothing.
+RC_GTEST_PROP(Rank, IsThatOfTheContactsWithoutTheirRepetitions, ()) {
+  const int legs = *rc::gen::inRange(1, 5);
+  const auto kind = *rc::gen::element(ContactKind::point, ContactKind::line, ContactKind::plane);
+  Robot robot = walker(legs, kind);
+  Sample s = crouching(legs);
+  const auto rank = static_cast<int>(force_numbers(kind)) + 3 * legs;
+  const auto repeated = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, legs + 1));
+  for (const int c : repeated) {
+    robot.contacts.push_back(robot.contacts[static_cast<std::size_t>(c)]);
+  }
+  s.in_contact.assign(robot.contacts.size(), true);
+  const VectorXd weight = *test::weights(robot.dof());
+  const MatrixXd J = contact_jacobian(robot, s);
+  const MatrixXd A = weight.cwiseSqrt().asDiagonal() * J.transpose();
+  RC_ASSERT(range_by_svd(A, rank).condition < largest_condition);
+  RC_ASSERT(contact_free_basis(J, weight).rank == rank);
+  const VectorXd F = *test::vector(robot.dof(), 100.0);
+  RC_ASSERT(reference::eliminate_contacts(F, F, J, weight).rank == rank);
 }
 
 TEST(Rank, ContactNamedTwiceCountsOnce) {

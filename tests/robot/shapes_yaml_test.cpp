@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/tests/robot/scratch_folder.hpp"
@@ -54,6 +57,24 @@ std::string binary_stl() {
     bytes += std::string(2, '\0');
   }
   return bytes;
+}
+
+/// As exporters of assemblies write: a solid for each part.
+TEST(ShapesYaml, AllSolidsOfAFileAreItsMesh) {
+  const test::ScratchFolder folder;
+  std::string parts = ascii_stl();
+  const std::string facet = "endfacet\n";
+  parts.insert(parts.find(facet) + facet.size(),
+               "endsolid a name\n\nsolid another name of words\n");
+  const std::string path =
+      folder.write("shapes.yaml", "leg:\n  - {kind: polyhedron, mesh: a.stl}\n");
+  folder.write("a.stl", ascii_stl());
+  const BodyModel whole = read_shapes_yaml(path, test::two_link_robot());
+  folder.write("a.stl", parts);
+  const BodyModel apart = read_shapes_yaml(path, test::two_link_robot());
+  EXPECT_EQ(unit_parameters(apart.shapes.at(0).shape).values,
+            unit_parameters(whole.shapes.at(0).shape).values);
+  EXPECT_EQ(volume(apart.shapes.at(0).shape), volume(whole.shapes.at(0).shape));
 }
 
 TEST(ShapesYaml, EveryKindIsReadInItsPlace) {
@@ -179,6 +200,8 @@ TEST(ShapesYaml, RefusalsSayLineWrongAndRight) {
        "positive volume"},
       {"leg:\n  - {kind: polyhedron, mesh: word.stl}\n",
        "word.stl:6: \"two\" is not STL here; expected a finite number"},
+      {"leg:\n  - {kind: polyhedron, mesh: after.stl}\n",
+       "after.stl:31: \"remarks\" is not STL here; expected another solid or the end"},
       {"leg:\n  - {kind: polyhedron, mesh: short.stl}\n",
        "short.stl: neither a binary STL (its size does not fit its count of triangles) nor an "
        "ASCII one; export the mesh as STL"},
@@ -194,6 +217,7 @@ TEST(ShapesYaml, RefusalsSayLineWrongAndRight) {
   folder.write("word.stl", bad.replace(bad.find("vertex 2"), 8, "vertex two"));
   std::string ends = ascii_stl();
   folder.write("ends.stl", ends.replace(ends.find("endsolid"), 8, "end"));
+  folder.write("after.stl", ascii_stl() + "remarks\n");
   folder.write("short.stl", binary_stl().substr(6));
   const Robot robot = test::two_link_robot();
   for (const Broken& broken : cases) {
@@ -217,9 +241,51 @@ TEST(DefaultShapes, CollisionPrimitivesBecomeShapes) {
   EXPECT_EQ(unit_parameters(model.shapes[0].shape).first_moment(), Eigen::Vector3d(0, 0, 0.5));
   EXPECT_EQ(kind_name(model.shapes[1].shape), "cylinder");
   EXPECT_EQ(kind_name(model.shapes[2].shape), "ellipsoid");
-  const double ball = 32.0 / 3.0 * std::acos(-1.0);
-  EXPECT_LT(test::scaled(std::abs(volume(model.shapes[2].shape) - ball), ball, 10),
-            few_hundred_eps);
+}
+
+/// Second moments of a kilogram about the centre along the body's own axes, turned and moved.
+Vector10 placed(const Eigen::Vector3d& own, const Eigen::Matrix3d& R, const Eigen::Vector3d& c) {
+  const Eigen::Matrix3d second = R * own.asDiagonal() * R.transpose() + c * c.transpose();
+  const Eigen::Matrix3d I = second.trace() * Eigen::Matrix3d::Identity() - second;
+  Vector10 Phi;
+  Phi << 1, c, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2);
+  return Phi;
+}
+
+TEST(DefaultShapes, CollisionPrimitivesKeepTheirSizesAndPoses) {
+  const Robot robot = parse_urdf(R"(<robot name="trunk"><link name="trunk">
+    <inertial><mass value="3"/>
+      <inertia ixx="0.02" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.04"/></inertial>
+    <collision><origin xyz="0.1 -0.2 0.3" rpy="0.4 -0.5 0.6"/>
+      <geometry><box size="0.2 0.3 0.7"/></geometry></collision>
+    <collision><origin xyz="-0.3 0.1 0.2" rpy="-0.7 0.9 1.1"/>
+      <geometry><cylinder radius="0.15" length="0.8"/></geometry></collision>
+    <collision><origin xyz="0.2 0.4 -0.1" rpy="0.3 0.2 0.1"/>
+      <geometry><sphere radius="0.25"/></geometry></collision>
+  </link></robot>)",
+                                 "trunk.urdf")
+                          .robot;
+  const auto turned = [](double roll, double pitch, double yaw) {
+    return (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+            Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+            Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
+        .toRotationMatrix();
+  };
+  const double a = 0.2, b = 0.3, c = 0.7;    // box
+  const double r = 0.15, h = 0.8, R = 0.25;  // cylinder, ball
+  const double pi = std::numbers::pi;
+  const std::array<double, 3> volumes = {a * b * c, pi * r * r * h, 4.0 / 3.0 * pi * R * R * R};
+  const std::array<Vector10, 3> wanted = {
+      placed(Eigen::Vector3d(a * a, b * b, c * c) / 12.0, turned(0.4, -0.5, 0.6), {0.1, -0.2, 0.3}),
+      placed({r * r / 4.0, r * r / 4.0, h * h / 12.0}, turned(-0.7, 0.9, 1.1), {-0.3, 0.1, 0.2}),
+      placed(Eigen::Vector3d::Constant(R * R / 5.0), turned(0.3, 0.2, 0.1), {0.2, 0.4, -0.1})};
+  const BodyModel model = default_shapes(robot, {0});
+  ASSERT_EQ(model.shapes.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Shape& shape = model.shapes[i].shape;
+    EXPECT_LT(test::scaled(std::abs(volume(shape) - volumes[i]), volumes[i], 10), few_hundred_eps);
+    EXPECT_LT(scaled_difference(unit_parameters(shape).values, wanted[i], 10), few_hundred_eps);
+  }
 }
 
 // The leg is a uniform cuboid of 1 kg. Its squared sides, 12 (Iyy + Izz - Ixx) / 2 and so on, by

@@ -34,6 +34,21 @@ std::vector<Eigen::Isometry3d> poses(const Robot& robot) {
   return result;
 }
 
+/// What link `index` was written with.
+void expect_geometry(const CollisionBody& body, std::size_t index) {
+  const double size = 1.0 + static_cast<double>(index);
+  if (index % 3 == 0) {
+    const Eigen::Vector3d sides(size, size + 0.25, size + 0.5);
+    RC_ASSERT(std::get<Box>(body.geometry).size == sides);
+  } else if (index % 3 == 1) {
+    const auto& cylinder = std::get<CylinderGeometry>(body.geometry);
+    RC_ASSERT(cylinder.radius == size);
+    RC_ASSERT(cylinder.length == size + 0.25);
+  } else {
+    RC_ASSERT(std::get<SphereGeometry>(body.geometry).radius == size);
+  }
+}
+
 RC_GTEST_PROP(UrdfLump, ConservesMassCentreAndTensor, ()) {
   const WrittenRobot written = *test::written_robot();
   const Robot robot = parse_urdf(written.text(), "written.urdf").robot;
@@ -73,13 +88,10 @@ RC_GTEST_PROP(UrdfLump, EveryFrameAndCollisionBodyStaysWhereItWas, ()) {
       const std::size_t index = index_of(link.members[i].name);
       const Eigen::Matrix4d frame = (pose[k] * link.members[i].pose).matrix();
       RC_ASSERT(scaled_difference(frame, written.pose(index), 12) < few_hundred_eps);
-      // The test's sphere sits at the link's centre of mass and carries the link's number.
       const CollisionBody& body = link.collision[i];
-      const Eigen::Vector3d centre = (pose[k] * body.pose).translation();
-      const Eigen::Vector3d expected =
-          (written.pose(index) * written.links[index].inertial_xyz.homogeneous()).head<3>();
-      RC_ASSERT(scaled_difference(centre, expected, 12) < few_hundred_eps);
-      RC_ASSERT(std::get<SphereGeometry>(body.geometry).radius == 1.0 + static_cast<double>(index));
+      const Eigen::Matrix4d whole = (pose[k] * body.pose).matrix();
+      RC_ASSERT(scaled_difference(whole, written.collision_pose(index), 12) < few_hundred_eps);
+      expect_geometry(body, index);
     }
   }
 }

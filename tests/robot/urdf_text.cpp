@@ -26,6 +26,19 @@ Eigen::Matrix4d pose_of(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy) 
 
 std::string three(const Eigen::Vector3d& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 
+/// Of every kind that turns with its frame, and the sphere; sides and lengths tell links apart.
+std::string geometry_text(std::size_t i) {
+  const double size = 1.0 + static_cast<double>(i);
+  switch (i % 3) {
+    case 0:
+      return fmt::format("<box size=\"{} {} {}\"/>", size, size + 0.25, size + 0.5);
+    case 1:
+      return fmt::format("<cylinder radius=\"{}\" length=\"{}\"/>", size, size + 0.25);
+    default:
+      return fmt::format("<sphere radius=\"{}\"/>", size);
+  }
+}
+
 std::string link_text(const WrittenLink& link, std::size_t i) {
   double mass = 0.0;
   Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
@@ -42,11 +55,11 @@ std::string link_text(const WrittenLink& link, std::size_t i) {
       "  <link name=\"l{}\">\n    <inertial>\n      <origin xyz=\"{}\" rpy=\"{}\"/>\n"
       "      <mass value=\"{}\"/>\n      <inertia ixx=\"{}\" ixy=\"{}\" ixz=\"{}\" iyy=\"{}\" "
       "iyz=\"{}\" izz=\"{}\"/>\n    </inertial>\n    <collision>\n      <origin xyz=\"{}\" "
-      "rpy=\"{}\"/>\n      <geometry><sphere radius=\"{}\"/></geometry>\n    </collision>\n"
+      "rpy=\"{}\"/>\n      <geometry>{}</geometry>\n    </collision>\n"
       "  </link>\n",
       i, three(link.inertial_xyz), three(link.inertial_rpy), mass, I(0, 0), I(0, 1), I(0, 2),
       I(1, 1), I(1, 2), I(2, 2), three(link.inertial_xyz), three(link.inertial_rpy),
-      1.0 + static_cast<double>(i));
+      geometry_text(i));
 }
 
 std::string joint_text(const WrittenLink& link, std::size_t i) {
@@ -110,6 +123,10 @@ Eigen::Matrix4d WrittenRobot::pose(std::size_t i) const {
   if (i == 0) return Eigen::Matrix4d::Identity();
   const WrittenLink& link = links[i];
   return pose(static_cast<std::size_t>(link.parent)) * pose_of(link.joint_xyz, link.joint_rpy);
+}
+
+Eigen::Matrix4d WrittenRobot::collision_pose(std::size_t i) const {
+  return pose(i) * pose_of(links[i].inertial_xyz, links[i].inertial_rpy);
 }
 
 InertialParameters WrittenRobot::summed(const std::vector<std::size_t>& which,

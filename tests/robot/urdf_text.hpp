@@ -39,6 +39,10 @@ struct WrittenRobot {
   /// 4 x 4: coordinates of link `i` to coordinates of the root, all joints at zero, multiplied out
   /// from elementary rotations.
   [[nodiscard]] Eigen::Matrix4d pose(std::size_t i) const;
+  /// The same of the collision body of link `i`, which has the frame of the link's inertia: a box
+  /// of sides s, s + 1/4, s + 1/2, a cylinder of radius s and length s + 1/4 or a sphere of radius
+  /// s, in turn, with s = 1 + i.
+  [[nodiscard]] Eigen::Matrix4d collision_pose(std::size_t i) const;
   /// Moments of the links `which` about the origin of link `about`, summed over their points.
   [[nodiscard]] InertialParameters summed(const std::vector<std::size_t>& which,
                                           std::size_t about) const;

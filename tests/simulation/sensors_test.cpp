@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 
 #include "shapeid/models/log_writer.hpp"
 #include "shapeid/models/motion.hpp"
 #include "shapeid/models/sample_builder.hpp"
 #include "shapeid/models/simbody/simulation.hpp"
+#include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/simulation/quadruped.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -86,7 +86,8 @@ TEST(Sensors, AccelerometerAtRestReadsGravityInItsAxes) {
 TEST(Sensors, ALogWithoutNoiseReadsBackAsTheTruth) {
   const Robot robot = test::quadruped();
   Sensors sensors(robot, notes(), {false, true, 1});
-  const std::string path = (std::filesystem::temp_directory_path() / "shapeid_trot.csv").string();
+  const test::Scratch scratch;
+  const std::string path = scratch.path("trot.csv");
   const auto truth = trot(0.9);
   LogWriter writer(path, sensors.columns());
   for (const SimulatedSample& sample : truth) {
@@ -116,7 +117,6 @@ TEST(Sensors, ALogWithoutNoiseReadsBackAsTheTruth) {
               few_hundred_eps);
   }
   EXPECT_GT(compared, truth.size() / 2);
-  std::filesystem::remove(path);
 }
 
 // Mean, spread and independence of the noise of each channel, against the sigmas of the notes.

@@ -14,8 +14,9 @@ struct ModelWithRows {
   double expected_mass = 1.0;  ///< kg, that of the hidden bodies
 };
 
-/// One to three shapes a link: cuboids, cylinders, ellipsoids, convex polyhedra (and points, which
-/// do not divide). Six rows a sample for each link; noise from none to a tenth of the forces.
+/// One to six shapes on one link or two: cuboids, cylinders, ellipsoids, convex polyhedra (and
+/// points, which do not divide). Six rows a sample for each link; noise from none to a tenth of the
+/// forces.
 [[nodiscard]] rc::Gen<ModelWithRows> model_with_rows();
 
 /// One cuboid of the given sides (m) about `centre`, axes along the link's.

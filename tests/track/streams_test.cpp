@@ -90,6 +90,11 @@ class Piped {
     bytes.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
     return bytes;
   }
+  /// Whether there is something to take.
+  [[nodiscard]] bool has_spoken() const {
+    pollfd waiting{from_, POLLIN, 0};
+    return poll(&waiting, 1, 0) > 0;
+  }
   /// kB that are in memory.
   [[nodiscard]] long resident() const {
     std::ifstream status(fmt::format("/proc/{}/status", child_));
@@ -128,6 +133,9 @@ TEST(TrackStreams, ASlowReaderLosesNothingAndFillsNoMemory) {
   constexpr long pages = 256;  // kB, that an allocator may keep or give back meanwhile
   Piped run;
   std::size_t written = 0;
+  // However long it takes to start, it has started when it says something.
+  for (int i = 0; i < 30000 && !run.has_spoken(); ++i) fill(run, written, milliseconds(1));
+  ASSERT_TRUE(run.has_spoken());
   fill(run, written, stalled);
   EXPECT_LT(written, log_text().size() / 2) << "the writer should have had to wait";
   const long before = run.resident();

@@ -1,0 +1,151 @@
+// The answer for a load: its mass, its place and its inertia are those of a block that was there.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/problem_json.hpp"
+#include "shapeid/models/urdf.hpp"
+#include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/app/farthest.hpp"
+#include "shapeid/tests/support/load_problem.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+
+namespace shapeid::test {
+namespace {
+
+using Eigen::Vector3d;
+using nlohmann::json;
+
+const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
+const std::string yaml = fmt::format("--robot-yaml {}quadruped.robot.yaml", robots);
+
+struct Answer {
+  json document;
+  std::string text;
+};
+
+Answer load(const std::string& words) {
+  const CommandRun run = shapeid(fmt::format(
+      "load {} {} --exact --lambda 0 --divisions 40 --eps 0 --out load_found", words, yaml));
+  EXPECT_EQ(run.status, 0) << run.err;
+  if (run.status != 0) return {};
+  return {json::parse(read_file(scratch() + "/load_found/result.json")), run.out};
+}
+
+InertialParameters found(const json& load) {
+  const auto c = load.at("centre").get<std::vector<double>>();
+  const auto I = load.at("inertia_about_centre").get<std::vector<double>>();
+  Eigen::Matrix3d tensor;
+  tensor << I[0], I[1], I[2], I[1], I[3], I[4], I[2], I[4], I[5];
+  return from_centre(load.at("mass").get<double>(), {c[0], c[1], c[2]}, tensor);
+}
+
+Vector10 numbers(const json& list) {
+  const auto values = list.get<std::vector<double>>();
+  EXPECT_EQ(values.size(), 10U);
+  return Eigen::Map<const Vector10>(values.data());
+}
+
+/// `truth` in the carrier's frame, as the answer is. `little`: kg, kg m, kg m^2, how far the rows
+/// that are left let the answer be from it at most.
+void expect_found(const Answer& answer, const std::string& carrier, const Vector10& given,
+                  const InertialParameters& truth, double little) {
+  const json& load = answer.document.at("load");
+  EXPECT_EQ(load.at("link"), carrier);
+  const InertialParameters body = found(load);
+  const MassProblem rows =
+      problem_from_json(read_file(scratch() + "/load_found/problem.json"), "problem.json");
+  const double error =
+      farthest(rows.Y, rows.F, truth.values, answer.document.at("objective").at("data"));
+  EXPECT_LE((body.values - truth.values).norm(), error);
+  EXPECT_LT(error, little);
+
+  // The link is there with its load.
+  ASSERT_EQ(answer.document.at("links").size(), 1U);
+  const json& link = answer.document.at("links")[0];
+  EXPECT_EQ(link.at("name"), carrier);
+  EXPECT_EQ(numbers(link.at("given")), given);
+  EXPECT_LT(scaled_difference(numbers(link.at("parameters")), given + body.values, 10),
+            few_hundred_eps);
+  // What the data say without shapes leaves no more of them than the truth does.
+  EXPECT_LE((numbers(link.at("data_value")) - given - truth.values).norm(),
+            farthest(rows.Y, rows.F, truth.values, (rows.Y * truth.values - rows.F).squaredNorm()));
+
+  // In words.
+  const auto c = load.at("centre").get<std::vector<double>>();
+  EXPECT_TRUE(answer.text.ends_with(fmt::format(
+      "\nload on {}: {:.4g} kg (s.e. {:.2g}) at ({:.4f}, {:.4f}, {:.4f}) m of the link's frame\n",
+      carrier, body.mass(), link.at("standard_error")[0].get<double>(), c[0], c[1], c[2])))
+      << answer.text;
+}
+
+TEST(LoadAnswer, OfABlockOnTheBase) {
+  ASSERT_EQ(shapeid("simulate --exact --seconds 2 --rate 100 --out cube.csv "
+                    "--load 1.3 0.07 -0.03 0.09 0.06")
+                .status,
+            0);
+  const Answer answer =
+      load(fmt::format("--robot {}quadruped.urdf --log cube.csv "
+                       "--area base -0.1 0.2 -0.12 0.08 0.03 0.16",
+                       robots));
+  expect_found(answer, "base", read_urdf(robots + "quadruped.urdf").robot.links[0].inertia.values,
+               cuboid_body(1.3, {0.07, -0.03, 0.09}, Vector3d::Constant(0.06)), 1e-9);
+}
+
+/// The bundled quadruped with a rack on a link, turned; on the rack there may be something.
+std::string with_rack(const std::string& carrier, const std::string& on_it) {
+  std::string text = read_file(robots + "quadruped.urdf");
+  return text.replace(text.rfind("</robot>"), std::string::npos,
+                      fmt::format("<link name=\"rack\">{}</link>\n<joint name=\"rack_fixed\" "
+                                  "type=\"fixed\"><parent link=\"{}\"/><child link=\"rack\"/>"
+                                  "<origin xyz=\"0.05 0.02 0.07\" rpy=\"0.3 -0.4 0.9\"/></joint>\n"
+                                  "</robot>\n",
+                                  on_it, carrier));
+}
+
+/// The answer is in the frame of the thigh, the area in that of the rack.
+TEST(LoadAnswer, OfABlockOnATurnedRackOfAThigh) {
+  const std::string carrier = "FR_thigh";
+  constexpr double mass = 0.25;
+  const Vector3d centre(0.03, -0.02, 0.04), sides(0.05, 0.08, 0.03);
+  const InertialParameters block = cuboid_body(mass, centre, sides);
+  const Eigen::Matrix3d I = block.tensor_about_centre();
+  scratch_file(
+      "loaded.urdf",
+      with_rack(carrier,
+                fmt::format("<inertial><origin xyz=\"{} {} {}\"/><mass value=\"{}\"/>"
+                            "<inertia ixx=\"{}\" iyy=\"{}\" izz=\"{}\" ixy=\"0\" "
+                            "ixz=\"0\" iyz=\"0\"/></inertial>",
+                            centre.x(), centre.y(), centre.z(), mass, I(0, 0), I(1, 1), I(2, 2))));
+  const std::string bare = scratch_file("bare.urdf", with_rack(carrier, ""));
+  const CommandRun simulated = shapeid(fmt::format(
+      "simulate --robot loaded.urdf {} --exact --seconds 2 --rate 100 --out block.csv", yaml));
+  ASSERT_EQ(simulated.status, 0) << simulated.err;
+  const Robot robot = read_urdf(bare).robot;
+  const LinkSite rack = robot.find_site("rack").value();
+  const Answer answer =
+      load("--robot bare.urdf --log block.csv --area rack -0.05 0.09 -0.1 0.07 -0.02 0.12");
+  expect_found(answer, carrier, robot.links[static_cast<std::size_t>(rack.link)].inertia.values,
+               moved(block, rack.pose), 1e-3);  // a thigh turns about two axes, slowly about one
+}
+
+/// A robot that weighs less than it should carries nothing.
+TEST(LoadAnswer, OfNothing) {
+  std::string heavier = read_file(robots + "quadruped.urdf");
+  const std::string mass = "<mass value=\"5.48\"/>";
+  heavier.replace(heavier.find(mass), mass.size(), "<mass value=\"5.98\"/>");
+  scratch_file("heavier.urdf", heavier);
+  ASSERT_EQ(shapeid("simulate --exact --seconds 2 --rate 100 --out empty.csv").status, 0);
+  const Answer answer =
+      load("--robot heavier.urdf --log empty.csv --area base -0.1 0.2 -0.12 0.08 0.03 0.16");
+  const json nothing = {{"link", "base"}, {"mass", 0.0}};
+  EXPECT_EQ(answer.document.at("load"), nothing);
+  EXPECT_TRUE(answer.text.ends_with("\nno load on base\n")) << answer.text;
+}
+
+}  // namespace
+}  // namespace shapeid::test
