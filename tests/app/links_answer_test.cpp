@@ -249,7 +249,8 @@ TEST_F(LinksAnswer, IsTheSameInWords) {
   const auto tables = test::tables(identify("--log noisy.csv --shapes one_box.yaml"));
   ASSERT_EQ(tables.size(), sought.size());
   std::map<std::string, int> seen;
-  for (const json& link : result().at("links")) {
+  const json document = result();
+  for (const json& link : document.at("links")) {
     const std::vector<Row>& rows = tables.at(link.at("name"));
     ASSERT_EQ(rows.size(), 10U);
     for (std::size_t p = 0; p < 10; ++p) {
