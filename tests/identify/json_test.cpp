@@ -195,7 +195,8 @@ TEST(ProblemJson, SaysWhatIsWrongWithBrokenFiles) {
        "p.json, column lambda2: unknown key; see docs/formats/problem.md"},
       {"0.25", "\"x\"", "p.json, column lambda: not a finite number; write finite decimals"},
       {"0.25", "1e999", "p.json: a number is larger than any double; write finite decimals"},
-      {"0.25", "-0.25", "p.json: lambda is -0.25, must be finite and >= 0; see docs/formats/problem.md"},
+      {"0.25", "-0.25",
+       "p.json: lambda is -0.25, must be finite and >= 0; see docs/formats/problem.md"},
       {"[1.0,2.0]", "[1.0]", "p.json: rows disagree: Y 2, F 2, W 1; see docs/formats/problem.md"},
       {"[1.0,2.0]", "[1.0,-2.0]", "p.json: a weight is not positive; see docs/formats/problem.md"},
       {"[1.5,2.5]", "[1.5,null]", "p.json, column F: not a finite number; write finite decimals"},
@@ -208,7 +209,8 @@ TEST(ProblemJson, SaysWhatIsWrongWithBrokenFiles) {
       {"\"lambda\":0.25,", "\"lambda\":0.25,\"lambda\":0.25,",
        "p.json, column lambda: the key is there twice; once"},
       {"0.25", "\"0x1p\"", "p.json, column lambda: not a finite number; write finite decimals"},
-      {"3.0", "-3.0", "p.json: the mass bound is negative or not finite; see docs/formats/problem.md"},
+      {"3.0", "-3.0",
+       "p.json: the mass bound is negative or not finite; see docs/formats/problem.md"},
   };
   for (const Broken& b : table) {
     std::string text = good;
