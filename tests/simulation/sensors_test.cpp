@@ -75,7 +75,7 @@ TEST(Sensors, AccelerometerAtRestReadsGravityInItsAxes) {
   const Robot robot = test::quadruped();
   Sensors sensors(robot, notes(), {false, false, 1});
   Sample rest;
-  rest.q = rest.dq = rest.tau = Eigen::VectorXd::Zero(12);
+  rest.q = rest.dq = rest.ddq = rest.tau = Eigen::VectorXd::Zero(12);
   rest.in_contact.assign(4, true);
   const auto row = named(sensors, sensors.measure(rest, Eigen::Quaterniond::Identity()));
   const Eigen::Vector3d expected = notes().imu.linear().transpose() * Eigen::Vector3d(0, 0, 9.81);
