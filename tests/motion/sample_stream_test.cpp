@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
+#include <functional>
 #include <numbers>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/log_writer.hpp"
 #include "shapeid/tests/motion/example.hpp"
 #include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/support/scaled.hpp"
@@ -20,7 +23,6 @@ using test::read_motion;
 using test::scaled;
 using test::Scratch;
 using test::smooth_motion;
-using test::write_log;
 
 constexpr double cutoff = 12.0;
 
@@ -41,10 +43,34 @@ std::vector<double> uneven_times() {
   return times;
 }
 
+/// With forces that are measured at the contacts and a column that is nobody's.
 Sample stepping(const Robot& robot, double t) {
   Sample s = smooth_motion(robot, t);
   s.in_contact.assign(robot.contacts.size(), std::sin(5.0 * t) > 0.0);
+  s.contact_force.assign(robot.contacts.size(),
+                         {4.0 * std::sin(6.0 * t), 7.0 * std::cos(9.0 * t), 50.0 + 20.0 * s.q[0]});
+  s.extra = {20.0 + t};
   return s;
+}
+
+void write_stepping(const std::string& path, const Robot& robot, const std::vector<double>& times,
+                    const std::function<Sample(double)>& motion) {
+  std::vector<std::string> columns = test::log_columns(robot);
+  for (const Contact& contact : robot.contacts) {
+    for (const char* axis : {".x", ".y", ".z"}) columns.push_back("force." + contact.name + axis);
+  }
+  columns.emplace_back("temperature");
+  LogWriter writer(path, columns);
+  for (const double time : times) {
+    const Sample s = motion(time);
+    std::vector<double> row = test::log_row(robot, s);
+    for (const Eigen::Vector3d& force : s.contact_force) {
+      row.insert(row.end(), force.begin(), force.end());
+    }
+    row.insert(row.end(), s.extra.begin(), s.extra.end());
+    writer.write(row);
+  }
+  writer.close();
 }
 
 MotionOptions causal() {
@@ -70,6 +96,8 @@ void expect_same(const Sample& a, const Sample& b) {
   EXPECT_EQ(a.base_angular_acceleration, b.base_angular_acceleration);
   EXPECT_EQ(a.base_specific_force, b.base_specific_force);
   EXPECT_EQ(a.in_contact, b.in_contact);
+  EXPECT_EQ(a.contact_force, b.contact_force);
+  EXPECT_EQ(a.extra, b.extra);
 }
 
 /// A log and the stream that it is pushed into.
@@ -80,8 +108,12 @@ struct Streaming {
   std::vector<MeasuredRow> rows;
   ChannelPlan plan;
 
-  Streaming(bool with_contact, const std::vector<double>& times) : robot(walker(with_contact)) {
-    write_log(path, robot, times, [&](double t) { return stepping(robot, t); });
+  Streaming(bool with_contact, const std::vector<double>& times)
+      : Streaming(with_contact, times, stepping) {}
+  Streaming(bool with_contact, const std::vector<double>& times,
+            const std::function<Sample(const Robot&, double)>& motion)
+      : robot(walker(with_contact)) {
+    write_stepping(path, robot, times, [&](double t) { return motion(robot, t); });
     MeasuredRows log(path, robot, {});
     plan = log.plan();
     while (std::optional<MeasuredRow> row = log.next()) rows.push_back(std::move(*row));
@@ -118,8 +150,43 @@ TEST(SampleStream, EqualsTheCausalReader) {
     ASSERT_FALSE(samples.empty());
     for (std::size_t k = 0; k < std::min(samples.size(), whole.samples.size()); ++k) {
       expect_same(samples[k], whole.samples[k]);
+      EXPECT_EQ(samples[k].contact_force.size(), log.robot.contacts.size());
+      EXPECT_EQ(samples[k].extra.size(), 1U);
     }
   }
+}
+
+/// A force and a torque that follow one sine come out as the same sine, as the filter of second
+/// order leaves it: with x = tan(pi f / rate) / tan(pi fc / rate), times 1 / (1 - x^2 + i sqrt(2)
+/// x).
+TEST(SampleStream, MeasuredForcesAreFilteredAsTorquesAre) {
+  constexpr double rate = 500.0, frequency = 3.0, size = 40.0;
+  constexpr double w = 2.0 * std::numbers::pi * frequency;
+  const Streaming log(true, test::regular_times(0.0, rate, 2000), [](const Robot& robot, double t) {
+    Sample s = stepping(robot, t);
+    s.in_contact = {true};
+    s.tau[0] = size * std::sin(w * t);
+    s.contact_force = {{s.tau[0], -s.tau[0], 2.0 * s.tau[0]}};
+    return s;
+  });
+  StreamOptions options = streamed();
+  options.rate = rate;
+  SampleStream stream = log.stream(options);
+  const double x =
+      std::tan(std::numbers::pi * frequency / rate) / std::tan(std::numbers::pi * cutoff / rate);
+  const std::complex<double> response = 1.0 / std::complex(1.0 - x * x, std::sqrt(2.0) * x);
+  std::size_t settled = 0;
+  for (const Sample& s : drained(stream, log.rows)) {
+    if (s.time < 2.0) continue;  // what came in at the start has decayed below any rounding
+    ++settled;
+    const double wanted = size * std::abs(response) * std::sin(w * s.time + std::arg(response));
+    ASSERT_EQ(s.contact_force.size(), 1U);
+    const Eigen::Vector3d error =
+        s.contact_force[0] - Eigen::Vector3d(wanted, -wanted, 2.0 * wanted);
+    EXPECT_LT(scaled(error.norm(), size * (1.0 + w * s.time), 2), few_hundred_eps) << s.time;
+    EXPECT_EQ(s.contact_force[0].x(), s.tau[0]);
+  }
+  EXPECT_GT(settled, 500U);
 }
 
 /// Touches by the first joint; cannot be told by the second one.
