@@ -9,6 +9,7 @@
 #include "shapeid/fast/shapeid.h"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/robot_yaml.hpp"
+#include "shapeid/models/sample_builder.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/models/version.hpp"
@@ -27,8 +28,8 @@ struct shapeid_identifier {
                      const IdentifierSettings& settings);
 
   Identifier identifier;
-  Sample sample;                  ///< with room for all that a feed copies
-  Eigen::VectorXd rotor_inertia;  ///< a joint: what drives give and links do not see, over ddq
+  Sample sample;  ///< with room for all that a feed copies
+  Eigen::VectorXd rotor_inertias;
   std::size_t shapes;
   std::vector<std::string> joints, contacts, free_links;
   bool answered = false;
@@ -37,15 +38,12 @@ struct shapeid_identifier {
 shapeid_identifier::shapeid_identifier(const Robot& robot, const BodyModel& model,
                                        const IdentifierSettings& settings)
     : identifier(robot, model, settings),
-      rotor_inertia(robot.joint_count()),
+      rotor_inertias(shapeid::rotor_inertias(robot)),
       shapes(model.shapes.size()) {
   sample.q = sample.dq = sample.ddq = sample.tau = Eigen::VectorXd::Zero(robot.joint_count());
   sample.in_contact.resize(robot.contacts.size());
   sample.contact_force.reserve(robot.contacts.size());
-  for (int j = 0; j < robot.joint_count(); ++j) {
-    joints.push_back(robot.joint(j).name);
-    rotor_inertia[j] = robot.joint(j).rotor_inertia;
-  }
+  for (int j = 0; j < robot.joint_count(); ++j) joints.push_back(robot.joint(j).name);
   for (const shapeid::Contact& contact : robot.contacts) contacts.push_back(contact.name);
   for (const int link : model.free_links) {
     free_links.push_back(robot.links[static_cast<std::size_t>(link)].name);
@@ -157,7 +155,7 @@ bool fits(const shapeid_identifier& of, const shapeid_sample& sample) noexcept {
          is_there(sample.ddq, joints) && is_there(sample.tau, joints);
 }
 
-void copy(const shapeid_sample& from, const Eigen::VectorXd& rotor_inertia, Sample& to) noexcept {
+void copy(const shapeid_sample& from, const Eigen::VectorXd& rotor_inertias, Sample& to) noexcept {
   to.time = from.time;
   std::copy_n(from.base_angular_velocity, 3, to.base_angular_velocity.data());
   std::copy_n(from.base_angular_acceleration, 3, to.base_angular_acceleration.data());
@@ -166,7 +164,7 @@ void copy(const shapeid_sample& from, const Eigen::VectorXd& rotor_inertia, Samp
   std::copy_n(from.dq, from.joint_count, to.dq.data());
   std::copy_n(from.ddq, from.joint_count, to.ddq.data());
   std::copy_n(from.tau, from.joint_count, to.tau.data());
-  to.tau -= rotor_inertia.cwiseProduct(to.ddq);
+  to.tau -= rotor_inertias.cwiseProduct(to.ddq);
   to.contact_force.clear();
   for (size_t c = 0; c < from.contact_count; ++c) {
     to.in_contact[c] = from.in_contact != nullptr && from.in_contact[c] != 0;
@@ -247,7 +245,7 @@ shapeid_status shapeid_feed(shapeid_identifier* identifier, const shapeid_sample
   if (identifier == nullptr || sample == nullptr || !fits(*identifier, *sample)) {
     return SHAPEID_WRONG_ARGUMENT;
   }
-  copy(*sample, identifier->rotor_inertia, identifier->sample);
+  copy(*sample, identifier->rotor_inertias, identifier->sample);
   switch (identifier->identifier.feed(identifier->sample)) {
     case Identifier::Fed::kept:
       return SHAPEID_KEPT;

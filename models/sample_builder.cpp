@@ -14,6 +14,12 @@ void set_base(const Eigen::Isometry3d& imu, const Eigen::Vector3d& gyro,
   sample.base_specific_force = R * accel - alpha.cross(r) - omega.cross(omega.cross(r));
 }
 
+Eigen::VectorXd rotor_inertias(const Robot& robot) {
+  Eigen::VectorXd inertias(robot.joint_count());
+  for (int j = 0; j < robot.joint_count(); ++j) inertias[j] = robot.joint(j).rotor_inertia;
+  return inertias;
+}
+
 namespace {
 
 /// All but the derivatives, which `sample` has already. What a drive's rotor takes of its torque,
@@ -23,7 +29,7 @@ void set_values(const ChannelPlan& plan, const Robot& robot, const Eigen::Vector
   const Eigen::Index n = robot.joint_count();
   sample.q = values.segment(plan.q, n);
   sample.tau = values.segment(plan.tau, n);
-  for (int j = 0; j < n; ++j) sample.tau[j] -= robot.joint(j).rotor_inertia * sample.ddq[j];
+  sample.tau -= rotor_inertias(robot).cwiseProduct(sample.ddq);
   if (plan.force < 0) return;
   for (std::size_t c = 0; c < robot.contacts.size(); ++c) {
     sample.contact_force.emplace_back(

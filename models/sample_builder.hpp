@@ -12,6 +12,10 @@ namespace shapeid {
 void set_base(const Eigen::Isometry3d& imu, const Eigen::Vector3d& gyro,
               const Eigen::Vector3d& gyrodot, const Eigen::Vector3d& accel, Sample& sample);
 
+/// Of the drives' rotors, one a joint: times ddq it is what they take of the logged torque, and the
+/// links do not see.
+[[nodiscard]] Eigen::VectorXd rotor_inertias(const Robot& robot);
+
 /// A sample from three rows of channels: the values, their derivative, and their second derivative.
 [[nodiscard]] Sample make_sample(const ChannelPlan& plan, const Robot& robot,
                                  const Eigen::Isometry3d& imu, double time,

@@ -1,10 +1,12 @@
 #include "shapeid/models/simbody/sensors.hpp"
 
+#include "shapeid/models/sample_builder.hpp"
+
 namespace shapeid {
 
 Sensors::Sensors(const Robot& robot, const RobotNotes& notes, const SensorOptions& options)
     : notes_(notes),
-      rotor_inertia_(robot.joint_count()),
+      rotor_inertias_(rotor_inertias(robot)),
       options_(options),
       floating_(robot.root == Root::floating),
       random_(options.seed) {
@@ -22,7 +24,6 @@ Sensors::Sensors(const Robot& robot, const RobotNotes& notes, const SensorOption
     add_axes("base.accel", "base.accel");
     for (const char* part : {".w", ".x", ".y", ".z"}) add(std::string("base.quat") + part, "");
   }
-  for (int j = 0; j < robot.joint_count(); ++j) rotor_inertia_[j] = robot.joint(j).rotor_inertia;
   add_joints("q");
   add_joints("dq");
   add_joints("tau");
@@ -67,7 +68,7 @@ std::vector<double> Sensors::measure(const Sample& s, const Eigen::Quaterniond& 
   }
   put(s.q);
   put(s.dq);
-  put(Eigen::VectorXd(s.tau + rotor_inertia_.cwiseProduct(s.ddq)));  // what the drives give
+  put(Eigen::VectorXd(s.tau + rotor_inertias_.cwiseProduct(s.ddq)));  // what the drives give
   for (const bool touches : s.in_contact) row.push_back(touches ? 1.0 : 0.0);
   if (options_.exact_extras) {
     if (floating_) put(Eigen::Vector3d(to_imu * dw));

@@ -43,7 +43,7 @@ class Sensors {
   std::vector<std::string> columns_;
   std::vector<double> sigma_;  ///< a column
   RobotNotes notes_;
-  Eigen::VectorXd rotor_inertia_;  ///< a joint
+  Eigen::VectorXd rotor_inertias_;
   SensorOptions options_;
   bool floating_;
   Random random_;

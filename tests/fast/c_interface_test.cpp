@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
@@ -28,11 +30,12 @@ shapeid_settings defaults() {
   return settings;
 }
 
-Handle bundled_with(const shapeid_settings* settings) {
+Handle bundled_with(const shapeid_settings* settings,
+                    const std::string& notes = test::bundled_file("robot.yaml")) {
   std::array<char, 200> error{};
-  Handle made(shapeid_create(
-                  test::bundled_file("urdf").c_str(), test::bundled_file("robot.yaml").c_str(),
-                  test::bundled_file("shapes.yaml").c_str(), settings, error.data(), error.size()),
+  Handle made(shapeid_create(test::bundled_file("urdf").c_str(), notes.c_str(),
+                             test::bundled_file("shapes.yaml").c_str(), settings, error.data(),
+                             error.size()),
               &shapeid_destroy);
   EXPECT_NE(made, nullptr) << error.data();
   return made;
@@ -139,6 +142,35 @@ TEST(CInterface, DefaultsAreThoseOfTheIdentifier) {
   fast::IdentifierSettings same;
   same.expected_mass = 6.0;  // the middle of the range in quadruped.robot.yaml
   compare(defaults(), same, trot_of(200), 5);
+}
+
+/// What a rotor of robot.yaml takes is taken off what is fed: I gear^2 ddq, of that joint alone.
+TEST(CInterface, RotorsAreTakenOffTheTorque) {
+  const test::Scratch scratch;
+  std::ifstream notes(test::bundled_file("robot.yaml"));
+  const std::string text(std::istreambuf_iterator<char>(notes), {});
+  const std::string path = scratch.file(
+      "robot.yaml", text + "\nrotors: {FL_hip: {inertia: 0.0001220703125, gear: 8}}\n");
+  const shapeid_settings settings = defaults();
+  const Handle c = bundled_with(&settings, path);
+  const Robot robot = test::bundled_quadruped();
+  fast::IdentifierSettings same;
+  same.expected_mass = 6.0;  // as above
+  Identifier identifier(robot, test::bundled_shapes(robot), same);
+  const int joint = robot.find_joint("FL_hip").value();
+  std::vector<unsigned char> flags;
+  int answers = 0;
+  for (const Sample& s : trot_of(60)) {
+    const shapeid_sample sample = plain(s, flags);
+    Sample on_the_links = s;
+    on_the_links.tau[joint] -= 0.0078125 * s.ddq[joint];
+    const shapeid_status status = shapeid_feed(c.get(), &sample);
+    ASSERT_EQ(status, status_of(identifier.feed(on_the_links)));
+    if (status != SHAPEID_ANSWERED) continue;
+    ++answers;
+    ASSERT_NO_FATAL_FAILURE(expect_same(c.get(), identifier));
+  }
+  EXPECT_GT(answers, 1);
 }
 
 TEST(CInterface, NoSettingsAreTheDefaults) {
