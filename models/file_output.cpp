@@ -98,25 +98,17 @@ void write_file(const std::string& path, const std::string& text) { write_files(
 void write_files(const std::vector<FileText>& files) {
   std::vector<OutputPlace> places;
   places.reserve(files.size());
-  const auto discard_all = [&] {
-    for (const OutputPlace& place : places) place.discard();
-  };
-  for (const FileText& file : files) {
-    try {
+  try {
+    for (const FileText& file : files) {
       const OutputPlace& place = places.emplace_back(file.path);
       std::ofstream out(place.writable(), std::ios::binary);
       out << file.text;
       out.close();
       if (!out) place.fail("cannot be written");
-    } catch (...) {
-      discard_all();
-      throw;
     }
-  }
-  try {
     for (const OutputPlace& place : places) place.finish();
   } catch (...) {
-    discard_all();  // those in place are there no more under their other names
+    for (const OutputPlace& place : places) place.discard();
     throw;
   }
 }

@@ -40,44 +40,39 @@ class ByteSource {
 
   /// The next bytes; none at the end. Empty, with the reason in `wrong`, if they cannot be had.
   std::string_view next(std::string& wrong) {
-    if (!read_more(wrong)) return {};
     if (!zipped_ && !look(wrong)) return {};
     if (*zipped_) return inflated(wrong);
+    if (!read_more(wrong)) return {};
     return {raw_.data(), std::exchange(raw_size_, 0)};
   }
 
  private:
-  /// Something into raw_, unless there is something left in it.
-  bool read_more(std::string& wrong) {
-    while (raw_size_ == 0 && !at_end_) {
-      const ssize_t got = ::read(file_, raw_.data(), raw_.size());
-      if (got < 0 && errno == EINTR) continue;
-      if (got < 0) {
-        wrong = std::strerror(errno);
-        return false;
-      }
-      at_end_ = got == 0;
-      raw_size_ = static_cast<std::size_t>(got);
-      stream_.next_in = reinterpret_cast<Bytef*>(raw_.data());
-      stream_.avail_in = static_cast<unsigned>(got);
+  /// One read behind what raw_ holds from its beginning.
+  bool read_behind(std::string& wrong) {
+    ssize_t got = 0;
+    do {
+      got = ::read(file_, raw_.data() + raw_size_, raw_.size() - raw_size_);
+    } while (got < 0 && errno == EINTR);
+    if (got < 0) {
+      wrong = std::strerror(errno);
+      return false;
     }
+    at_end_ = got == 0;
+    raw_size_ += static_cast<std::size_t>(got);
+    stream_.next_in = reinterpret_cast<Bytef*>(raw_.data());
+    stream_.avail_in = static_cast<unsigned>(raw_size_);
     return true;
   }
+
+  /// Something into raw_, unless there is something left in it.
+  bool read_more(std::string& wrong) { return raw_size_ > 0 || at_end_ || read_behind(wrong); }
 
   /// Whether it is an archive. A pipe may hand out its first byte alone.
   bool look(std::string& wrong) {
     constexpr std::string_view magic = "\x1F\x8B";
-    while (raw_size_ == 1 && !at_end_) {
-      const ssize_t got = ::read(file_, raw_.data() + 1, raw_.size() - 1);
-      if (got < 0 && errno == EINTR) continue;
-      if (got < 0) {
-        wrong = std::strerror(errno);
-        return false;
-      }
-      at_end_ = got == 0;
-      raw_size_ += static_cast<std::size_t>(got);
+    while (raw_size_ < magic.size() && !at_end_) {
+      if (!read_behind(wrong)) return false;
     }
-    stream_.avail_in = static_cast<unsigned>(raw_size_);
     zipped_ = std::string_view(raw_.data(), raw_size_).starts_with(magic);
     constexpr int gzip_only = 15 + 16;
     if (*zipped_ && inflateInit2(&stream_, gzip_only) != Z_OK) throw std::bad_alloc();

@@ -104,12 +104,11 @@ class AsciiReader {
     MeshFile mesh;
     Corners corners;
     expect("solid");
-    do {
-      read_solid(mesh, corners);
-      const std::string_view word = words_.next();
-      if (word.empty()) break;
+    read_solid(mesh, corners);
+    for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
       if (word != "solid") refuse(word, "another solid or the end");
-    } while (true);
+      read_solid(mesh, corners);
+    }
     mesh.vertices = corners.take();
     return mesh;
   }
@@ -139,6 +138,7 @@ class AsciiReader {
     if (word != "endsolid") refuse(word, "facet or endsolid");
     words_.skip_line();  // the name again
   }
+
   [[noreturn]] void refuse(std::string_view found, std::string_view wanted) const {
     throw InputError({path_, words_.line(), {}}, fmt::format("\"{}\" is not STL here", found),
                      fmt::format("expected {}", wanted));
