@@ -221,8 +221,7 @@ void choose_written_links(Result& result, const Robot& robot, double least_mass)
     }
     if (!(inertia.mass() > least_mass)) {
       result.notes.push_back(
-          fmt::format("link {} is undetermined: it was left with {:g} kg (limit {:g}); it keeps "
-                      "the given inertia",
+          fmt::format("link {} keeps the given inertia: it was left with {:g} kg (limit {:g})",
                       name, inertia.mass(), least_mass));
     } else if (const Violation why = why_impossible(inertia)) {
       result.notes.push_back(fmt::format(

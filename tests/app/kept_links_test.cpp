@@ -99,8 +99,7 @@ TEST_F(KeptLinks, ALinkThatWasLeftWithNothing) {
   expect_kept(12);
   expect_written(5);
   EXPECT_EQ(notes_of(12), std::vector<std::string>{
-                              "link l12 is undetermined: it was left with 0 kg (limit 0); it keeps "
-                              "the given inertia"});
+                              "link l12 keeps the given inertia: it was left with 0 kg (limit 0)"});
   EXPECT_TRUE(notes_of(5).empty());
 
   const CommandRun seen = shapeid("inspect --json kept/identified.urdf");
@@ -119,10 +118,10 @@ TEST_F(KeptLinks, ALimitOnEitherSideOfAMass) {
   identify(given, "--log arms.csv --min-mass " + fmt::format("{}", 1.001 * mass(5)));
   expect_kept(5);
   expect_written(12);
-  EXPECT_EQ(notes_of(5), std::vector<std::string>{
-                             fmt::format("link l5 is undetermined: it was left with {:g} kg "
-                                         "(limit {:g}); it keeps the given inertia",
-                                         mass(5), 1.001 * mass(5))});
+  EXPECT_EQ(notes_of(5), std::vector<std::string>{fmt::format(
+                             "link l5 keeps the given inertia: it was left with {:g} kg "
+                             "(limit {:g})",
+                             mass(5), 1.001 * mass(5))});
   EXPECT_TRUE(notes_of(12).empty());
   identify(given, "--log arms.csv --min-mass " + fmt::format("{}", 1.001 * mass(12)));
   expect_kept(5);
@@ -181,8 +180,8 @@ TEST_F(WrittenLinks, AreHeavierThanTheLimit) {
   app::choose_written_links(one, robot, 0.75);
   ASSERT_EQ(one.written.size(), 1U);
   EXPECT_EQ(one.written[0].link, 5);
-  EXPECT_EQ(one.notes, std::vector<std::string>{"link l1 is undetermined: it was left with 0.75 kg "
-                                                "(limit 0.75); it keeps the given inertia"});
+  EXPECT_EQ(one.notes, std::vector<std::string>{"link l1 keeps the given inertia: it was left with "
+                                                "0.75 kg (limit 0.75)"});
 }
 
 TEST_F(WrittenLinks, AreMistrustedAboveThreeTimesTheGivenMass) {
