@@ -23,7 +23,7 @@ constexpr const char* format = "shapeid-checkpoint-5";
 constexpr const char* any_format = "shapeid-checkpoint-";
 constexpr const char* what_is_right = "give a checkpoint that --checkpoint wrote";
 
-/// Bytes: four numbers more than Estimates keeps at most fit; beyond it something else was named.
+/// Bytes: five times what Estimates keeps at most; beyond it something else was named.
 constexpr std::size_t largest_checkpoint = std::size_t{1} << 30U;
 
 json rows_of(const Eigen::MatrixXd& M) { return matrix_json(M); }

@@ -11,14 +11,14 @@ namespace {
 constexpr double cut_rounding = 1.5e-8;
 
 /// What the moments of a unit mass are rounded by: its mass, its arm, the tensor's size.
-Eigen::Vector3d sizes(const UnitParameters& u) {
+Eigen::Vector3d sizes(const Vector10& u) {
   const double tensor = u.tail<6>().norm();
   return {std::abs(u[0]), u.segment<3>(1).norm() + std::sqrt(tensor), tensor};
 }
 
 }  // namespace
 
-Violation why_no_shape(int link, const UnitParameters& u, double V, int links) {
+Violation why_no_shape(int link, const Vector10& u, double V, int links) {
   if (link < 0 || link >= links) {
     return "a shape on free link " + std::to_string(link) + " of " + std::to_string(links);
   }
@@ -47,13 +47,13 @@ Violation why_no_start(int j, double mass, int shapes) {
   return "a mass to start at is " + std::to_string(mass);
 }
 
-Violation why_no_parts(const UnitParameters& u, double V, const UnitParameters& first, double V1,
-                       const UnitParameters& second, double V2) {
+Violation why_no_parts(const Vector10& u, double V, const Vector10& first, double V1,
+                       const Vector10& second, double V2) {
   if (!(V1 > 0.0 && V2 > 0.0)) return "a part of a shape has no volume";
   if (!(std::abs(V1 + V2 - V) <= cut_rounding * V)) {
     return "the parts of a shape differ from its volume by " + std::to_string(V1 + V2 - V);
   }
-  const UnitParameters missing = (V1 * first + V2 * second) / (V1 + V2) - u;
+  const Vector10 missing = (V1 * first + V2 * second) / (V1 + V2) - u;
   const Eigen::Vector3d allowed =
       cut_rounding * (sizes(u) + (V1 * sizes(first) + V2 * sizes(second)) / (V1 + V2));
   if (std::abs(missing[0]) <= allowed[0] && missing.segment<3>(1).norm() <= allowed[1] &&

@@ -5,14 +5,13 @@
 #include <Eigen/Core>
 
 #include "shapeid/models/contract.hpp"
+#include "shapeid/models/inertia.hpp"
 
 namespace shapeid::fast {
 
-using UnitParameters = Eigen::Matrix<double, 10, 1>;
-
 /// Empty if a shape of these unit parameters and this volume (m^3) can stand on free link `link` of
 /// `links`: all finite, V > 0.
-[[nodiscard]] Violation why_no_shape(int link, const UnitParameters& u, double V, int links);
+[[nodiscard]] Violation why_no_shape(int link, const Vector10& u, double V, int links);
 
 /// Empty for lambda >= 0; also where it is so large that no answer can be had.
 [[nodiscard]] Violation why_no_lambda(double lambda);
@@ -26,7 +25,7 @@ using UnitParameters = Eigen::Matrix<double, 10, 1>;
 /// Empty if two parts make up the shape (u, V) at its density: V1 + V2 = V and V1 first + V2 second
 /// = V u, to half the digits. Moments are judged by the size of the parts, not number by
 /// number: those that cancel are rounded as those that do not.
-[[nodiscard]] Violation why_no_parts(const UnitParameters& u, double V, const UnitParameters& first,
-                                     double V1, const UnitParameters& second, double V2);
+[[nodiscard]] Violation why_no_parts(const Vector10& u, double V, const Vector10& first, double V1,
+                                     const Vector10& second, double V2);
 
 }  // namespace shapeid::fast

@@ -36,8 +36,7 @@ struct Relaxations {
 };
 
 /// `shapes`: what is known of the least objective of the shapes themselves, the data term where
-/// lambda = 0. A bound of one set is
-/// carried over to those that it implies.
+/// lambda = 0. A bound of one set is carried over to those that it implies.
 [[nodiscard]] Relaxations relaxations(const StatedProblem& problem, const Evidence& evidence,
                                       Interval shapes);
 

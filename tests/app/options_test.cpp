@@ -125,7 +125,8 @@ TEST_F(Options, TrackRemembersAsLongAsItIsTold) {
   EXPECT_LT(unrest("--wander 1e-4", "tracked"), 0.5 * unrest("--wander 1", "tracked"));
 }
 
-/// A shank that is too flat for its height, which is known: its given inertia counts as it is.
+/// A link at the hip whose tensor no body can have, which is known: its given inertia counts as it
+/// is.
 TEST_F(Options, AcceptImpossibleTakesAGivenInertiaAsItIsAndSaysSo) {
   std::string text = read_file(robots + "quadruped.urdf");
   const std::string before = "ixx=\"0.00034\"", after = "ixx=\"0.00934\"";

@@ -24,7 +24,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct Whole {
-  UnitParameters u;
+  Vector10 u;
   double V;
 };
 
@@ -58,7 +58,7 @@ RC_GTEST_PROP(AskedOfMasses, PartsThatMakeUpAnotherShapeAreTold, ()) {
 }
 
 TEST(AskedOfMasses, SaysWhatIsWrong) {
-  UnitParameters u = UnitParameters::LinSpaced(1.0, 2.0);
+  Vector10 u = Vector10::LinSpaced(1.0, 2.0);
   EXPECT_EQ(why_no_shape(1, u, 0.5, 2), std::nullopt);
   EXPECT_EQ(why_no_shape(2, u, 0.5, 2), "a shape on free link 2 of 2");
   EXPECT_EQ(why_no_shape(-1, u, 0.5, 2), "a shape on free link -1 of 2");
