@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -101,6 +100,18 @@ Map map_of(const Eigen::Affine3d& frame) {
 Lowest moved(Lowest lowest, const Map& map) {
   lowest.point = map(lowest.point);
   return lowest;
+}
+
+/// Of the largest coefficient, with coordinates in units of 2^length_unit; not all may be zero.
+long exponent_of_largest(const Quadric& q, long length_unit) {
+  Rational largest;
+  for (const Rational& entry : q.b) largest = std::max(largest, scaled(abs(entry), length_unit));
+  for (const Vector& row : q.A) {
+    for (const Rational& entry : row) {
+      largest = std::max(largest, scaled(abs(entry), 2 * length_unit));
+    }
+  }
+  return exponent_of(largest);
 }
 
 /// Corners of a polygon around the disc of this radius, proved to be outside of it.
@@ -336,23 +347,30 @@ Lowest lowest_in_ball(const Quadric& q, const Rational& radius) {
   if (constant) return {q.c, Vector(q.size())};
   // For mu >= 0 and A + mu positive definite, q(x) >= q(x) + mu (|x|^2 - radius^2) >= its minimum
   // over all x, which is concave in mu.
+  // Doubles see it in units of about the radius and about its largest coefficient: the slopes of
+  // what a stranger states may be beyond doubles.
+  const long length_unit = exponent_of(radius), unit = exponent_of_largest(q, length_unit);
+  const long multiplier_unit = unit - 2 * length_unit;
   const auto with_multiplier = [&](double mu) -> std::optional<Lowest> {
+    const Rational multiplier = scaled(exact(mu), multiplier_unit);
     Quadric p = q;
-    for (std::size_t i = 0; i < p.size(); ++i) p.A[i][i] += exact(mu);
-    p.c -= exact(mu) * radius * radius;
+    for (std::size_t i = 0; i < p.size(); ++i) p.A[i][i] += multiplier;
+    p.c -= multiplier * radius * radius;
     return lowest_anywhere(p);
   };
   Eigen::Matrix3d A;
   Eigen::Vector3d b;
   for (int i = 0; i < 3; ++i) {
     const auto row = static_cast<std::size_t>(i);
-    b[i] = q.b[row].get_d();
-    for (int j = 0; j < 3; ++j) A(i, j) = q.A[row][static_cast<std::size_t>(j)].get_d();
+    b[i] = scaled(q.b[row], length_unit - unit).get_d();
+    for (int j = 0; j < 3; ++j) {
+      A(i, j) = scaled(q.A[row][static_cast<std::size_t>(j)], -multiplier_unit).get_d();
+    }
   }
   // |x(mu)| falls with mu; the best mu is where it is the radius, or zero. Bracketed and halved.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(A);
   const Eigen::Vector3d along = eigen.eigenvectors().transpose() * b;
-  const double R = radius.get_d(), size = A.norm() + b.norm() / R;
+  const double R = scaled(radius, -length_unit).get_d(), size = A.norm() + b.norm() / R;
   constexpr double clear_of_rounding = 1e-12;  // of A's size: so that A + mu is definite
   double low = std::max(0.0, clear_of_rounding * size - eigen.eigenvalues()[0]);
   double high = low + size;
@@ -366,12 +384,11 @@ Lowest lowest_in_ball(const Quadric& q, const Rational& radius) {
     }
   }
   std::optional<Lowest> best;
-  for (const double mu : {low, high, 2.0 * high, std::numeric_limits<double>::min()}) {
-    if (!std::isfinite(mu)) continue;
+  for (const double mu : {low, high, 2.0 * high}) {
     auto lowest = with_multiplier(mu);
     if (lowest && (!best || lowest->value > best->value)) best = std::move(lowest);
   }
-  // 2 high is more than any eigenvalue; only numbers beyond doubles come here.
+  // 2 high is more than any eigenvalue.
   if (!best) throw std::logic_error("no multiplier makes the polynomial convex");
   return *best;
 }

@@ -16,7 +16,8 @@ Rational sum_of(const Vector& terms, std::size_t begin, std::size_t end) {
   return sum_of(terms, begin, middle) + sum_of(terms, middle, end);
 }
 
-/// x / 2^exponent lies in [1/4, 1) for x > 0, whatever the size of its numerator.
+}  // namespace
+
 long exponent_of(const Rational& x) {
   return static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) -
          static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2)) + 1;
@@ -31,8 +32,6 @@ Rational scaled(const Rational& x, long exponent) {
   }
   return y;
 }
-
-}  // namespace
 
 Vector exact(const Eigen::VectorXd& v) {
   Vector x;

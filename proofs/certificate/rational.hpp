@@ -25,6 +25,12 @@ using Vector = std::vector<Rational>;
 /// A number that is not below the root of x >= 0, nor above it by more than 2^-60 of it.
 [[nodiscard]] Rational root_above(const Rational& x);
 
+/// x / 2^exponent lies in [1/4, 1) for x > 0, whatever the size of its numerator.
+[[nodiscard]] long exponent_of(const Rational& x);
+
+/// x 2^exponent.
+[[nodiscard]] Rational scaled(const Rational& x, long exponent);
+
 /// By halves: sums of many fractions with different denominators stay cheap.
 [[nodiscard]] Rational sum(const Vector& terms);
 

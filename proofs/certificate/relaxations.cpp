@@ -81,10 +81,16 @@ void carry_over(Interval& larger, Interval& smaller) {
   }
 }
 
-/// Whether shapes as written have no negative mass: else they are in none of the larger sets.
-bool shapes_have_mass(const MassProblem& p) {
-  for (Eigen::Index i = 0; i < p.U.rows(); i += 10) {
-    if (p.U.cols() > 0 && p.U.row(i).minCoeff() < 0.0) return false;
+/// Whether shapes as written have no negative mass, and no more than is counted where the mass is
+/// bounded: else they may be in none of the larger sets.
+bool shapes_have_the_mass_counted(const MassProblem& p) {
+  for (Eigen::Index j = 0; j < p.U.cols(); ++j) {
+    Rational mass;
+    for (Eigen::Index i = 0; i < p.U.rows(); i += 10) {
+      if (p.U(i, j) < 0.0) return false;
+      mass += exact(p.U(i, j));
+    }
+    if (p.mass_bound > 0.0 && mass > 1) return false;
   }
   return true;
 }
@@ -100,7 +106,7 @@ Relaxations relaxations(const StatedProblem& stated, const Evidence& evidence, I
     const auto floor = floor_of_divisions(stated, evidence.limit.parameters, evidence.limit.others);
     if (floor) of.divisions.lower = *floor;
   }
-  if (!shapes_have_mass(stated.masses)) return of;
+  if (!shapes_have_the_mass_counted(stated.masses)) return of;
   carry_over(of.masses, of.bodies);
   carry_over(of.bodies, of.divisions);
   carry_over(of.divisions, of.shapes);

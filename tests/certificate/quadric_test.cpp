@@ -153,6 +153,24 @@ RC_GTEST_PROP(Quadric, LowestIsReachedInBalls, ()) {
   RC_ASSERT(abs(q.at(lowest.point) - lowest.value) <= exact(multiplier) * terms);
 }
 
+/// What a stranger states may be beyond doubles: in other units of cost and of length the bound is
+/// the same number, to the last bit.
+RC_GTEST_PROP(Quadric, LowestInBallsHasNoUnits, ()) {
+  const Quadric q = cost_of_point(exact(*test::vector(10, 1.0)));
+  const Rational radius = exact(*test::magnitude(0.1, 10.0));
+  const long cost = *rc::gen::inRange(-3000, 3000), length = *rc::gen::inRange(-3000, 3000);
+  Quadric other = q;
+  for (Rational& entry : other.b) entry = scaled(entry, cost - length);
+  for (Vector& row : other.A) {
+    for (Rational& entry : row) entry = scaled(entry, cost - 2 * length);
+  }
+  other.c = scaled(q.c, cost);
+  const Lowest here = lowest_in_ball(q, radius);
+  const Lowest there = lowest_in_ball(other, scaled(radius, length));
+  RC_ASSERT(there.value == scaled(here.value, cost));
+  for (std::size_t i = 0; i < 3; ++i) RC_ASSERT(there.point[i] == scaled(here.point[i], length));
+}
+
 /// Half the slopes of the data term at Phi.
 Vector slopes_at(const MassProblem& p, const Eigen::VectorXd& Phi) {
   return exact(Eigen::VectorXd(p.Y.transpose() * p.W.cwiseProduct(p.Y * Phi - p.F)));

@@ -229,6 +229,27 @@ TEST(Relaxations, ColumnsAsWrittenAreNotBelow) {
   EXPECT_LE(proof.relaxations.divisions.lower, proof.upper);
 }
 
+/// Columns of three kilograms a unit of mass: within the bound on the mass that is counted, shapes
+/// reach what no parameters of at most that mass do.
+TEST(Relaxations, ColumnsThatWeighMoreReachNothingForTheLargerSets) {
+  StatedProblem p;
+  p.masses.Y = Eigen::MatrixXd::Zero(1, 10);
+  p.masses.U = Eigen::MatrixXd::Zero(10, 1);
+  p.masses.Y(0, 0) = 1.0;
+  p.masses.F = Eigen::VectorXd::Constant(1, 3.0);
+  p.masses.W = p.masses.V = Eigen::VectorXd::Ones(1);
+  p.masses.mass_bound = 1.0;
+  const auto upper_of_masses = [&](double kilograms) {
+    p.masses.U(0, 0) = kilograms;
+    const double left = kilograms - 3.0;  // of the force, with a mass of one
+    return relaxations(p, {}, {0, exact(left * left)}).masses.upper;
+  };
+  EXPECT_EQ(upper_of_masses(1.0), std::optional<Rational>(4));
+  EXPECT_EQ(upper_of_masses(3.0), std::nullopt) << "one kilogram leaves 4 of the data term";
+  p.masses.mass_bound = 0.0;
+  EXPECT_EQ(upper_of_masses(3.0), std::optional<Rational>(0));
+}
+
 /// A forger who changes evidence or claims and names the right digests meets the mathematics.
 TEST(Relaxations, DigestsMadeGoodDoNotHelp) {
   const StatedProblem p = noisy_load(0, 0.05);
