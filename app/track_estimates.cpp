@@ -127,7 +127,8 @@ void Estimates::take_window(double time) {
   // One that stands out weighs as much less as it is noisier.
   recent_block_.forget(noise_.last() > 0.0 ? noise_.usual() / noise_.last() : 1.0);
   sliding_.push(recent_block_);
-  tracker_.drift(window_seconds_);
+  // Here and below: what the tracker cannot take is as if it had not been said.
+  static_cast<void>(tracker_.drift(window_seconds_));
   learn_correlation();
   measure();
   static_cast<void>(solve(sliding_.triangle().R(), recent_));
@@ -212,7 +213,7 @@ double Estimates::total_variance() const {
 /// before counts by 1 - g, and the window's noise by g.
 void Estimates::measure() {
   const double before = total_variance();
-  tracker_.measure(identifier_.window(), noise_.last() * correlation_);
+  static_cast<void>(tracker_.measure(identifier_.window(), noise_.last() * correlation_));
   const double after = total_variance();
   const double kept = after / before;
   mass_variance_ = kept * kept * mass_variance_ + (1.0 - kept) * after;
@@ -220,7 +221,7 @@ void Estimates::measure() {
 
 void Estimates::pass(double seconds) {
   const double before = total_variance();
-  tracker_.drift(seconds);
+  static_cast<void>(tracker_.drift(seconds));
   mass_variance_ += total_variance() - before;
 }
 
@@ -276,7 +277,7 @@ void Estimates::watch_load(double time) {
   pulls_.clear();
   mean_square_ = before.mean_square;
   set_correlation();
-  tracker_.loosen();
+  static_cast<void>(tracker_.loosen());
   mass_variance_ = total_variance();
 }
 

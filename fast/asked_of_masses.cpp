@@ -39,6 +39,11 @@ Violation why_no_triangle(const Eigen::MatrixXd& R, int links) {
          " rows and " + std::to_string(R.cols()) + " columns";
 }
 
+Violation why_no_rows(bool has_rows) {
+  if (has_rows) return std::nullopt;
+  return "no triangle has been solved for";
+}
+
 Violation why_no_start(int j, double mass, int shapes) {
   if (j < 0 || j >= shapes) {
     return "a mass for shape " + std::to_string(j) + " of " + std::to_string(shapes);

@@ -19,6 +19,9 @@ namespace shapeid::fast {
 /// Empty if R has 10 links + 1 rows and columns. Its numbers are judged by the solver.
 [[nodiscard]] Violation why_no_triangle(const Eigen::MatrixXd& R, int links);
 
+/// Empty if there are rows to solve for again: some triangle was solved.
+[[nodiscard]] Violation why_no_rows(bool has_rows);
+
 /// Empty if shape `j` of `shapes` can start at this mass (kg): finite, > 0.
 [[nodiscard]] Violation why_no_start(int j, double mass, int shapes);
 

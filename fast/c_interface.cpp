@@ -22,6 +22,7 @@ using shapeid::Sample;
 using shapeid::fast::Division;
 using shapeid::fast::Identifier;
 using shapeid::fast::IdentifierSettings;
+using shapeid::fast::Outcome;
 
 struct shapeid_identifier {
   shapeid_identifier(const Robot& robot, const BodyModel& model,
@@ -33,6 +34,7 @@ struct shapeid_identifier {
   std::size_t shapes;
   std::vector<std::string> joints, contacts, free_links;
   bool answered = false;
+  bool completed = false;  ///< a window, answered or not
 };
 
 shapeid_identifier::shapeid_identifier(const Robot& robot, const BodyModel& model,
@@ -83,16 +85,22 @@ BodyModel model_of(const char* shapes_yaml, const Robot& robot) {
   return shapeid::default_shapes(robot, {0});
 }
 
-IdentifierSettings settings_of(const shapeid_settings& given, double usual_mass) {
+/// Counted before anything is read: a negative count in C comes as more than there is.
+Eigen::VectorXd weight_of(const shapeid_settings& given, const Robot& robot) {
+  if (given.weight == nullptr && given.weight_count == 0) return {};
+  const auto equations = static_cast<std::size_t>(robot.dof());
+  if (given.weight == nullptr || given.weight_count != equations) {
+    throw InputError("weight and weight_count are not those of the robot's equations",
+                     "NULL and 0, or " + std::to_string(equations) + " numbers");
+  }
+  return Eigen::Map<const Eigen::VectorXd>(given.weight, robot.dof());
+}
+
+IdentifierSettings settings_of(const shapeid_settings& given, const Robot& robot,
+                               double usual_mass) {
   IdentifierSettings settings;
   settings.contacts = treatment_of(given.contacts);
-  if ((given.weight != nullptr) != (given.weight_count > 0)) {
-    throw InputError("weight and weight_count disagree", "both, or NULL and 0");
-  }
-  if (given.weight != nullptr) {
-    const auto count = static_cast<Eigen::Index>(given.weight_count);
-    settings.weight = Eigen::Map<const Eigen::VectorXd>(given.weight, count);
-  }
+  settings.weight = weight_of(given, robot);
   settings.window = given.window;
   settings.stride = given.stride;
   settings.alpha = given.alpha;
@@ -115,7 +123,7 @@ std::unique_ptr<shapeid_identifier> create(const char* urdf, const char* robot_y
   if (robot_yaml != nullptr) notes = shapeid::read_robot_yaml(robot_yaml, robot);
   const BodyModel model = model_of(shapes_yaml, robot);
   const double usual_mass = shapeid::expected_mass(robot, notes, model.free_links);
-  return std::make_unique<shapeid_identifier>(robot, model, settings_of(given, usual_mass));
+  return std::make_unique<shapeid_identifier>(robot, model, settings_of(given, robot, usual_mass));
 }
 
 shapeid_stop stop_of(Division::Stop stop) noexcept {
@@ -130,6 +138,22 @@ shapeid_stop stop_of(Division::Stop stop) noexcept {
       break;
   }
   return SHAPEID_STOP_DECLINED;
+}
+
+shapeid_outcome outcome_of(Outcome outcome) noexcept {
+  switch (outcome) {
+    case Outcome::solved:
+      return SHAPEID_OUTCOME_SOLVED;
+    case Outcome::not_finite:
+      return SHAPEID_OUTCOME_NOT_FINITE;
+    case Outcome::ill_conditioned:
+      return SHAPEID_OUTCOME_ILL_CONDITIONED;
+    case Outcome::too_many_steps:
+      return SHAPEID_OUTCOME_TOO_MANY_STEPS;
+    case Outcome::out_of_scale:
+      break;
+  }
+  return SHAPEID_OUTCOME_OUT_OF_SCALE;
 }
 
 void say(const char* message, char* error, size_t error_size) noexcept {
@@ -250,14 +274,20 @@ shapeid_status shapeid_feed(shapeid_identifier* identifier, const shapeid_sample
     case Identifier::Fed::kept:
       return SHAPEID_KEPT;
     case Identifier::Fed::answered:
-      identifier->answered = true;
+      identifier->answered = identifier->completed = true;
       return SHAPEID_ANSWERED;
     case Identifier::Fed::sample_declined:
       return SHAPEID_SAMPLE_DECLINED;
     case Identifier::Fed::window_declined:
       break;
   }
+  identifier->completed = true;
   return SHAPEID_WINDOW_DECLINED;
+}
+
+shapeid_outcome shapeid_last_outcome(const shapeid_identifier* identifier) {
+  if (identifier == nullptr || !identifier->completed) return SHAPEID_OUTCOME_NONE;
+  return outcome_of(identifier->identifier.outcome());
 }
 
 shapeid_status shapeid_get_answer(const shapeid_identifier* identifier, shapeid_answer* answer) {

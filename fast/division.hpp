@@ -18,8 +18,8 @@ namespace shapeid::fast {
 /// same shapes are divided in the same order, unless two v are nearer to each other than the
 /// solvers' rounding (docs/benchmarks.md counts how often).
 ///
-/// Nothing throws after construction, and nothing allocates but id() and the first cut of a
-/// polyhedron (see PartTree).
+/// Nothing throws after construction, and nothing allocates but id() and a cut of a polyhedron
+/// whose parts are not kept from an earlier one (see PartTree).
 class Division {
  public:
   /// Copies what it needs of the model. Throws std::invalid_argument for options that make no
@@ -31,7 +31,8 @@ class Division {
 
   enum class Start { last_masses, no_masses };
   /// Solves for the undivided shapes, from the masses that they had at the last start() or from
-  /// none. If the solver declines, the undivided shapes are left with those masses.
+  /// none. If the solver declines, the undivided shapes are left with those masses. R is not
+  /// copied: it must live, and stay as it is, until the last divide() after it.
   Outcome start(const Eigen::MatrixXd& R, Start from = Start::last_masses) noexcept;
 
   enum class Step {

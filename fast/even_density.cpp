@@ -112,6 +112,8 @@ void EvenDensity::factorise() noexcept {
 
 void EvenDensity::factorise_many_links() noexcept {
   const double damping = std::sqrt(lambda_);
+  // Without a column that counts as dependent the unknowns behind it have other places; they stay
+  // within those that there are, and a set that is not sound gives no answer.
   qr_.start(b_);
   unfelt_.clear();
   for (int l = 0; l < columns_->links(); ++l) {

@@ -1,6 +1,7 @@
 #include "shapeid/fast/many_links.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "shapeid/fast/triangle_products.hpp"
 
@@ -30,10 +31,18 @@ ColumnQr::Push ManyLinks::push(int j) noexcept {
   return qr_.push(end);
 }
 
+// An unsound set has fewer columns in its factorisation than passive shapes. It is no longer
+// updated, for its places are others; shapes are only counted until start().
 bool ManyLinks::enter(int j) noexcept {
+  if (!sound_) {
+    const bool has_room = passive_.size() < static_cast<std::size_t>(target_.size());
+    if (has_room) passive_.push_back(j);
+    return has_room;
+  }
   ColumnQr::Push result = push(j);
   if (result == ColumnQr::Push::crowded) {
     rebuild();
+    if (!sound_) return enter(j);
     result = push(j);
   }
   if (result != ColumnQr::Push::entered) return false;
@@ -47,7 +56,7 @@ void ManyLinks::dependence(Eigen::VectorXd& coefficients) noexcept { qr_.depende
 void ManyLinks::leave(int place) noexcept {
   passive_.erase(passive_.begin() + place);
   solved_ = false;
-  if (!qr_.remove(place)) rebuild();
+  if (sound_ && !qr_.remove(place)) rebuild();
 }
 
 void ManyLinks::rebuild() noexcept {

@@ -108,6 +108,7 @@ Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
 }
 
 Outcome MassSolver::solve_again() noexcept {
+  SHAPEID_CONTRACT(why_no_rows(method_.has_rows()));
   if (guess_ != nullptr && guess_again()) {
     start_watching();
     has_answer_ = true;

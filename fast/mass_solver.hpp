@@ -38,7 +38,9 @@ class MassSolver {
   void set_lambda(double lambda) noexcept;
 
   /// Solves for the triangle [R c], (10 links + 1) x (10 links + 1) as Triangle::R() has it,
-  /// starting from the present masses. The triangle must stay as it is while divide() is used.
+  /// starting from the present masses. R is not copied: it must live, and stay as it is, as long as
+  /// divide(), solve_again() or why_changed() are used after it. If the call declines, these speak
+  /// of the triangle that was solved last, which therefore must still be there.
   Outcome solve(const Eigen::MatrixXd& R) noexcept;
   /// Back to no masses: the next solve() starts cold.
   void forget_masses() noexcept;
@@ -53,7 +55,8 @@ class MassSolver {
   /// Empty if R U m and the density term still are those of the last answer, to rounding: what
   /// divide() promises. Also empty if there is no last answer, or masses were set since.
   [[nodiscard]] Violation why_changed() const;
-  /// Solves again, for the triangle of the last solve(), after divide().
+  /// Solves again, for the triangle that was solved last, after divide(). Some triangle must have
+  /// been: after none but declined ones it is a defect of the caller.
   Outcome solve_again() noexcept;
 
   [[nodiscard]] int shapes() const noexcept { return columns_.size(); }

@@ -7,6 +7,23 @@
 #include <string>
 
 namespace shapeid::fast {
+namespace {
+
+/// Squares of rows up to this size add up over any log without overflow, as in SampleRows: a row
+/// that is no number would stay in the triangle for ever.
+constexpr double largest_square = 1e290;
+
+/// A NaN is not below either.
+bool can_be_absorbed(const Eigen::MatrixXd& rows) { return rows.squaredNorm() < largest_square; }
+
+/// Whether rows with these variances are numbers that Triangle does not leave out: no pivot's
+/// square is below the inverse of its variance.
+bool have_rows(const Eigen::VectorXd& variances) {
+  return (variances.array() < largest_square).all() &&
+         (variances.array() > 1.0 / largest_square).all();
+}
+
+}  // namespace
 
 Violation why_no_belief(const Eigen::VectorXd& start, const Eigen::VectorXd& spread,
                         const Eigen::VectorXd& wander) {
@@ -15,8 +32,9 @@ Violation why_no_belief(const Eigen::VectorXd& start, const Eigen::VectorXd& spr
            std::to_string(spread.size()) + ", a wander of " + std::to_string(wander.size());
   }
   if (!start.allFinite()) return "a mean is not finite";
-  if (!spread.allFinite() || !(spread.array() > 0.0).all())
-    return "a spread is not positive and finite";
+  if (!(spread.array() > 0.0).all() || !have_rows(spread.cwiseAbs2())) {
+    return "a spread is not positive and finite, or its square is not";
+  }
   if (!wander.allFinite() || !(wander.array() >= 0.0).all())
     return "a wander is negative or not finite";
   return std::nullopt;
@@ -36,10 +54,11 @@ ParameterTracker::ParameterTracker(const Eigen::VectorXd& start, const Eigen::Ve
                                    const Eigen::VectorXd& wander)
     : spread_(spread), wander_(wander), rows_(start.size()) {
   SHAPEID_CONTRACT(why_no_belief(start, spread, wander));
-  set(start, spread.cwiseAbs2().asDiagonal());
+  [[maybe_unused]] const bool is_set = set(start, spread.cwiseAbs2().asDiagonal());
 }
 
-void ParameterTracker::set(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance) {
+bool ParameterTracker::set(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance) {
+  if (!have_rows(covariance.diagonal())) return false;
   // In units of the spread, where entries are of one size; P = L L^T gives the rows L^-1 x = L^-1
   // x0.
   const Eigen::VectorXd unit = spread_.cwiseInverse();
@@ -50,32 +69,37 @@ void ParameterTracker::set(const Eigen::VectorXd& mean, const Eigen::MatrixXd& c
     const double rounding =
         static_cast<double>(P.rows()) * std::numeric_limits<double>::epsilon() * P.trace();
     llt.compute(P + rounding * Eigen::MatrixXd::Identity(P.rows(), P.cols()));
+    if (llt.info() != Eigen::Success) return false;
   }
   Eigen::MatrixXd rows(mean.size(), mean.size() + 1);
   rows.leftCols(mean.size()) = unit.asDiagonal();
   rows.col(mean.size()) = unit.cwiseProduct(mean);
   llt.matrixL().solveInPlace(rows);
+  if (!can_be_absorbed(rows)) return false;
   rows_.clear();
   rows_.absorb(rows);
+  return true;
 }
 
-void ParameterTracker::drift(double seconds) {
+bool ParameterTracker::drift(double seconds) {
   SHAPEID_CONTRACT(why_no_time(seconds));
   Eigen::MatrixXd P = covariance();
   P.diagonal() += seconds * wander_.cwiseAbs2();
-  set(mean(), P);
+  return set(mean(), P);
 }
 
-void ParameterTracker::measure(const Triangle& window, double variance) {
+bool ParameterTracker::measure(const Triangle& window, double variance) {
   SHAPEID_CONTRACT(why_no_variance(variance));
   Eigen::MatrixXd rows = window.R() / std::sqrt(variance);
+  if (!can_be_absorbed(rows)) return false;
   rows_.absorb(rows);
+  return true;
 }
 
-void ParameterTracker::loosen() {
+bool ParameterTracker::loosen() {
   Eigen::MatrixXd P = covariance();
   P.diagonal() += spread_.cwiseAbs2();
-  set(mean(), P);
+  return set(mean(), P);
 }
 
 Eigen::VectorXd ParameterTracker::mean() const {

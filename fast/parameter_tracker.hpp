@@ -10,7 +10,8 @@
 
 namespace shapeid::fast {
 
-/// What the tracker asks of its caller: as many numbers each, finite; spread > 0, wander >= 0.
+/// What the tracker asks of its caller: as many numbers each, finite; spread > 0, its square a
+/// number above zero too, wander >= 0.
 [[nodiscard]] Violation why_no_belief(const Eigen::VectorXd& start, const Eigen::VectorXd& spread,
                                       const Eigen::VectorXd& wander);
 /// Empty for a time >= 0, s.
@@ -27,12 +28,15 @@ class ParameterTracker {
   ParameterTracker(const Eigen::VectorXd& start, const Eigen::VectorXd& spread,
                    const Eigen::VectorXd& wander);
 
+  // Each of the three says whether it came about. Where numbers are not finite, or what would come
+  // of them is not, the belief stays as it was.
+
   /// Time goes by, s (>= 0): every parameter is known a little less well.
-  void drift(double seconds);
+  [[nodiscard]] bool drift(double seconds);
   /// The rows of a window, each with noise of this variance (> 0).
-  void measure(const Triangle& window, double variance);
+  [[nodiscard]] bool measure(const Triangle& window, double variance);
   /// Something has changed that is no wandering: the mean stays, the covariance grows by spread^2.
-  void loosen();
+  [[nodiscard]] bool loosen();
 
   /// [R c] with R^T R the inverse covariance, in the parameters' units: the rows that a mass
   /// problem can be solved on.
@@ -47,8 +51,8 @@ class ParameterTracker {
   }
 
  private:
-  /// Rows that say: this mean, this covariance.
-  void set(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance);
+  /// Rows that say: this mean, this covariance. False if none do: then the old ones stay.
+  [[nodiscard]] bool set(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance);
 
   Eigen::VectorXd spread_, wander_;
   Triangle rows_;

@@ -15,8 +15,9 @@ namespace shapeid::fast {
 /// share the work. Room for the parts of two runs; what does not fit is forgotten and made again.
 ///
 /// Nothing throws after construction, and nothing allocates, but for one thing: a polyhedron is
-/// made of vectors, so that cutting it for the first time allocates. Cuboids, cylinders and
-/// ellipsoids do not.
+/// made of vectors, so that cutting it allocates: the first time, and again each time its parts
+/// were forgotten meanwhile, as where windows go on to divide different shapes. Cuboids, cylinders
+/// and ellipsoids do not.
 class PartTree {
  public:
   struct Part {

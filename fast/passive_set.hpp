@@ -32,8 +32,8 @@ class PassiveSet {
   virtual void dependence(Eigen::VectorXd& coefficients) noexcept = 0;
   /// The shape at this place leaves; those behind it move forward.
   virtual void leave(int place) noexcept = 0;
-  /// False if rounding has made a column dependent that was not when it entered: nothing but
-  /// start() helps.
+  /// False if rounding has made a column dependent that was not when it entered: shapes may still
+  /// enter and leave, but masses mean nothing, and nothing but start() helps.
   [[nodiscard]] virtual bool sound() const noexcept { return true; }
 
   /// Masses of the passive shapes (kg, of any sign) at their minimum; the first entries count.

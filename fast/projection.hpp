@@ -9,8 +9,11 @@ namespace shapeid::fast {
 /// normal equations and objective, the same rule for the rank of W^(1/2) J^T.
 class ContactElimination {
  public:
-  /// `weight`: diagonal of W, one entry for each row. `most_forces`: the most columns that J^T can
-  /// have. The only call that allocates.
+  /// `weight`: diagonal of W, one entry for each row, positive, and to be within twelve decades of
+  /// each other: the rank is told by pivots beside the largest W^(1/2), so that a force which only
+  /// rows of far smaller weight feel would count as felt by none, and stay in them
+  /// (docs/derivations/projection.md). `most_forces`: the most columns that J^T can have. The only
+  /// call that allocates.
   ContactElimination(const Eigen::VectorXd& weight, Eigen::Index most_forces);
 
   /// `rows` = [Y F], not weighted, becomes [Q1 Q2]^T W^(1/2) [Y F]. Returns the rank: so many rows

@@ -33,7 +33,7 @@ double zero_if_finite(const Eigen::MatrixBase<Derived>& v) noexcept {
 }
 
 bool is_finite(const Sample& s) noexcept {
-  double zero = zero_if_finite(s.q) + zero_if_finite(s.dq) + zero_if_finite(s.ddq) +
+  double zero = 0.0 * s.time + zero_if_finite(s.q) + zero_if_finite(s.dq) + zero_if_finite(s.ddq) +
                 zero_if_finite(s.tau) + zero_if_finite(s.base_angular_velocity) +
                 zero_if_finite(s.base_angular_acceleration) + zero_if_finite(s.base_specific_force);
   for (const Eigen::Vector3d& f : s.contact_force) zero += zero_if_finite(f);

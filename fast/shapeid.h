@@ -2,7 +2,8 @@
  *
  * Create an identifier from files, feed it samples at the rate of the robot, and read the
  * parameters whenever a feed answers (docs/examples/identifier.c). No exception leaves a function.
- * shapeid_create() allocates; nothing else does, but for division of polyhedra
+ * shapeid_create() allocates; nothing else does, but for division of polyhedra, which
+ * allocates whenever one is cut that was not cut the same way shortly before
  * (fast/part_tree.hpp). An identifier is used by one thread at a time; different identifiers do not
  * know of each other.
  *
@@ -42,7 +43,8 @@ typedef struct shapeid_settings {
   shapeid_root root;         /**< floating */
   shapeid_contacts contacts; /**< project */
   /** Diagonal of W, 1 / sigma^2 of each equation: base force (3), base moment (3) (floating root
-   * only), then a number for each joint. NULL (default): ones. Read by shapeid_create() alone. */
+   * only), then a number for each joint; positive, and within twelve decades of each other
+   * (docs/derivations/projection.md). NULL (default): ones. Read by shapeid_create() alone. */
   const double* weight;
   size_t weight_count;   /**< numbers there: 6 + joints, or joints for a fixed root; 0 for NULL */
   size_t window;         /**< samples a window: 10 */
@@ -106,15 +108,34 @@ typedef struct shapeid_sample {
 } shapeid_sample;
 
 typedef enum shapeid_status {
-  SHAPEID_KEPT,            /**< no window is complete yet */
-  SHAPEID_ANSWERED,        /**< a window was solved: all that can be read below is new */
-  SHAPEID_SAMPLE_DECLINED, /**< not finite, or forces are missing: as if not fed */
-  SHAPEID_WINDOW_DECLINED, /**< not solved to the accuracy promised: the last answer stays */
-  SHAPEID_WRONG_ARGUMENT   /**< a NULL, or counts that are not the robot's: as if not called */
+  SHAPEID_KEPT,     /**< no window is complete yet */
+  SHAPEID_ANSWERED, /**< a window was solved: all that can be read below is new */
+  /** A number is not finite, also the time, or forces are missing: as if not fed. */
+  SHAPEID_SAMPLE_DECLINED,
+  /** Not solved, and shapeid_last_outcome() says why: the last answer stays. */
+  SHAPEID_WINDOW_DECLINED,
+  SHAPEID_WRONG_ARGUMENT /**< a NULL, or counts that are not the robot's: as if not called */
 } shapeid_status;
 
 /** Takes a sample; when a window is complete, solves. Bounded work. */
 shapeid_status shapeid_feed(shapeid_identifier* identifier, const shapeid_sample* sample);
+
+/** How the last window that was complete ended. */
+typedef enum shapeid_outcome {
+  SHAPEID_OUTCOME_NONE,            /**< no window was complete yet */
+  SHAPEID_OUTCOME_SOLVED,          /**< it was answered */
+  SHAPEID_OUTCOME_NOT_FINITE,      /**< a number of its rows is not finite */
+  SHAPEID_OUTCOME_ILL_CONDITIONED, /**< the masses found do not have the accuracy promised */
+  SHAPEID_OUTCOME_TOO_MANY_STEPS,  /**< the bound on the work of one window was reached */
+  /** Forces that no robot has: as a root mean square over the window's samples, weighted by the
+   * settings' weight, the generalised forces exceed a hundred times the weight of all links
+   * (torques: that weight at a metre). Of the free links expected_mass counts, of the others what
+   * the URDF says. Such a window would leave its scale to lambda. */
+  SHAPEID_OUTCOME_OUT_OF_SCALE
+} shapeid_outcome;
+
+/** SHAPEID_OUTCOME_NONE for NULL as well. A feed that only keeps or declines a sample leaves it. */
+shapeid_outcome shapeid_last_outcome(const shapeid_identifier* identifier);
 
 /** What ended the divisions of a window. */
 typedef enum shapeid_stop {

@@ -10,7 +10,9 @@ namespace {
 
 using Ten = std::array<Dozen, 10>;
 
-/// Prices below this are not followed: rounding of M may be as large.
+/// Prices below this are not followed: rounding of M may be as large. Where none can be larger no
+/// shape is priced, and none is called doubtful: that the answer's own slopes are within 1e-10 of
+/// these is then all that is asked, and is what is promised of every answer.
 constexpr double smallest_price = 1e-13;
 
 [[gnu::always_inline]] inline void take_out(Tableau& t, std::size_t place) noexcept {
@@ -45,6 +47,8 @@ constexpr double smallest_price = 1e-13;
 
 /// The place whose mass, zero or negative, costs most to be held at zero, m^2 over its entry of K;
 /// only if there is one. The low bits of each cost carry its place, so that one maximum finds both.
+/// Entries of K are positive but for rounding: most_passive where rounding has left no cost that is
+/// one, for what stands first then is no place that anything is wrong at.
 [[gnu::always_inline]] inline std::size_t furthest_below(const Tableau& t) noexcept {
   Four most = Four{} - 1.0;
   for (std::size_t p = 0; p < 3; ++p) {
@@ -55,7 +59,7 @@ constexpr double smallest_price = 1e-13;
     most = marked > most ? marked : most;
   }
   const double found = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
-  return std::bit_cast<std::uint64_t>(found) & place_bits;
+  return found > -1.0 ? std::bit_cast<std::uint64_t>(found) & place_bits : most_passive;
 }
 
 /// g in single precision, in units that make it prices but for a shape's scale.
@@ -203,7 +207,9 @@ SHAPEID_WIDE void leave(Tableau& t, std::size_t place) noexcept { leave_place(t,
 SHAPEID_WIDE Stop pivot(Tableau& t, const Problem& problem, int most_pivots, int& pivots) noexcept {
   for (; pivots < most_pivots; ++pivots) {
     if (some_below(t)) {
-      leave_place(t, furthest_below(t));
+      const std::size_t place = furthest_below(t);
+      if (place == most_passive) return Stop::endless;
+      leave_place(t, place);
       continue;
     }
     if (is_full(t, problem)) return Stop::settled;

@@ -21,7 +21,7 @@ struct Doubtful {
 enum class Stop {
   settled,   ///< nothing wants to enter
   doubtful,  ///< single precision cannot tell, or what wants to enter cannot
-  endless
+  endless    ///< too many pivots, or rounding has made what should be positive negative
 };
 
 /// No passive shapes. K is written as they enter. `lengths` bound the columns of R.

@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/fuzz/support/declines.hpp"
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace {
@@ -135,5 +137,12 @@ int main(int argc, char** argv) {
   for (std::uint64_t i = 0; i < random; ++i) run(mutator.next());
   std::printf("%zu inputs, %llu changed at random\n", inputs.size(),
               static_cast<unsigned long long>(random));
-  return EXIT_SUCCESS;
+  const shapeid::fuzz::Declines& declines = shapeid::fuzz::declines;
+  if (declines.asked == 0) return EXIT_SUCCESS;
+  std::printf("the fast path declined %llu of %llu\n",
+              static_cast<unsigned long long>(declines.declined),
+              static_cast<unsigned long long>(declines.asked));
+  if (!declines.too_many()) return EXIT_SUCCESS;
+  std::fprintf(stderr, "broken: the fast path declines less than half\n");
+  return EXIT_FAILURE;
 }

@@ -7,6 +7,7 @@
 
 #include "shapeid/fuzz/support/bytes.hpp"
 #include "shapeid/fuzz/support/check.hpp"
+#include "shapeid/fuzz/support/declines.hpp"
 #include "shapeid/reference/division.hpp"
 #include "shapeid/tests/fast/division_runs.hpp"
 #include "shapeid/tests/support/any_model.hpp"
@@ -108,6 +109,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
              {.step = 0.0, .most_divisions = divisions, .expected_mass = given.expected_mass});
   if (!determined(given.problem)) return 0;
   const test::RunComparison run = test::compare_runs(given, divisions);
+  fuzz::declines.count(run.declined);
   // The bounds of FastDivision.WholeRunsOfAnyModel, with their reasons there. But rows of any
   // numbers leave masses less determined than bodies do, by roundings (which the last check bounds)
   // over lambda: then each run divides by its own v, and what one sees ahead the other sees at most

@@ -8,6 +8,7 @@
 #include "shapeid/fast/solve_masses.hpp"
 #include "shapeid/fuzz/support/bytes.hpp"
 #include "shapeid/fuzz/support/check.hpp"
+#include "shapeid/fuzz/support/declines.hpp"
 #include "shapeid/fuzz/support/problems.hpp"
 #include "shapeid/proofs/certificate/certify.hpp"
 #include "shapeid/reference/mass_solver.hpp"
@@ -66,6 +67,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const MassProblem p = fuzz::any_problem(bytes, ordinary ? 4 : 15);
   const std::optional<MassSolution> fast = fast::solve_masses(p);
   if (fast) check_masses(*fast);
+  if (ordinary) fuzz::declines.count(!fast);
   const MassSolution reference = reference::solve_masses(p);
   check_masses(reference);
 

@@ -62,18 +62,26 @@ SimulationReport simulate(const Robot& robot, const SimulationOptions& options,
   const auto samples = static_cast<std::size_t>(std::floor(options.duration * options.rate)) + 1;
   const double period = 1.0 / (options.rate * static_cast<double>(turns));
 
+  // A world counts work from its own start.
+  double drive_work = 0.0, ground_work = 0.0;
   SimulationReport report;
   for (std::size_t step = 0; report.samples < samples; ++step) {
     const RobotState state = world->robot_state();
     if (carries != carries_at(world->now())) {
       const double now = world->now();
       const Eigen::VectorXd torque = world->torque();
+      const SimulatedSample last = world->sample();
+      drive_work += last.drive_work;
+      ground_work += last.ground_work;
       carries = !carries;
       world = world_of(carries ? loaded : robot);
       world->start(now, state, torque);
     }
     if (step % turns == 0) {
-      on_sample(world->sample());
+      SimulatedSample sample = world->sample();
+      sample.drive_work += drive_work;
+      sample.ground_work += ground_work;
+      on_sample(sample);
       ++report.samples;
     }
     report.distance = state.base.translation().head<2>().norm();

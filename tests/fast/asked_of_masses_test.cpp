@@ -67,6 +67,8 @@ TEST(AskedOfMasses, SaysWhatIsWrong) {
     EXPECT_EQ(why_no_start(0, V, 3), "a mass to start at is " + std::to_string(V));
   }
   EXPECT_EQ(why_no_start(2, 0.1, 3), std::nullopt);
+  EXPECT_EQ(why_no_rows(true), std::nullopt);
+  EXPECT_EQ(why_no_rows(false), "no triangle has been solved for");
   EXPECT_EQ(why_no_start(3, 0.1, 3), "a mass for shape 3 of 3");
   EXPECT_EQ(why_no_start(-1, 0.1, 3), "a mass for shape -1 of 3");
   EXPECT_NE(why_no_parts(u, 1.0, u, 1.5, u, -0.5), std::nullopt);
@@ -89,6 +91,7 @@ TEST(AskedOfMasses, SaysWhatIsWrong) {
 TEST(AskedOfTheTracker, SaysWhatIsWrong) {
   const VectorXd ones = VectorXd::Ones(2), zeros = VectorXd::Zero(2);
   const VectorXd three = VectorXd::Ones(3);
+  const std::string bad_spread = "a spread is not positive and finite, or its square is not";
   EXPECT_EQ(why_no_belief(zeros, ones, zeros), std::nullopt);
   EXPECT_EQ(why_no_belief(three, ones, zeros),
             "a mean of 3 parameters, a spread of 2, a wander of 2");
@@ -97,12 +100,14 @@ TEST(AskedOfTheTracker, SaysWhatIsWrong) {
   for (const double wrong : {infinity, -infinity, nan}) {
     const VectorXd bad = Eigen::Vector2d(1.0, wrong);
     EXPECT_EQ(why_no_belief(bad, ones, zeros), "a mean is not finite");
-    EXPECT_EQ(why_no_belief(zeros, bad, zeros), "a spread is not positive and finite");
+    EXPECT_EQ(why_no_belief(zeros, bad, zeros), bad_spread);
     EXPECT_EQ(why_no_belief(zeros, ones, bad), "a wander is negative or not finite");
     EXPECT_NE(why_no_time(wrong), std::nullopt);
     EXPECT_NE(why_no_variance(wrong), std::nullopt);
   }
-  EXPECT_EQ(why_no_belief(zeros, zeros, zeros), "a spread is not positive and finite");
+  for (const double wrong : {0.0, -1.0, 1e-170, 1e170}) {
+    EXPECT_EQ(why_no_belief(zeros, wrong * ones, zeros), bad_spread);
+  }
   EXPECT_EQ(why_no_belief(zeros, ones, -ones), "a wander is negative or not finite");
   EXPECT_EQ(why_no_time(0.0), std::nullopt);
   EXPECT_NE(why_no_time(-0.1), std::nullopt);

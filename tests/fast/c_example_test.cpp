@@ -4,14 +4,13 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "shapeid/fast/identifier.hpp"
 #include "shapeid/tests/fast/cases.hpp"
-#include "shapeid/tests/robot/scratch_folder.hpp"
+#include "shapeid/tests/support/files.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 #include "shapeid/tests/support/trot.hpp"
 
 namespace shapeid {
@@ -22,11 +21,6 @@ struct ProgramRun {
   std::string out, err;
 };
 
-std::string text_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 ProgramRun run_example(const std::string& arguments, const std::string& samples) {
   const test::ScratchFolder folder;
   const std::string in = folder.write("samples", samples);
@@ -34,7 +28,7 @@ ProgramRun run_example(const std::string& arguments, const std::string& samples)
   const std::string line =
       fmt::format("'{}' {} <'{}' >'{}' 2>'{}'", SHAPEID_EXAMPLE, arguments, in, out, err);
   const int status = std::system(line.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::text_of(out), test::text_of(err)};
 }
 
 std::string quadruped() {

@@ -3,8 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,7 +14,8 @@
 #include "shapeid/models/version.hpp"
 #include "shapeid/tests/fast/allocations.hpp"
 #include "shapeid/tests/fast/cases.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/support/files.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 #include "shapeid/tests/support/trot.hpp"
 
 namespace shapeid {
@@ -146,10 +146,9 @@ TEST(CInterface, DefaultsAreThoseOfTheIdentifier) {
 
 /// What a rotor of robot.yaml takes is taken off what is fed: I gear^2 ddq, of that joint alone.
 TEST(CInterface, RotorsAreTakenOffTheTorque) {
-  const test::Scratch scratch;
-  std::ifstream notes(test::bundled_file("robot.yaml"));
-  const std::string text(std::istreambuf_iterator<char>(notes), {});
-  const std::string path = scratch.file(
+  const test::ScratchFolder scratch;
+  const std::string text = test::text_of(test::bundled_file("robot.yaml"));
+  const std::string path = scratch.write(
       "robot.yaml", text + "\nrotors: {FL_hip: {inertia: 0.0001220703125, gear: 8}}\n");
   const shapeid_settings settings = defaults();
   const Handle c = bundled_with(&settings, path);
@@ -238,6 +237,32 @@ TEST(CInterface, SaysWhatEndedTheDivisions) {
   const std::vector<Sample> still(10, test::nothing_moves(test::bundled_quadruped()));
   settings.lambda = 1e-6;
   EXPECT_EQ(ending(settings, still), std::pair(SHAPEID_STOP_NOTHING_DIVISIBLE, 0));
+}
+
+TEST(CInterface, SaysWhyAWindowIsDeclined) {
+  const Handle c = bundled(defaults());
+  std::vector<unsigned char> flags;
+  EXPECT_EQ(shapeid_last_outcome(nullptr), SHAPEID_OUTCOME_NONE);
+  EXPECT_EQ(shapeid_last_outcome(c.get()), SHAPEID_OUTCOME_NONE);
+  const auto last_status = [&](double factor) {
+    shapeid_status status = SHAPEID_WRONG_ARGUMENT;
+    for (Sample s : trot_of(10)) {
+      s.tau *= factor;
+      const shapeid_sample sample = plain(s, flags);
+      status = shapeid_feed(c.get(), &sample);
+    }
+    return status;
+  };
+  // A first window beyond a hundred times all weight is none of this robot's.
+  EXPECT_EQ(last_status(1e5), SHAPEID_WINDOW_DECLINED);
+  EXPECT_EQ(shapeid_last_outcome(c.get()), SHAPEID_OUTCOME_OUT_OF_SCALE);
+  Sample unknown = trot_of(1).front();
+  unknown.time = std::numeric_limits<double>::quiet_NaN();
+  const shapeid_sample declined = plain(unknown, flags);
+  EXPECT_EQ(shapeid_feed(c.get(), &declined), SHAPEID_SAMPLE_DECLINED);
+  EXPECT_EQ(shapeid_last_outcome(c.get()), SHAPEID_OUTCOME_OUT_OF_SCALE);
+  EXPECT_EQ(last_status(1.0), SHAPEID_ANSWERED);
+  EXPECT_EQ(shapeid_last_outcome(c.get()), SHAPEID_OUTCOME_SOLVED);
 }
 
 TEST(CInterface, PassesMeasuredForces) {
@@ -355,9 +380,9 @@ TEST(CInterface, SamplesOfAnotherRobotAreRefused) {
 
 // A body without joints has nothing to point at.
 TEST(CInterface, EmptyArraysMayBeNull) {
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   const std::string urdf =
-      scratch.file("body.urdf", R"(<robot name="body"><link name="base"><inertial><mass value="2"/>
+      scratch.write("body.urdf", R"(<robot name="body"><link name="base"><inertial><mass value="2"/>
 <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
 <collision><geometry><box size="0.5 0.5 0.5"/></geometry></collision></link></robot>)");
   shapeid_settings settings = defaults();
@@ -414,11 +439,15 @@ TEST(CInterface, SaysWhatIsWrongWithSettings) {
                "patience");
   EXPECT_PRED2(is_one_line_with, complaint_after([&](auto& s) { s.weight = &one; }), "weight");
   EXPECT_PRED2(is_one_line_with, complaint_after([](auto& s) { s.weight_count = 18; }), "weight");
-  EXPECT_PRED2(is_one_line_with, complaint_after([&](auto& s) {
-                 s.weight = &one;
-                 s.weight_count = 1;
-               }),
-               "weight");
+  // None of these is read: there is one number only. The last two are negative counts in C.
+  for (const size_t count :
+       {size_t{1}, size_t{17}, size_t{19}, SIZE_MAX / 2, SIZE_MAX - 17, SIZE_MAX}) {
+    EXPECT_PRED2(is_one_line_with, complaint_after([&](auto& s) {
+                   s.weight = &one;
+                   s.weight_count = count;
+                 }),
+                 "weight and weight_count");
+  }
   EXPECT_PRED2(is_one_line_with, complaint_after([](auto& s) { s.root = SHAPEID_FIXED_ROOT; }),
                "which links");
   EXPECT_PRED2(is_one_line_with, complaint_after([](auto& s) {

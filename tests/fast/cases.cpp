@@ -3,6 +3,7 @@
 #include <rapidcheck.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "shapeid/models/robot_yaml.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
@@ -179,6 +180,13 @@ std::vector<NamedRobot> corner_robots() {
   robot.contacts.front().kind = ContactKind::plane;
   robots.push_back({"a flat foot", robot});
   return robots;
+}
+
+Robot corner_robot(const std::string& name) {
+  for (const NamedRobot& candidate : corner_robots()) {
+    if (candidate.name == name) return candidate.robot;
+  }
+  throw std::invalid_argument(name);
 }
 
 std::vector<Sample> corner_samples(const Robot& robot) {

@@ -50,6 +50,9 @@ struct NamedRobot {
 /// sixty links; the bundled quadruped.
 [[nodiscard]] std::vector<NamedRobot> corner_robots();
 
+/// The one of this name.
+[[nodiscard]] Robot corner_robot(const std::string& name);
+
 /// Nothing moves and nothing pulls; the same with all contacts touching; stretched legs (all joints
 /// at zero); each number that the dynamics read alone at one; joints sweeping several turns;
 /// velocities from 1e-6 to 1e6. Forces are measured.

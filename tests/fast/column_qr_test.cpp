@@ -25,9 +25,9 @@ using test::few_hundred_eps;
 using test::scaled;
 
 /// The columns that should be in the set, kept beside it.
-class Shadowed {
+class ShadowedQr {
  public:
-  Shadowed(Index rows, Index most, std::uint64_t seed)
+  ShadowedQr(Index rows, Index most, std::uint64_t seed)
       : qr_(rows, most),
         draw_(seed),
         b_(VectorXd::NullaryExpr(rows, [&] { return draw_.sign(); })) {
@@ -138,7 +138,7 @@ RC_GTEST_PROP(ColumnQr, ColumnsComeAndGo, ()) {
   const Index rows = *rc::gen::inRange<Index>(1, 30);
   const Index most = *rc::gen::inRange<Index>(1, rows + 1);
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-  Shadowed set(rows, most, seed);
+  ShadowedQr set(rows, most, seed);
   test::Draw draw(seed + 1);
   for (int step = 0; step < 60; ++step) {
     const auto count = static_cast<Index>(set.columns().size());
@@ -154,7 +154,7 @@ RC_GTEST_PROP(ColumnQr, ColumnsComeAndGo, ()) {
 
 // Columns that leave take room for reflections until a set must be started again.
 TEST(ColumnQr, IsCrowdedInTheEndAndStartsAgain) {
-  Shadowed set(12, 12, 5);
+  ShadowedQr set(12, 12, 5);
   for (int k = 0; k < 12; ++k) {
     ASSERT_EQ(set.push(set.random_column(12), 12), ColumnQr::Push::entered);
   }
@@ -168,7 +168,7 @@ TEST(ColumnQr, IsCrowdedInTheEndAndStartsAgain) {
 
 RC_GTEST_PROP(ColumnQr, SaysWhatADependentColumnIsMadeOf, ()) {
   const Index rows = *rc::gen::inRange<Index>(2, 25);
-  Shadowed set(rows, rows, *rc::gen::arbitrary<std::uint64_t>());
+  ShadowedQr set(rows, rows, *rc::gen::arbitrary<std::uint64_t>());
   const Index count = *rc::gen::inRange<Index>(1, rows);
   for (Index k = 0; k < count; ++k) {
     static_cast<void>(set.push(set.random_column(rows), rows));
@@ -191,7 +191,7 @@ RC_GTEST_PROP(ColumnQr, SaysWhatADependentColumnIsMadeOf, ()) {
 }
 
 TEST(ColumnQr, RefusesZerosAndMoreColumnsThanRows) {
-  Shadowed set(3, 5, 1);
+  ShadowedQr set(3, 5, 1);
   EXPECT_EQ(set.push(VectorXd::Zero(3), 3), ColumnQr::Push::dependent);
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(set.push(set.random_column(3), 3), ColumnQr::Push::entered);

@@ -16,7 +16,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const std::string none;  // no difference
+using test::none;
 
 /// J and J^T f of one robot by both paths.
 class Contacts {

@@ -11,6 +11,8 @@
 
 namespace shapeid::test {
 
+inline const std::string none;  ///< no difference
+
 /// Empty if two matrices agree: every entry's difference is a few hundred roundings of `scale`,
 /// with `size` the length of the sums involved. Otherwise the first entry that differs, row by row,
 /// both numbers, and the input.

@@ -10,6 +10,7 @@
 #include "shapeid/fast/identifier.hpp"
 #include "shapeid/tests/fast/allocations.hpp"
 #include "shapeid/tests/fast/cases.hpp"
+#include "shapeid/tests/fast/window_runs.hpp"
 #include "shapeid/tests/support/trot.hpp"
 
 namespace shapeid {
@@ -23,16 +24,6 @@ std::vector<double*> numbers(Sample& s) {
   std::vector<double*> all = test::inputs(s);
   for (double& tau : s.tau) all.push_back(&tau);
   return all;
-}
-
-/// Steps of the active set in one window: 101 + 4 (ten a link + shapes) a solve (mass_solver.cpp).
-int most_iterations(const BodyModel& model, int divisions) {
-  int sum = 0;
-  for (int k = 0; k <= divisions; ++k) {
-    sum += 101 + 4 * (10 * static_cast<int>(model.free_links.size()) +
-                      static_cast<int>(model.shapes.size()) + k);
-  }
-  return sum;
 }
 
 RC_GTEST_PROP(FastHostileWindows, AllocateNothingAndStayBounded, ()) {
@@ -77,7 +68,7 @@ RC_GTEST_PROP(FastHostileWindows, AllocateNothingAndStayBounded, ()) {
     }
   });
   RC_ASSERT(requests == 0U);
-  RC_ASSERT(iterations <= most_iterations(model, divisions));
+  RC_ASSERT(iterations <= test::most_iterations(model, divisions));
   RC_ASSERT(sound);
 
   // What follows is answered again, once every bad sample has left the window.

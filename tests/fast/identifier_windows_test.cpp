@@ -30,18 +30,7 @@ using fast::IdentifierSettings;
 using Fed = Identifier::Fed;
 
 /// Of the squared torques: ten times what is promised of every answer's gradient.
-constexpr double objective_bound = 1e-9;
-
-/// Steps of the active set that a call may take: 100 + 4 (ten a link + shapes), stated in
-/// mass_solver.cpp.
-int most_iterations(const BodyModel& model, int divisions) {
-  int sum = 0;
-  for (int k = 0; k <= divisions; ++k) {
-    const auto links = static_cast<int>(model.free_links.size());
-    sum += 101 + 4 * (10 * links + static_cast<int>(model.shapes.size()) + k);
-  }
-  return sum;
-}
+constexpr double answer_bound = 1e-9;
 
 void expect_as_reference(const test::WindowRuns& runs) {
   fmt::print("  {}\n", describe(runs));
@@ -49,7 +38,7 @@ void expect_as_reference(const test::WindowRuns& runs) {
   EXPECT_EQ(runs.declined, 0);
   EXPECT_EQ(runs.stopped, 0);
   EXPECT_LT(runs.worst_objective, test::few_hundred_eps);
-  EXPECT_LT(runs.worst_gap, objective_bound);
+  EXPECT_LT(runs.worst_gap, answer_bound);
   EXPECT_LT(runs.worst_filter, test::few_hundred_eps);
 }
 
@@ -79,7 +68,7 @@ TEST_P(FastIdentifierTrots, AsTheReference) {
       test::run_windows(robot, model, settings, trot_of(robot, count, pace.noise));
   expect_as_reference(runs);
   EXPECT_EQ(runs.six_rows, count);  // two feet on regular legs, always
-  EXPECT_LE(runs.iterations, most_iterations(model, pace.divisions));
+  EXPECT_LE(runs.iterations, test::most_iterations(model, pace.divisions));
   EXPECT_EQ(runs.parted, 0);
 }
 
@@ -163,15 +152,8 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector{2, 3, 4, 5, 6, 7}, std::vector{1, 2, 3, 4, 5, 6, 7}),
     [](const auto& instance) { return fmt::format("Links{}", fmt::join(instance.param, "")); });
 
-Robot corner_robot(const std::string& name) {
-  for (const test::NamedRobot& candidate : test::corner_robots()) {
-    if (candidate.name == name) return candidate.robot;
-  }
-  throw std::invalid_argument(name);
-}
-
 TEST(FastIdentifierWindows, OneLinkAsTheReference) {
-  const Robot robot = corner_robot("a foot alone");
+  const Robot robot = test::corner_robot("a foot alone");
   IdentifierSettings settings;
   settings.contacts = ContactTreatment::measured;
   settings.expected_mass = 1.0;
@@ -181,7 +163,7 @@ TEST(FastIdentifierWindows, OneLinkAsTheReference) {
 }
 
 TEST(FastIdentifierWindows, SixtyLinksAsTheReference) {
-  const Robot robot = corner_robot("sixty links");
+  const Robot robot = test::corner_robot("sixty links");
   IdentifierSettings settings;
   settings.contacts = ContactTreatment::measured;
   settings.expected_mass = 40.0;
@@ -225,8 +207,8 @@ TEST(FastIdentifierWindows, AShockLeavesNoTrace) {
       answered_later += k > shocked ? 1 : 0;
       const double scale = samples[k].tau.squaredNorm();
       EXPECT_LT(std::abs(disturbed.answer().value.total() - clean.answer().value.total()),
-                objective_bound * scale);
-      EXPECT_LT(disturbed.answer().gap, objective_bound * scale);
+                answer_bound * scale);
+      EXPECT_LT(disturbed.answer().gap, answer_bound * scale);
     }
     EXPECT_GT(shaken, 0);
     EXPECT_GT(answered_later, 3);

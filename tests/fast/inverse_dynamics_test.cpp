@@ -14,7 +14,7 @@
 namespace shapeid {
 namespace {
 
-const std::string none;  // no difference
+using test::none;
 
 std::string difference(fast::InverseDynamics& dynamics, fast::Kinematics& kinematics,
                        const Robot& robot, const Eigen::VectorXd& Phi, const Sample& s) {

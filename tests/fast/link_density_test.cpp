@@ -37,9 +37,9 @@ MatrixXd matrix(const LinkDensity::Rows& rows) {
 
 /// Rows of shapes that come and go, kept beside what is tested. They lie in a space of `rank`
 /// dimensions; lengths differ by a factor of a hundred.
-class Shadowed {
+class ShadowedDensity {
  public:
-  Shadowed(int rank, std::uint64_t seed) : draw_(seed) {
+  ShadowedDensity(int rank, std::uint64_t seed) : draw_(seed) {
     basis_ = MatrixXd::NullaryExpr(rank, 10, [&] { return draw_.sign(); });
     density_.clear();
   }
@@ -100,7 +100,7 @@ class Shadowed {
 
 RC_GTEST_PROP(LinkDensity, RowsOfTheShapesThatAreThere, ()) {
   const int rank = *rc::gen::inRange(1, 11);
-  Shadowed shadowed(rank, *rc::gen::arbitrary<std::uint64_t>());
+  ShadowedDensity shadowed(rank, *rc::gen::arbitrary<std::uint64_t>());
   for (int step = 0; step < 60; ++step) {
     shadowed.step();
     shadowed.check();

@@ -5,9 +5,14 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cstddef>
+#include <limits>
 #include <numeric>
 #include <vector>
 
+#include "shapeid/fast/tableau.hpp"
+#include "shapeid/fast/tableau_pivots.hpp"
+#include "shapeid/fast/wide.hpp"
 #include "shapeid/tests/fast/judged_guess.hpp"
 
 namespace shapeid::fast {
@@ -65,6 +70,26 @@ TEST(LinkTable, WithoutForcesIsEmpty) {
   ASSERT_TRUE(judged.start(given.R, 0.0, {1, 4, 7}));
   ASSERT_TRUE(judged.settles());
   EXPECT_EQ(judged.guess().answer().used, 0U);
+}
+
+/// Where rounding has made a mass's entry of K negative, or nothing, holding the mass at zero has
+/// no cost that could stand out. The first place, which then is found, is used by no shape here.
+TEST(LinkTable, StopsWhereRoundingLeavesNoPlaceToLeave) {
+  tableau::Tableau table;
+  tableau::Problem problem;
+  for (std::size_t p = 0; p < 3; ++p) table.m.part[p] = table.diagonal.part[p] = Four{} + 1.0;
+  table.places = 3;
+  table.used = 0b110;
+  table.count = 2;
+  // The mass's square over these is below -1, infinite, or no number.
+  for (const double entry : {-1e-3, -0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    table.m[1] = -1.0;
+    table.diagonal[1] = entry;
+    int pivots = 0;
+    EXPECT_EQ(tableau::pivot(table, problem, 5, pivots), tableau::Stop::endless);
+    EXPECT_EQ(table.count, 2);
+    EXPECT_EQ(table.used, 0b110U);
+  }
 }
 
 }  // namespace

@@ -542,5 +542,28 @@ TEST(FastMassEdges, ManyDivisionsBeforeOneSolution) {
   }
 }
 
+// A window that declines leaves nothing to solve again for; shapes may be divided all the same.
+TEST(FastMassEdges, DividesAfterAFirstWindowThatDeclined) {
+  const TriangleCase given = small_case(1, false);
+  MassSolver solver(1, given.shapes() + 1);
+  load(given, solver);
+  ASSERT_EQ(solver.solve(MatrixXd::Constant(11, 11, nan)), Outcome::not_finite);
+  const double half = given.problem.V[0] / 2.0;
+  ASSERT_TRUE(solver.divide(0, given.column(0), half, given.column(0), half));
+  EXPECT_EQ(solver.solve(given.R), Outcome::solved);
+  EXPECT_EQ(solver.solve_again(), Outcome::solved);
+}
+
+#ifndef NDEBUG
+TEST(FastMassEdgesDeathTest, SolvingAgainForNothingEndsTheProgram) {
+  const TriangleCase given = small_case(1, false);
+  MassSolver solver(1, given.shapes());
+  load(given, solver);
+  EXPECT_DEATH(static_cast<void>(solver.solve_again()), "no triangle has been solved for");
+  ASSERT_EQ(solver.solve(MatrixXd::Constant(11, 11, nan)), Outcome::not_finite);
+  EXPECT_DEATH(static_cast<void>(solver.solve_again()), "no triangle has been solved for");
+}
+#endif
+
 }  // namespace
 }  // namespace shapeid::fast

@@ -25,7 +25,7 @@ using fast::Outcome;
 using test::few_hundred_eps;
 using test::TriangleCase;
 
-TriangleCase any_case(bool density_term) {
+TriangleCase any_problem(bool density_term) {
   return test::body_case(*rc::gen::arbitrary<std::uint64_t>(),
                          {.links = *rc::gen::inRange(1, 5),
                           .shapes_a_link = *rc::gen::inRange(0, 25),
@@ -53,7 +53,7 @@ void expect_equal(const TriangleCase& given, const Eigen::VectorXd& m1, const Ei
 }
 
 RC_GTEST_PROP(FastMassLaws, WarmFromAnyStartEqualsCold, ()) {
-  const TriangleCase given = any_case(*rc::gen::arbitrary<bool>());
+  const TriangleCase given = any_problem(*rc::gen::arbitrary<bool>());
   MassSolver solver(given.link_count(), given.shapes());
   load(given, solver);
   test::start_at(test::any_start(*rc::gen::arbitrary<std::uint64_t>(), given), solver);
@@ -72,7 +72,7 @@ RC_GTEST_PROP(FastMassLaws, WarmFromAnyStartEqualsCold, ()) {
 }
 
 RC_GTEST_PROP(FastMassLaws, OneWindowAfterAnother, ()) {
-  TriangleCase given = any_case(*rc::gen::arbitrary<bool>());
+  TriangleCase given = any_problem(*rc::gen::arbitrary<bool>());
   MassSolver solver(given.link_count(), given.shapes());
   load(given, solver);
   for (const double change : {0.0, 1e-3, 0.5}) {
@@ -84,7 +84,7 @@ RC_GTEST_PROP(FastMassLaws, OneWindowAfterAnother, ()) {
 }
 
 RC_GTEST_PROP(FastMassLaws, PermutingShapesPermutesMasses, ()) {
-  const TriangleCase given = any_case(*rc::gen::arbitrary<bool>());
+  const TriangleCase given = any_problem(*rc::gen::arbitrary<bool>());
   std::vector<int> order(static_cast<std::size_t>(given.shapes()));
   std::iota(order.begin(), order.end(), 0);
   std::shuffle(order.begin(), order.end(), std::mt19937(*rc::gen::arbitrary<unsigned>()));
@@ -95,7 +95,7 @@ RC_GTEST_PROP(FastMassLaws, PermutingShapesPermutesMasses, ()) {
 
 // F -> c F makes m -> c m: both terms of f are of degree two. Powers of two change no digit.
 RC_GTEST_PROP(FastMassLaws, MassesFollowTheForces, ()) {
-  const TriangleCase given = any_case(*rc::gen::arbitrary<bool>());
+  const TriangleCase given = any_problem(*rc::gen::arbitrary<bool>());
   const double c = *rc::gen::element(std::ldexp(1.0, -30), std::ldexp(1.0, 30), 1e-6, 3e5);
   TriangleCase other = given;
   other.R.rightCols<1>() *= c;
@@ -103,7 +103,7 @@ RC_GTEST_PROP(FastMassLaws, MassesFollowTheForces, ()) {
 }
 
 RC_GTEST_PROP(FastMassLaws, RowsAndLambdaScaleTogether, ()) {
-  const TriangleCase given = any_case(*rc::gen::arbitrary<bool>());
+  const TriangleCase given = any_problem(*rc::gen::arbitrary<bool>());
   const double c = *test::magnitude(1e-4, 1e4);
   TriangleCase other = given;
   other.R *= c;
@@ -113,7 +113,7 @@ RC_GTEST_PROP(FastMassLaws, RowsAndLambdaScaleTogether, ()) {
 
 // A shape in other units of mass: u -> s u, V -> V / s^2, m -> m / s.
 RC_GTEST_PROP(FastMassLaws, ShapesOfAnyUnit, ()) {
-  const TriangleCase given = any_case(*rc::gen::arbitrary<bool>());
+  const TriangleCase given = any_problem(*rc::gen::arbitrary<bool>());
   TriangleCase other = given;
   Eigen::VectorXd units(given.shapes());
   for (double& s : units) s = *test::magnitude(1e-4, 1e4);
@@ -124,7 +124,7 @@ RC_GTEST_PROP(FastMassLaws, ShapesOfAnyUnit, ()) {
 
 // Parts of a divided shape start at its own density; what follows equals a fresh solve.
 RC_GTEST_PROP(FastMassLaws, DivisionsEqualFreshProblems, ()) {
-  TriangleCase given = any_case(*rc::gen::arbitrary<bool>());
+  TriangleCase given = any_problem(*rc::gen::arbitrary<bool>());
   RC_PRE(given.shapes() > 0);
   constexpr int divisions = 12;
   MassSolver solver(given.link_count(), given.shapes() + divisions);

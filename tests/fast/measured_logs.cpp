@@ -2,22 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
 #include "shapeid/models/log.hpp"
 #include "shapeid/models/motion.hpp"
 #include "shapeid/models/urdf.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
 
-std::filesystem::path data(const std::string& file) {
-  const char* const folder = std::getenv("SHAPEID_DATA");
-  return std::filesystem::path(folder != nullptr ? folder : SHAPEID_SOURCE_DIR "/../shared/data") /
-         file;
-}
+std::filesystem::path data(const std::string& file) { return data_folder() / file; }
 
 }  // namespace
 

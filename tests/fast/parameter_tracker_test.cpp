@@ -6,6 +6,8 @@
 
 #include <Eigen/LU>
 
+#include <limits>
+
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -38,12 +40,34 @@ TEST(ParameterTracker, StaysANumberWhereOneIsKnownFarBetter) {
     Triangle window(n);
     MatrixXd taken = rows;
     window.absorb(taken);
-    tracker.measure(window, 1e-28);
-    tracker.drift(0.02);
+    ASSERT_TRUE(tracker.measure(window, 1e-28));
+    ASSERT_TRUE(tracker.drift(0.02));
     ASSERT_TRUE(tracker.mean().allFinite()) << k;
     ASSERT_TRUE(tracker.covariance().allFinite()) << k;
   }
   EXPECT_NEAR(rows.row(0).head(n).dot(tracker.mean()), 7.0, 1e-6);
+}
+
+/// Rows that would be no numbers: the belief stays as it was, to the bit, and goes on.
+TEST(ParameterTracker, KeepsItsBeliefWhereNoOtherComesAbout) {
+  constexpr Index n = 3;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  ParameterTracker tracker(VectorXd::Ones(n), VectorXd::Ones(n), VectorXd::Constant(n, 1e100));
+  const MatrixXd before = tracker.rows().R();
+  Triangle window(n);
+  MatrixXd rows = MatrixXd::Identity(n, n + 1);
+  window.absorb(rows);
+  Triangle spoilt(n);
+  rows = MatrixXd::Constant(1, n + 1, nan);
+  spoilt.absorb(rows);
+  EXPECT_FALSE(tracker.measure(spoilt, 1.0));
+  EXPECT_FALSE(tracker.measure(window, 1e-300));  // squares beyond what a log may add up to
+  EXPECT_FALSE(tracker.drift(1e200));             // a variance that is no number
+  EXPECT_EQ(tracker.rows().R(), before);
+  EXPECT_TRUE(tracker.loosen());
+  EXPECT_TRUE(tracker.measure(window, 1.0));
+  EXPECT_TRUE(tracker.mean().allFinite());
+  EXPECT_TRUE(tracker.covariance().allFinite());
 }
 
 RC_GTEST_PROP(ParameterTracker, EqualsTheTextbook, ()) {
@@ -60,11 +84,11 @@ RC_GTEST_PROP(ParameterTracker, EqualsTheTextbook, ()) {
   for (int k = 0; k < steps; ++k) {
     if (*rc::gen::arbitrary<bool>()) {
       const double seconds = *test::magnitude(0.01, 10.0);
-      tracker.drift(seconds);
+      RC_ASSERT(tracker.drift(seconds));
       expected.P.diagonal() += seconds * wander.cwiseAbs2();
     }
     if (*rc::gen::inRange(0, 4) == 0) {
-      tracker.loosen();
+      RC_ASSERT(tracker.loosen());
       expected.P.diagonal() += spread.cwiseAbs2();
     }
     const auto rows = *rc::gen::inRange<Index>(1, 12);
@@ -74,7 +98,7 @@ RC_GTEST_PROP(ParameterTracker, EqualsTheTextbook, ()) {
     expected.measure(Ab.leftCols(n), Ab.col(n), variance);
     Triangle window(n);
     window.absorb(Ab);  // takes them apart
-    tracker.measure(window, variance);
+    RC_ASSERT(tracker.measure(window, variance));
 
     // Condition of what is inverted on either way, from the spreads and variances above.
     constexpr double condition = 1e6;

@@ -226,6 +226,47 @@ TEST(EvenDensity, HundredsOfShapesOnALinkAsDenseLeastSquares) {
   EXPECT_LT(std::max(filling, coming_and_going), damped_rounding);
 }
 
+/// A column that rounding makes dependent when the set is made anew, here by another one in its
+/// place: from then on shapes are counted, and no place of the factorisation is one of theirs.
+TEST(ManyLinks, CountsItsShapesWhereItIsNotSound) {
+  constexpr int most = 10;
+  ShapeColumns columns(1, most + 1);
+  for (int j = 0; j < most; ++j) {
+    ASSERT_TRUE(columns.append(0, ShapeColumns::Column::Unit(j)));
+  }
+  ASSERT_TRUE(columns.append(0, ShapeColumns::Column::Unit(most - 1)));
+  MatrixXd R = MatrixXd::Identity(11, 11);
+  R.col(10).setOnes();
+  ManyLinks set(columns);
+  set.start(R);
+  for (int j = 0; j < most; ++j) ASSERT_TRUE(set.enter(j));
+  columns.replace(most - 1, ShapeColumns::Column::Unit(most - 2));
+  int passive = most, turns = 0;
+  for (; turns < most - 2 && set.sound(); ++turns) {
+    set.leave(0);
+    --passive;
+    if (!set.sound()) continue;
+    ASSERT_TRUE(set.enter(turns));
+    ++passive;
+  }
+  ASSERT_FALSE(set.sound());  // there was no room left for reflections
+  if (passive < most) {
+    EXPECT_TRUE(set.enter(turns - 1));
+    ++passive;
+  }
+  EXPECT_FALSE(set.enter(most));  // one more than there are unknowns
+  while (passive > 0) {
+    set.leave(--passive);
+    EXPECT_TRUE(set.target().allFinite());
+  }
+  EXPECT_TRUE(set.enter(0));
+  EXPECT_FALSE(set.sound());
+  set.start(R);
+  ASSERT_TRUE(set.sound());
+  ASSERT_TRUE(set.enter(0));
+  EXPECT_NEAR(set.target()[0], 1.0, 1e-15);
+}
+
 /// Rounding of a force over the root of lambda would be a mass.
 TEST(EvenDensity, WhatNoRowFeelsIsZero) {
   TriangleCase given = test::body_case(5, {.links = 2, .shapes_a_link = 8});

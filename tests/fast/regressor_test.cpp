@@ -21,7 +21,7 @@ using test::first_difference;
 using test::inputs;
 using test::nothing_moves;
 
-const std::string none;  // no difference
+using test::none;
 
 static_assert(std::is_nothrow_invocable_v<fast::Regressor, const Sample&>);
 

@@ -13,6 +13,7 @@
 #include "shapeid/reference/projection.hpp"
 #include "shapeid/tests/fast/cases.hpp"
 #include "shapeid/tests/fast/expected_rows.hpp"
+#include "shapeid/tests/fast/first_difference.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -25,7 +26,7 @@ using fast::SampleRows;
 using fast::Verdict;
 using test::expected_rows;
 
-const std::string none;  // no difference
+using test::none;
 
 constexpr ContactTreatment project = ContactTreatment::project;
 const std::vector<ContactTreatment> treatments = {project, ContactTreatment::measured,
@@ -106,14 +107,6 @@ TEST(FastSampleRows, CornerCasesAsTheReference) {
   }
 }
 
-/// Robot number `index` of this name.
-Robot corner_robot(const std::string& wanted) {
-  for (const auto& [name, robot] : test::corner_robots()) {
-    if (name == wanted) return robot;
-  }
-  throw std::runtime_error("no such robot: " + wanted);
-}
-
 /// Whether six rows were enough for a robot that stands with these joints on all contacts.
 bool by_six_rows(const Robot& robot, const VectorXd& q, const BodyModel& model,
                  const VectorXd& weight) {
@@ -131,22 +124,22 @@ bool by_six_rows(const Robot& robot, const VectorXd& q) {
 
 TEST(SixRows, ServeRegularLegsAlone) {
   const VectorXd bent = Eigen::Vector3d(0.1, 0.8, -1.5), straight = Eigen::Vector3d(0.1, 0.8, 0.0);
-  const Robot leg = corner_robot("one leg");
+  const Robot leg = test::corner_robot("one leg");
   EXPECT_TRUE(by_six_rows(leg, bent));
-  EXPECT_TRUE(by_six_rows(corner_robot("no contact"), straight));
-  EXPECT_TRUE(by_six_rows(corner_robot("bundled quadruped"), bent.replicate<4, 1>()));
+  EXPECT_TRUE(by_six_rows(test::corner_robot("no contact"), straight));
+  EXPECT_TRUE(by_six_rows(test::corner_robot("bundled quadruped"), bent.replicate<4, 1>()));
 
   EXPECT_FALSE(by_six_rows(leg, straight));
   EXPECT_FALSE(by_six_rows(leg, Eigen::Vector3d(0.1, 0.8, std::numbers::pi)));
   EXPECT_FALSE(by_six_rows(leg, Eigen::Vector3d(0.1, 0.8, 1e-4)));
-  EXPECT_FALSE(by_six_rows(corner_robot("a foot on the base"), bent));
-  EXPECT_FALSE(by_six_rows(corner_robot("a contact named twice"), bent));
-  EXPECT_FALSE(by_six_rows(corner_robot("a flat foot"), bent));
-  EXPECT_FALSE(by_six_rows(corner_robot("a foot alone"), VectorXd()));
+  EXPECT_FALSE(by_six_rows(test::corner_robot("a foot on the base"), bent));
+  EXPECT_FALSE(by_six_rows(test::corner_robot("a contact named twice"), bent));
+  EXPECT_FALSE(by_six_rows(test::corner_robot("a flat foot"), bent));
+  EXPECT_FALSE(by_six_rows(test::corner_robot("a foot alone"), VectorXd()));
 }
 
 TEST(SixRows, DeclineWhereTheCovarianceIsNearSingular) {
-  const Robot leg = corner_robot("one leg");
+  const Robot leg = test::corner_robot("one leg");
   const VectorXd bent = Eigen::Vector3d(0.1, 0.8, -1.5);
   VectorXd weight = VectorXd::Ones(9);
   weight.head<6>().setConstant(1e3);  // base rows known much better than torques
@@ -155,7 +148,7 @@ TEST(SixRows, DeclineWhereTheCovarianceIsNearSingular) {
 
 // With base rows that hardly count the covariance is well conditioned; the leg is not.
 TEST(SixRows, DeclineNearSingularLegsWhateverTheWeights) {
-  const Robot leg = corner_robot("one leg");
+  const Robot leg = test::corner_robot("one leg");
   VectorXd weight = VectorXd::Ones(9);
   weight.head<6>().setConstant(1e-12);
   const BodyModel model = test::base_model(leg);
@@ -164,7 +157,7 @@ TEST(SixRows, DeclineNearSingularLegsWhateverTheWeights) {
 }
 
 TEST(SixRows, DeclineLegsWithAFreeLink) {
-  const Robot leg = corner_robot("one leg");
+  const Robot leg = test::corner_robot("one leg");
   BodyModel model = test::base_model(leg);
   model.free_links.push_back(2);
   model.shapes.push_back({2, model.shapes.front().shape, "0"});
@@ -173,7 +166,7 @@ TEST(SixRows, DeclineLegsWithAFreeLink) {
 
 // On a robot as it walks both paths agree to the last digits, not only to what a bad leg may lose.
 TEST(SixRows, AgreeWithTheGeneralPathToTheLastDigits) {
-  const Robot robot = corner_robot("bundled quadruped");
+  const Robot robot = test::corner_robot("bundled quadruped");
   const VectorXd bent = Eigen::Vector3d(0.1, 0.8, -1.5);
   BodyModel model = test::base_model(robot), with_shank = model;
   with_shank.free_links.push_back(3);  // a leg link that is sought makes the path the general one
@@ -197,7 +190,7 @@ TEST(SixRows, AgreeWithTheGeneralPathToTheLastDigits) {
 }
 
 TEST(FastSampleRows, ANumberThatIsNotFiniteIsDeclined) {
-  const Robot robot = corner_robot("bundled quadruped");
+  const Robot robot = test::corner_robot("bundled quadruped");
   const BodyModel model = test::base_model(robot);
   SampleRows made(robot, model, project, VectorXd::Ones(robot.dof()));
   Sample s = test::corner_samples(robot).back();
@@ -221,8 +214,23 @@ TEST(FastSampleRows, ANumberThatIsNotFiniteIsDeclined) {
   EXPECT_EQ(made.update(s), Verdict::taken);
 }
 
+TEST(FastSampleRows, ATimeThatIsNotFiniteIsDeclined) {
+  const Robot robot = test::corner_robot("bundled quadruped");
+  SampleRows made(robot, test::base_model(robot), project, VectorXd::Ones(robot.dof()));
+  Sample s = test::corner_samples(robot).back();
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity()}) {
+    s.time = bad;
+    EXPECT_EQ(made.update(s), Verdict::not_finite);
+    EXPECT_EQ(made.rows().rows(), 0);
+  }
+  s.time = -1e200;  // whatever clock it is of
+  EXPECT_EQ(made.update(s), Verdict::taken);
+}
+
 TEST(FastSampleRows, WithoutMeasuredForcesASampleIsDeclined) {
-  const Robot robot = corner_robot("bundled quadruped");
+  const Robot robot = test::corner_robot("bundled quadruped");
   SampleRows made(robot, test::base_model(robot), ContactTreatment::measured,
                   VectorXd::Ones(robot.dof()));
   Sample s = test::corner_samples(robot).back();
@@ -233,7 +241,7 @@ TEST(FastSampleRows, WithoutMeasuredForcesASampleIsDeclined) {
 
 #ifndef NDEBUG
 TEST(FastSampleRowsDeathTest, SampleOfAnotherRobotEndsTheProgram) {
-  const Robot robot = corner_robot("bundled quadruped");
+  const Robot robot = test::corner_robot("bundled quadruped");
   SampleRows made(robot, test::base_model(robot), project, VectorXd::Ones(robot.dof()));
   EXPECT_DEATH(static_cast<void>(made.update(Sample())), "an entry for each joint");
   Sample s = test::nothing_moves(robot);

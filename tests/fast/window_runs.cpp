@@ -166,6 +166,15 @@ WindowRuns run_windows(const Robot& robot, const BodyModel& model,
   return runs;
 }
 
+int most_iterations(const BodyModel& model, int divisions) {
+  int sum = 0;
+  for (int k = 0; k <= divisions; ++k) {
+    const auto links = static_cast<int>(model.free_links.size());
+    sum += 101 + 4 * (10 * links + static_cast<int>(model.shapes.size()) + k);
+  }
+  return sum;
+}
+
 std::string describe(const WindowRuns& runs) {
   return fmt::format(
       "{} windows, {} declined, {} equal divisions, {} windows part at a division (v {:.1e} apart) "

@@ -32,6 +32,10 @@ struct WindowRuns {
                                      const fast::IdentifierSettings& settings,
                                      const std::vector<Sample>& samples);
 
+/// Steps of the active set that the solves of one window may take: each 100 + 4 (ten a link +
+/// shapes), stated in mass_solver.cpp, and one.
+[[nodiscard]] int most_iterations(const BodyModel& model, int divisions);
+
 /// In one line.
 [[nodiscard]] std::string describe(const WindowRuns& runs);
 

@@ -12,6 +12,7 @@
 #include "shapeid/reference/window.hpp"
 #include "shapeid/tests/fast/cases.hpp"
 #include "shapeid/tests/fast/expected_rows.hpp"
+#include "shapeid/tests/fast/first_difference.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -24,7 +25,7 @@ using fast::Verdict;
 using fast::Window;
 using test::ExpectedRows;
 
-const std::string none;  // no difference
+using test::none;
 
 static_assert(noexcept(std::declval<Window&>().add(std::declval<const Sample&>())));
 static_assert(noexcept(std::declval<Window&>().triangle()));

@@ -10,9 +10,9 @@
 #include "shapeid/models/motion.hpp"
 #include "shapeid/models/sample_builder.hpp"
 #include "shapeid/models/simbody/simulation.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/simulation/quadruped.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
@@ -86,7 +86,7 @@ TEST(Sensors, AccelerometerAtRestReadsGravityInItsAxes) {
 TEST(Sensors, ALogWithoutNoiseReadsBackAsTheTruth) {
   const Robot robot = test::quadruped();
   Sensors sensors(robot, notes(), {false, true, 1});
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   const std::string path = scratch.path("trot.csv");
   const auto truth = trot(0.9);
   LogWriter writer(path, sensors.columns());

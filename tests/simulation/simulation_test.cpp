@@ -258,6 +258,40 @@ TEST(Simulation, WorkOfJointsAndGroundIsTheChangeOfEnergy) {
   EXPECT_LT(fine.error, 1e-6 * fine.work);
 }
 
+// Beside what the load brings and takes, moving along already.
+TEST(Simulation, WorkIsCountedOnWhereALoadComesAndGoes) {
+  SimulationOptions options = short_run(2);
+  options.accuracy = 1e-6;
+  options.load = corner_load(0.05, 0.02);
+  options.load_from = 0.6;
+  options.load_until = 1.4;
+  const SimbodyRobot empty(test::quadruped());
+  const SimbodyRobot full(with_load(test::quadruped(), *options.load));
+  const auto energy_of = [](const SimbodyRobot& simbody, const RobotState& state) {
+    return simbody.kinetic_energy(state) + simbody.potential_energy(state);
+  };
+  const std::vector<SimulatedSample> samples = run(options);
+  double brought = energy_of(empty, samples.front().state), worst = 0.0, work_of_joints = 0.0;
+  bool carried = false;
+  int changes = 0;
+  for (const SimulatedSample& sample : samples) {
+    const double time = sample.sample.time;
+    const bool carries = time >= options.load_from && time < options.load_until;
+    const double energy = energy_of(carries ? full : empty, sample.state);
+    if (carries != carried) {
+      brought += energy - energy_of(carried ? full : empty, sample.state);
+      ++changes;
+    }
+    carried = carries;
+    const double work = sample.drive_work + sample.ground_work;
+    worst = std::max(worst, std::abs(energy - brought - work));
+    work_of_joints = std::max(work_of_joints, std::abs(sample.drive_work));
+  }
+  EXPECT_EQ(changes, 2);
+  EXPECT_GT(work_of_joints, 1.0);  // J
+  EXPECT_LT(worst, 1e-5 * work_of_joints);
+}
+
 TEST(Simulation, SameSeedSameSamplesBitForBit) {
   SimulationOptions options = short_run(4);
   options.duration = 0.8;
