@@ -174,7 +174,8 @@ std::string ranking_picture(const DiagnosisRun& run) {
   for (Eigen::Index i = 0; i < count; ++i) {
     const diagnosis::Ranked& r = run.loop.first_ranking[static_cast<std::size_t>(i)];
     const double error = r.t > 0.0 ? 100.0 * std::abs(r.gain / r.t) : 0.0;
-    script += fmt::format("{} {:.4g} {:.4g} {}\n", i, 100.0 * r.gain, error, gnuplot_entry(r.id));
+    script += fmt::format("{} {:.4g} {:.4g} {}\n", i, 100.0 * r.gain, error,
+                          gnuplot_entry(r.credible ? r.id : r.id + " *"));
   }
   script += fmt::format(
       "EOD\nplot $d using (0):1:(0):2:($1-0.35):($1+0.35):ytic(4) with boxxyerrorbars lc rgb '{}', "

@@ -38,8 +38,9 @@ Table errors_table(const DiagnosisRun& run, const Robot& robot) {
   }
   table.push_back({"all joints", short_number(overall(e.zero, robot)),
                    short_number(overall(e.given, robot)), short_number(overall(e.usual, robot)),
-                   short_number(overall(e.found, robot)), short_number(e.noise_floor.norm()),
-                   short_number(e.unfiltered_found.norm())});
+                   short_number(overall(e.found, robot)),
+                   short_number(overall(e.noise_floor, robot)),
+                   short_number(overall(e.unfiltered_found, robot))});
   return table;
 }
 
@@ -191,7 +192,8 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
   if (!run.loop.first_ranking.empty()) {
     page.picture(ranking_picture(run),
                  "Hypotheses beside rigid links alone, with standard errors. "
-                 "The best was accepted, and the search went on.");
+                 "The best was accepted, and the search went on. *: chance may make as "
+                 "much of it, or its size is not believed.");
   }
   for (int j = 0; j < robot.joint_count(); ++j) {
     page.heading("Joint " + robot.joint(j).name);

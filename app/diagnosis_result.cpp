@@ -75,7 +75,10 @@ json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
 json ranking_json(const std::vector<diagnosis::Ranked>& ranking) {
   json list = json::array();
   for (const diagnosis::Ranked& r : ranking) {
-    list.push_back({{"hypothesis", r.id}, {"heldout_gain", r.gain}, {"gain_over_its_error", r.t}});
+    list.push_back({{"hypothesis", r.id},
+                    {"heldout_gain", r.gain},
+                    {"gain_over_its_error", r.t},
+                    {"credible", r.credible}});
   }
   return list;
 }
@@ -157,6 +160,11 @@ std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
   return text;
 }
 
+/// A dash for an error that does not exist.
+std::string cell(double x, int digits = 4) {
+  return std::isnan(x) ? "-" : fmt::format("{:.{}g}", x, digits);
+}
+
 std::string errors_text(const DiagnosisRun& run, const Robot& robot) {
   const TestErrors& e = run.errors;
   std::string text = fmt::format(
@@ -166,19 +174,20 @@ std::string errors_text(const DiagnosisRun& run, const Robot& robot) {
   const auto names = row_names(robot);
   const int base = robot.base_dof();
   for (Eigen::Index row = 0; row < e.zero.size(); ++row) {
-    text += fmt::format("  {:<20}{:>10.4g}{:>10.4g}{:>10.4g}{:>10.4g}",
-                        names[static_cast<std::size_t>(row)], e.zero[row], e.given[row],
-                        e.usual[row], e.found[row]);
+    text +=
+        fmt::format("  {:<20}{:>10}{:>10}{:>10}{:>10}", names[static_cast<std::size_t>(row)],
+                    cell(e.zero[row]), cell(e.given[row]), cell(e.usual[row]), cell(e.found[row]));
     if (row >= base) {
-      text += fmt::format("{:>14.3g}{:>12.4g}", e.noise_floor[row - base],
-                          e.unfiltered_found[row - base]);
+      text += fmt::format("{:>14}{:>12}", cell(e.noise_floor[row - base], 3),
+                          cell(e.unfiltered_found[row - base]));
     }
     text += "\n";
   }
   return text + fmt::format("  {:<20}{:>10.4g}{:>10.4g}{:>10.4g}{:>10.4g}{:>14.3g}{:>12.4g}  {}\n",
                             "all joints", overall(e.zero, robot), overall(e.given, robot),
-                            overall(e.usual, robot), overall(e.found, robot), e.noise_floor.norm(),
-                            e.unfiltered_found.norm(), joints_unit(robot));
+                            overall(e.usual, robot), overall(e.found, robot),
+                            overall(e.noise_floor, robot), overall(e.unfiltered_found, robot),
+                            joints_unit(robot));
 }
 
 std::string curves_text(const DiagnosisRun& run, const Robot& robot) {

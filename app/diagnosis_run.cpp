@@ -105,6 +105,11 @@ Eigen::MatrixXd unfiltered_torque(const Recording& smooth, const diagnosis::Seri
   return tau;
 }
 
+/// NaN where nothing counts: no error is not an error of zero.
+double root_mean(double squares, double count) {
+  return count > 0.0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
+}
+
 /// Over the entries that count and are numbers.
 Eigen::VectorXd rms_of(
     const Eigen::MatrixXd& rows,
@@ -118,9 +123,13 @@ Eigen::VectorXd rms_of(
       sum += x * x;
       count += 1.0;
     }
-    rms[r] = std::sqrt(sum / std::max(count, 1.0));
+    rms[r] = root_mean(sum, count);
   }
   return rms;
+}
+
+Eigen::VectorXd rms_of(const diagnosis::Series& series) {
+  return rms_of(series.residual, series.counted);
 }
 
 TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
@@ -136,9 +145,9 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
                                       : fmt::format("{}", fmt::join(options.test, ", "));
   errors.samples = run.after.index.size();
   errors.at_rest = 1.0 - zero.counted.cast<double>().rowwise().mean();
-  errors.zero = zero.rms();
-  errors.given = run.before.rms();
-  errors.found = run.after.rms();
+  errors.zero = rms_of(zero);
+  errors.given = rms_of(run.before);
+  errors.found = rms_of(run.after);
   const Eigen::MatrixXd tau = unfiltered_torque(run.test, zero, raw);
   Eigen::MatrixXd smooth(n, tau.cols());
   for (Eigen::Index i = 0; i < tau.cols(); ++i) {
@@ -270,6 +279,28 @@ void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
   }
 }
 
+/// A load that came at some moment of the log has its moment in no other log.
+void note_moments(const Robot& robot, const DiagnoseOptions& options, DiagnosisRun& run) {
+  if (options.test.empty()) return;
+  for (const diagnosis::AppliedEffect& a : run.consistent.model.effects) {
+    if (!a.begins()) continue;
+    run.notes.push_back(fmt::format(
+        "{} came {:.3g} s after the log began, and is tested as if it came that long after the "
+        "test's beginning: hold stretches of the log out instead (without --test)",
+        hypothesis_id(robot, a), a.shape[0]));
+  }
+}
+
+/// What is wrong with another log than the one that is diagnosed names that log.
+template <typename Check>
+void check_other(const std::string& path, const Check& check) {
+  try {
+    check();
+  } catch (const Refusal& refusal) {
+    throw Refusal(refusal.code(), fmt::format("{}: {}", path, refusal.reason()));
+  }
+}
+
 /// What was corrected in the logs belongs to the model that goes with them as they were.
 void add_flags(const std::vector<diagnosis::Found>& flags, DiagnosisRun& run) {
   for (const diagnosis::Found& f : flags) {
@@ -300,7 +331,9 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   std::optional<RecordedLog> earlier;
   if (!options.reference.empty()) {
     earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);
-    diagnosis::check_recording(robot.robot, earlier->recording, earlier->contacts);
+    check_other(options.reference, [&] {
+      diagnosis::check_recording(robot.robot, earlier->recording, earlier->contacts);
+    });
     check_contacts_alike({options.inputs.log, log.motion.contacts_derived},
                          {options.reference, earlier->motion.contacts_derived}, log.contacts);
   }
@@ -323,6 +356,16 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
     throw Refusal("no-data", "nothing is left to test on; give --test, or a longer log");
   }
   diagnosis::check_clocks(robot.robot, log.recording, run.settings);
+  if (earlier) {
+    check_other(options.reference,
+                [&] { diagnosis::check_clocks(robot.robot, earlier->recording, run.settings); });
+  }
+  if (!split) {
+    check_other(fmt::format("{}", fmt::join(options.test, ", ")), [&] {
+      diagnosis::check_meaning(robot.robot, run.test, log.contacts);
+      diagnosis::check_clocks(robot.robot, run.test, run.settings);
+    });
+  }
   std::optional<RecordedLog> rough =
       less_smooth(robot, options, fitted_logs(options), log, fitted_part);
   std::optional<RecordedLog> rough_earlier;
@@ -356,11 +399,10 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   run.after = diagnosis::series(robot.robot, run.settings.rows, run.consistent.model, run.test,
                                 run.test_stride);
   run.errors = test_errors(robot, options, run, raw.recording);
-  run.errors.usual =
+  run.errors.usual = rms_of(
       diagnosis::series(robot.robot, run.settings.rows,
                         diagnosis::usual_model(robot.robot, log.recording, run.settings, run.loop),
-                        run.test, run.test_stride)
-          .rms();
+                        run.test, run.test_stride));
   // On the log itself, which is longer and has no error of the filter in it; curves are judged on
   // blocks that they were not fitted to.
   const diagnosis::Series remaining = diagnosis::series(
@@ -372,8 +414,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
       diagnosis::curves_for(robot.robot, run.settings.rows, run.consistent.model, run.loop,
                             log.recording, run.settings.stride);
   if (!run.curves.empty()) {
-    run.errors.with_curves =
-        diagnosis::series(robot.robot, run.settings.rows, richest, run.test, run.test_stride).rms();
+    run.errors.with_curves = rms_of(
+        diagnosis::series(robot.robot, run.settings.rows, richest, run.test, run.test_stride));
   }
   const auto unnamed_effects = unnamed(robot.robot, log.recording, run);
   for (const diagnosis::Stranger& s : run.loop.strangers) {
@@ -396,6 +438,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   note_unsettled_links(robot.robot, run);
   note_mass_beside_forces(robot.robot, run);
   note_far_masses(robot.robot, run);
+  note_moments(robot.robot, options, run);
+  run.settings.rough = run.settings.rough_reference = nullptr;  // they end here
   return run;
 }
 

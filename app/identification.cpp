@@ -94,7 +94,16 @@ class EffectsRun {
         std::lower_bound(samples.begin(), samples.end(), moved.time,
                          [](const Sample& sample, double time) { return sample.time < time; });
     const auto index = static_cast<std::size_t>(place - samples.begin());
-    return mass_rows(viewer_, viewer_.view(log_.recording, index), known, bodies.free_links);
+    const diagnosis::View view = viewer_.view(log_.recording, index);
+    reference::SampleRows rows = mass_rows(viewer_, view, known, bodies.free_links);
+    // As in the errors beside the answer: friction at rest holds any torque.
+    const auto counted = counted_rows(viewer_, log_.recording, index, view);
+    for (Eigen::Index row = 0; row < counted.size(); ++row) {
+      if (counted[row]) continue;
+      rows.Y.row(row).setZero();
+      rows.F[row] = 0.0;
+    }
+    return rows;
   }
 
   [[nodiscard]] Comparison compare(const RobotInputs& robot, const MotionInputs& inputs,

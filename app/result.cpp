@@ -178,7 +178,8 @@ std::string joints_unit(const Robot& robot) {
 }
 
 double overall(const Eigen::VectorXd& rms, const Robot& robot) {
-  return rms.tail(robot.joint_count()).norm();
+  const Eigen::ArrayXd joints = rms.tail(robot.joint_count());
+  return joints.isNaN().select(0.0, joints).matrix().norm();
 }
 
 StatedProblem stated_problem(const Result& result) {

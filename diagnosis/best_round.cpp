@@ -5,7 +5,7 @@
 
 namespace shapeid::diagnosis {
 
-void take_best_of(const std::vector<LoopResult>& rounds, LoopState& state) {
+std::size_t take_best_of(const std::vector<LoopResult>& rounds, LoopState& state) {
   const LoopResult last = state.result;
   double least = std::numeric_limits<double>::infinity();
   std::size_t best = 0;
@@ -22,6 +22,7 @@ void take_best_of(const std::vector<LoopResult>& rounds, LoopState& state) {
   state.result.refit_seconds = last.refit_seconds;
   const LoopResult& taken = state.result;
   state.use_correction(taken.correction, taken.reference_correction);
+  return best;
 }
 
 }  // namespace shapeid::diagnosis

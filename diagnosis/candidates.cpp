@@ -78,6 +78,15 @@ double periods_told_apart(const Recording& log, const AppliedEffect& effect) {
   return std::max(1.0, (N.upper - N.lower) * (most->q[effect.site] - least->q[effect.site]) / pi);
 }
 
+Term term_of_masses(const BodyModel& shapes) {
+  Term term{"masses", {}, {}, 0};
+  for (const int link : shapes.free_links) {
+    for (Eigen::Index p = 0; p < 10; ++p) term.columns.push_back(Eigen::Index{10} * link + p);
+  }
+  term.nonnegative.assign(term.columns.size(), false);
+  return term;
+}
+
 Term term_of(const Robot& robot, const Tally& tally, std::size_t hypothesis) {
   const AppliedEffect& h = tally.hypotheses[hypothesis];
   Term term;
@@ -99,9 +108,11 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
     const AppliedEffect& h = tally.hypotheses[k];
     if (!rule.transformations && h.effect->transform.any()) continue;
     Candidate c{h, term_of(robot, tally, k), {}, rule.choices(h)};
+    if (h.is_of_the_log_alone()) c.term.from_block = fits.first_block();
     if (!h.since_reference && !rule.excluded(h)) list.push_back(c);
     if (!rule.has_reference || h.effect->built_in) continue;
     if (!h.since_reference) {
+      if (h.is_of_the_log_alone()) continue;
       c.effect.since_reference = true;
       const bool has_own_numbers = std::any_of(
           tally.hypotheses.begin(), tally.hypotheses.end(), [&](const AppliedEffect& other) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/reference/contact.hpp"
@@ -122,6 +123,11 @@ void check_recording(const Robot& robot, const Recording& recording,
                      reference::ContactTreatment contacts) {
   if (recording.samples().empty()) throw Refusal("no-data", "the log has no usable sample");
   check_excitation(robot, recording);
+  check_meaning(robot, recording, contacts);
+}
+
+void check_meaning(const Robot& robot, const Recording& recording,
+                   reference::ContactTreatment contacts) {
   check_torque_scale(robot, recording, contacts);
   if (contacts == reference::ContactTreatment::project) check_contact_labels(robot, recording);
 }
@@ -140,13 +146,9 @@ void check_clocks(const Robot& robot, const Recording& recording, const LoopSett
   const std::size_t half = tally.blocks.size() / 2;
   if (half < 4) return;
   const BlockFits fits(std::move(tally), given.Phi, settings.size, 4);
-  Term masses{"masses", {}, {}, 0};
-  for (const int link : settings.shapes.free_links) {
-    for (Eigen::Index p = 0; p < 10; ++p) masses.columns.push_back(Eigen::Index{10} * link + p);
-  }
   const Term whole{"delay", {column}, {false}, 0};
   const Term later{"drift", {column}, {false}, half};
-  const Fit fit = fits.fit({masses, whole, later});
+  const Fit fit = fits.fit({term_of_masses(settings.shapes), whole, later});
   const Eigen::Index last = fit.value.size() - 1;
   constexpr double least_drift = 5e-3;  // s; less is a delay that depends on the motion
   constexpr double least_z = 6.0;

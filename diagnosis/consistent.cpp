@@ -11,14 +11,14 @@
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/chance.hpp"
+#include "shapeid/diagnosis/fits.hpp"
 #include "shapeid/diagnosis/shape_masses.hpp"
 #include "shapeid/reference/identify.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
 
-// As in fits.cpp: keeps coinciding columns of effects apart.
-constexpr double regularity = 1e-10;
+constexpr int tenths = 10;
 
 /// Sums over [Y_free, E, F], with known links moved to F.
 class Sums {
@@ -33,7 +33,10 @@ class Sums {
     for (Eigen::Index e = 0; e <= effects_; ++e) kept_.push_back(tally_.inertial + e);
     known_ = Eigen::VectorXd::Zero(target_ + 1);
     known_.head(tally_.inertial) = shapes.known;
-    for (Block& block : tally_.blocks) reduce(block, since);
+    for (Block& block : tally_.blocks) {
+      reduce(block, since);
+      if (block.reference) ++reference_blocks_;
+    }
   }
 
   /// Rows of [Y_free, E, F] with each block's squares. `size`: of Y's and E's numbers. What is
@@ -65,17 +68,36 @@ class Sums {
   [[nodiscard]] Eigen::Index effects() const { return effects_; }
   [[nodiscard]] Eigen::Index masses() const { return std::ssize(kept_) - effects_ - 1; }
 
-  /// Of all blocks but a tenth; -1: of all.
+  /// Of all blocks but a tenth of each log; -1: of all. Were the two logs one, a tenth of a long
+  /// reference and a short log would hold all that came since.
   [[nodiscard]] Eigen::MatrixXd without(int tenth) const {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(std::ssize(kept_), std::ssize(kept_));
     for (std::size_t b = 0; b < tally_.blocks.size(); ++b) {
-      const int own = static_cast<int>(10 * b / tally_.blocks.size());
-      if (own != tenth) sum += tally_.blocks[b].sums;
+      if (tenth_of(b) != tenth) sum += tally_.blocks[b].sums;
     }
     return sum;
   }
 
+  /// In how many tenths each effect's column is anything at all.
+  [[nodiscard]] Eigen::ArrayXi tenths_with_effects() const {
+    Eigen::ArrayXXd squares = Eigen::ArrayXXd::Zero(effects_, tenths);
+    for (std::size_t b = 0; b < tally_.blocks.size(); ++b) {
+      squares.col(tenth_of(b)) +=
+          tally_.blocks[b].sums.diagonal().segment(masses(), effects_).array();
+    }
+    constexpr double hardly_any = 1e-6;  // of all
+    const Eigen::ArrayXd least = hardly_any * squares.rowwise().sum();
+    return (squares > least.replicate(1, tenths)).cast<int>().rowwise().sum();
+  }
+
  private:
+  [[nodiscard]] int tenth_of(std::size_t b) const {
+    const std::size_t first = tally_.blocks[b].reference ? 0 : reference_blocks_;
+    const std::size_t count =
+        tally_.blocks[b].reference ? reference_blocks_ : tally_.blocks.size() - reference_blocks_;
+    return static_cast<int>(tenths * (b - first) / count);
+  }
+
   void reduce(Block& block, const std::vector<bool>& since) const {
     Eigen::MatrixXd G = block.sums;
     const Eigen::Index F = target_;
@@ -95,7 +117,8 @@ class Sums {
   }
 
   Tally tally_;
-  Eigen::Index target_;  ///< column of F before anything is left out
+  std::size_t reference_blocks_ = 0;  ///< which come first
+  Eigen::Index target_;               ///< column of F before anything is left out
   Eigen::Index effects_;
   std::vector<Eigen::Index> kept_;
   Eigen::VectorXd known_;
@@ -208,22 +231,35 @@ void put_back(const Eigen::VectorXd& theta, const std::vector<std::size_t>& line
   }
 }
 
-/// The first effect with a parameter that cannot be negative and is.
-std::size_t impossible(const std::vector<AppliedEffect>& effects) {
+const Found* found_for(const AppliedEffect& effect, const std::vector<Found>& found) {
+  const auto at = std::find_if(found.begin(), found.end(),
+                               [&](const Found& f) { return same_place(f.effect, effect); });
+  return at == found.end() ? nullptr : &*at;
+}
+
+/// The effect with the parameter that cannot be negative and is by most of its errors: another,
+/// that is by less, may be none any more without it.
+std::size_t impossible(const std::vector<AppliedEffect>& effects, const std::vector<Found>& found) {
+  std::size_t worst = effects.size();
+  double lowest = 0.0;
   for (std::size_t k = 0; k < effects.size(); ++k) {
+    const Found* known = found_for(effects[k], found);
     for (std::size_t p = 0; p < effects[k].effect->parameters.size(); ++p) {
-      if (effects[k].effect->parameters[p].nonnegative &&
-          effects[k].value[static_cast<Eigen::Index>(p)] < 0.0) {
-        return k;
-      }
+      const auto at = static_cast<Eigen::Index>(p);
+      const double value = effects[k].value[at];
+      if (!effects[k].effect->parameters[p].nonnegative || !(value < 0.0)) continue;
+      const double error = known != nullptr ? known->standard_error[at] : 0.0;
+      const double errors = error > 0.0 ? value / error : -std::numeric_limits<double>::infinity();
+      if (worst < effects.size() && errors >= lowest) continue;
+      worst = k;
+      lowest = errors;
     }
   }
-  return effects.size();
+  return worst;
 }
 
 /// Delete-a-tenth jackknife of Phi_free and theta. `masses`: none if no link is free.
 Eigen::VectorXd jackknife(const Solver& solver, const ShapeMasses* masses, Eigen::Index effects) {
-  constexpr int tenths = 10;
   Eigen::MatrixXd answers((masses != nullptr ? masses->Phi().size() : 0) + effects, tenths);
   for (int tenth = 0; tenth < tenths; ++tenth) {
     const Eliminated eliminated = solver.rows(tenth);
@@ -237,6 +273,23 @@ Eigen::VectorXd jackknife(const Solver& solver, const ShapeMasses* masses, Eigen
   const Eigen::VectorXd mean = answers.rowwise().mean();
   constexpr double factor = (tenths - 1.0) / tenths;
   return (factor * (answers.colwise() - mean).rowwise().squaredNorm()).cwiseSqrt();
+}
+
+/// The jackknife's errors of effects; where too few tenths have a column, those that it has by the
+/// scatter between blocks (`between_blocks`, as values).
+Eigen::VectorXd trusted(Eigen::VectorXd errors, const Sums& sums,
+                        const std::vector<std::size_t>& linear,
+                        const std::vector<AppliedEffect>& between_blocks) {
+  constexpr int fewest = 5;
+  const Eigen::ArrayXi held = sums.tenths_with_effects();
+  Eigen::Index column = 0;
+  for (const std::size_t k : linear) {
+    for (const double error : between_blocks[k].value) {
+      if (held[column] < fewest && error > 0.0) errors[column] = error;
+      ++column;
+    }
+  }
+  return errors;
 }
 
 }  // namespace
@@ -255,7 +308,7 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       if (effects[k].effect->transform.any()) continue;
       linear.push_back(k);
       columns.push_back(effects[k]);
-      since.push_back(effects[k].since_reference);
+      since.push_back(effects[k].is_of_the_log_alone());
     }
     TallyOptions options;
     options.stride = settings.stride;
@@ -265,7 +318,8 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     Tally tally = empty_tally(robot, columns);
     if (reference != nullptr) {
       RichModel earlier = result.model;
-      std::erase_if(earlier.effects, [](const AppliedEffect& a) { return a.since_reference; });
+      std::erase_if(earlier.effects,
+                    [](const AppliedEffect& a) { return a.is_of_the_log_alone(); });
       add_to_tally(tally, robot, settings.rows, earlier, *reference, options, true);
     }
     add_to_tally(tally, robot, settings.rows, result.model, log, options, false);
@@ -277,7 +331,7 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     if (sums.masses() > 0) masses = solver.divide(eliminated);
     const Eigen::VectorXd Phi = masses ? masses->Phi() : Eigen::VectorXd();
     put_back(effects_of(eliminated, Phi), linear, effects);
-    if (const std::size_t bad = impossible(effects); bad < effects.size()) {
+    if (const std::size_t bad = impossible(effects, loop.found); bad < effects.size()) {
       const auto at = static_cast<std::ptrdiff_t>(bad);
       result.dropped.push_back(effects[bad]);
       effects.erase(effects.begin() + at);
@@ -294,11 +348,11 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     std::vector<AppliedEffect> error_places = effects;
     for (std::size_t k = 0; k < effects.size(); ++k) {
       error_places[k].value.setZero();
-      for (const Found& f : loop.found) {
-        if (same_place(f.effect, effects[k])) error_places[k].value = f.standard_error;
-      }
+      const Found* known = found_for(effects[k], loop.found);
+      if (known != nullptr) error_places[k].value = known->standard_error;
     }
-    put_back(errors.tail(sums.effects()), linear, error_places);
+    put_back(trusted(errors.tail(sums.effects()), sums, linear, error_places), linear,
+             error_places);
     for (const AppliedEffect& a : error_places) result.effect_error.push_back(a.value);
     return result;
   }

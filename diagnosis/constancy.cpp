@@ -14,6 +14,7 @@ constexpr double false_alarms = 0.01;  // of all variations that are tried on a 
 }  // namespace
 
 std::string variable_of(const Variation& variation, const Robot& robot) {
+  if (variation.signal == Signal::time) return "time";
   const std::string& joint = robot.joint(variation.joint).name;
   switch (variation.signal) {
     case Signal::position:
@@ -60,7 +61,8 @@ std::vector<bool> reach_of(const Robot& robot, const AppliedEffect& effect) {
   if (!joint) return reach;
   const Transformation& transform = effect.effect->transform;
   const bool moves_links = transform.robot != nullptr || transform.sample != nullptr;
-  if (effect.effect->site == SiteKind::joint && !moves_links) {
+  const bool turns_parent = effect.effect->id == "rotor_reaction";
+  if (effect.effect->site == SiteKind::joint && !moves_links && !turns_parent) {
     reach[static_cast<std::size_t>(*joint)] = true;
     return reach;
   }
@@ -83,7 +85,7 @@ std::vector<Modulation> modulations(const Robot& robot, const std::vector<Applie
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const AppliedEffect& a = effects[k];
     const std::optional<int> joint = joint_of(robot, a);
-    if (!a.effect->is_payload) list.push_back({k, Signal::time, joint.value_or(0)});
+    if (!a.effect->is_payload) list.push_back({k, Signal::time, joint.value_or(-1)});
     if (a.effect->site == SiteKind::whole) {
       for (int j = 0; j < robot.joint_count(); ++j) list.push_back({k, Signal::row, j});
     }

@@ -17,7 +17,7 @@ inline constexpr double material_share = 0.05;
 /// How the number of an effect changes where it should not.
 struct Variation {
   Signal signal = Signal::time;
-  int joint = 0;       ///< whose signal it is
+  int joint = 0;       ///< whose signal it is; -1: of time, and the effect is of no joint
   double share = 0.0;  ///< further held-out gain by letting it, over the effect's own gain
   double z = 0.0;      ///< over its standard error
 };

@@ -92,6 +92,9 @@ struct Transformation {
   void (*rows)(const Robot&, const Sample&, const Eigen::Vector3d& down, int site,
                const Eigen::VectorXd& value, Rows&) = nullptr;
 
+  /// `rows` multiplies: it comes last, whatever stands behind it in a list.
+  bool scales = false;
+
   [[nodiscard]] bool any() const {
     return robot != nullptr || sample != nullptr || rows != nullptr;
   }
@@ -144,6 +147,10 @@ struct AppliedEffect {
   Eigen::VectorXd value;  ///< one for each of Effect::parameters
   /// Came since the reference log, on top of what was at its place already.
   bool since_reference = false;
+  /// Whether it is there from some moment of the log on.
+  [[nodiscard]] bool begins() const { return effect->is_payload && !effect->shape.empty(); }
+  /// Whether it is no part of a reference log.
+  [[nodiscard]] bool is_of_the_log_alone() const { return since_reference || begins(); }
 };
 
 /// The same effect at the same place, there from the beginning or since the reference log. What
@@ -159,9 +166,10 @@ struct AppliedEffect {
 /// How many sites of a kind the robot has.
 [[nodiscard]] int site_count(const Robot& robot, SiteKind kind);
 
-/// Predicted joint torques Y Phi - J^T f. On a floating base the contact forces f are those of
-/// least norm that carry the base (J_base^T f = (Y Phi)_base): no measured torque is in them. On a
-/// fixed base nothing but torque tells of f, so it is fitted to the logged one.
+/// Predicted joint torques Y Phi - J^T f. `YPhi` is without what measured contact forces carry. On
+/// a floating base the contact forces f are those of least norm that carry the base (J_base^T f =
+/// (Y Phi)_base): no measured torque is in them. On a fixed base nothing but torque tells of f, so
+/// it is fitted to the logged one.
 struct PredictedLoad {
   Eigen::VectorXd force;  ///< contact rows of J
   Eigen::VectorXd joint;  ///< n

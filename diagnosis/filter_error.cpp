@@ -12,9 +12,15 @@ namespace shapeid::diagnosis {
 namespace {
 
 Eigen::VectorXd channels(const Sample& s) {
-  Eigen::VectorXd all(3 * s.q.size() + 9);
-  all << s.q, s.dq, s.ddq, s.base_angular_velocity, s.base_angular_acceleration,
+  const Eigen::Index n = s.q.size();
+  Eigen::VectorXd all(3 * n + 9 + 3 * std::ssize(s.contact_force));
+  all.head(3 * n + 9) << s.q, s.dq, s.ddq, s.base_angular_velocity, s.base_angular_acceleration,
       s.base_specific_force;
+  Eigen::Index at = 3 * n + 9;
+  for (const Eigen::Vector3d& force : s.contact_force) {
+    all.segment<3>(at) = force;
+    at += 3;
+  }
   return all;
 }
 
@@ -26,6 +32,11 @@ void set_channels(const Eigen::VectorXd& all, Sample& s) {
   s.base_angular_velocity = all.segment<3>(3 * n);
   s.base_angular_acceleration = all.segment<3>(3 * n + 3);
   s.base_specific_force = all.segment<3>(3 * n + 6);
+  Eigen::Index at = 3 * n + 9;
+  for (Eigen::Vector3d& force : s.contact_force) {
+    force = all.segment<3>(at);
+    at += 3;
+  }
 }
 
 /// Where the numbers of every contact's force stand in one vector, whichever of them touch.
@@ -76,6 +87,12 @@ class ForceSlots {
   Eigen::Index size_ = 0;
 };
 
+/// What is kept of a rough sample until it is filtered: a View has matrices of many times its size.
+struct Rough {
+  Sample sample;  ///< transformations done
+  double elapsed = 0.0;
+};
+
 /// The contact forces with which the model comes closest to what was logged.
 Eigen::VectorXd contact_force(const Viewer& viewer, const View& view, const Prediction& p) {
   if (p.J.rows() == 0) return Eigen::VectorXd(0);
@@ -103,13 +120,12 @@ std::vector<Eigen::VectorXd> filter_error(const Viewer& viewer, const RichModel&
     std::size_t end = begin + 1;
     while (end < usable.size() && usable[end] == usable[end - 1] + 1) ++end;
     std::optional<SegmentFilter> filter;
-    std::vector<View> views;
+    std::vector<Rough> seen;
     for (std::size_t i = begin; i < end; ++i) {
-      views.push_back(viewer.view(rough, usable[i]));
+      View view = viewer.view(rough, usable[i]);
       // A filtered sample has no neighbours, so the load's rate counts on neither side: of what is
       // linear in the load the filter makes no error but the load's own.
-      views.back().around.clear();
-      const View& view = views.back();
+      view.around.clear();
       const Prediction p = predict(viewer, view, model);
       const Eigen::VectorXd f = contact_force(viewer, view, p);
       const Eigen::VectorXd motion = channels(view.sample);
@@ -117,6 +133,7 @@ std::vector<Eigen::VectorXd> filter_error(const Viewer& viewer, const RichModel&
       row << motion, slots.spread(view.sample, f), p.force - p.J.transpose() * f;
       if (!filter) filter.emplace(Smoothing::zero_phase, design, row.size());
       filter->push(row);
+      seen.push_back({std::move(view.sample), view.surroundings.elapsed});
     }
     filter->finish();
     for (std::size_t i = begin; i < end; ++i) {
@@ -125,11 +142,11 @@ std::vector<Eigen::VectorXd> filter_error(const Viewer& viewer, const RichModel&
       const double time = rough[usable[i]].time;
       while (at < errors.size() && smooth[at].time < time - near) ++at;
       if (at == errors.size() || std::abs(smooth[at].time - time) > near) continue;
-      Sample filtered = views[i - begin].sample;
+      Sample filtered = std::move(seen[i - begin].sample);
       set_channels(row->head(row->size() - slots.size() - dof), filtered);
       filtered.in_contact = smooth[at].in_contact;
       Surroundings surroundings = smooth.surroundings(at);
-      surroundings.elapsed = views[i - begin].surroundings.elapsed;
+      surroundings.elapsed = seen[i - begin].elapsed;
       const View view = viewer.view(std::move(filtered), std::move(surroundings));
       const Prediction p = predict(viewer, view, model);
       const Eigen::VectorXd f = slots.gather(

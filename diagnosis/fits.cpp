@@ -7,14 +7,6 @@
 #include <limits>
 
 namespace shapeid::diagnosis {
-namespace {
-
-// Relative to a column of unit length: keeps a factorisation regular where columns coincide, and is
-// far below what any noise leaves open.
-constexpr double regularity = 1e-10;
-
-}  // namespace
-
 SumWithError sum_with_error(const Eigen::VectorXd& values) {
   const Eigen::Index n = values.size();
   if (n < 2) return {values.sum(), std::numeric_limits<double>::infinity()};

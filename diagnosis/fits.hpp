@@ -14,6 +14,10 @@
 
 namespace shapeid::diagnosis {
 
+/// Relative to a column of unit length: keeps a factorisation regular where columns coincide, and
+/// is far below what any noise leaves open.
+inline constexpr double regularity = 1e-10;
+
 /// Columns that enter a fit together, from a block on (a payload that comes late, a change since
 /// the reference log).
 struct Term {

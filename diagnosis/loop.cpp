@@ -49,8 +49,8 @@ class Loop {
     return list;
   }
 
-  /// The given model, and rigid links alone, beside what was found: of the log as it is, without
-  /// any effect applied, with the last weights.
+  /// The given model, and rigid links alone, beside what was found: without any effect applied,
+  /// with the last weights, of the log with what the filter did to the found model taken out.
   void compare() {
     result_.error_end = state_.held_out_of_model().sum();
     const RichModel found = result_.model;
@@ -93,7 +93,10 @@ class Loop {
       }
       if (round_ > 0) rounds.push_back(result_);
     }
-    if (!rounds.empty()) take_best_of(rounds, state_);
+    if (!rounds.empty()) {
+      const std::size_t taken = take_best_of(rounds, state_);
+      if (taken + 1 < rounds.size()) large_.reset();  // it is the last round's
+    }
     try_large_transformation();
     try_noise_for_weight();
   }
@@ -106,7 +109,7 @@ class Loop {
     rule.transformations = round_ > 0;
     rule.excluded = [this](const AppliedEffect& h) {
       return state_.is_applied_transformation(h) || is_banned(h) ||
-             (moments_describe_ > 1 && begins(h));
+             (moments_describe_ > 1 && h.begins());
     };
     rule.choices = [this](const AppliedEffect& h) { return periods_told_apart(state_.log, h); };
     return candidates(state_.robot, fits, rule);
@@ -239,17 +242,13 @@ class Loop {
     return terms;
   }
 
-  [[nodiscard]] static bool begins(const AppliedEffect& a) {
-    return a.effect->is_payload && a.shape.size() > 0;
-  }
-
   /// What began at a moment and is no load describes this log alone: on other motion nothing begins
   /// then. Whether there was any; it is not looked for again. If others come in its place, none is:
   /// each would cost a search of its own.
   [[nodiscard]] bool ban_mere_moments() {
     const std::size_t before = banned_.size();
     for (const Found& f : result_.found) {
-      if (begins(f.effect) && !f.name_stands()) banned_.push_back(f.effect);
+      if (f.effect.begins() && !f.name_stands()) banned_.push_back(f.effect);
     }
     if (banned_.size() == before) return false;
     moments_describe_ += 1;

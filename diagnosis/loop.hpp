@@ -74,6 +74,7 @@ struct Found {
 struct Ranked {
   std::string id;
   double gain = 0.0, t = 0.0;
+  bool credible = true;  ///< Scored::credible
 };
 
 struct LoopResult {

@@ -39,11 +39,7 @@ LoopState::LoopState(const Robot& robot_, const Recording& log_, const Recording
     constexpr double wanted_blocks = 40.0, shortest = 0.5;
     tally_options.block_seconds = std::max(shortest, log.duration() / wanted_blocks);
   }
-  masses.id = "masses";
-  for (const int link : settings.shapes.free_links) {
-    for (Eigen::Index p = 0; p < 10; ++p) masses.columns.push_back(Eigen::Index{10} * link + p);
-  }
-  masses.nonnegative.assign(masses.columns.size(), false);
+  masses = term_of_masses(settings.shapes);
 }
 
 BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
@@ -145,7 +141,7 @@ void LoopState::set_masses(const Fit& fit) {
 
 RichModel LoopState::earlier_model() const {
   RichModel earlier = result.model;
-  std::erase_if(earlier.effects, [](const AppliedEffect& a) { return a.since_reference; });
+  std::erase_if(earlier.effects, [](const AppliedEffect& a) { return a.is_of_the_log_alone(); });
   return earlier;
 }
 
@@ -170,7 +166,7 @@ std::vector<Term> LoopState::terms_of_model(const BlockFits& fits, std::size_t e
     const AppliedEffect& a = fits.tally().hypotheses[k];
     if (a.effect->transform.any()) continue;
     terms.push_back(term_of(robot, fits.tally(), k));
-    if (a.since_reference) terms.back().from_block = fits.first_block();
+    if (a.is_of_the_log_alone()) terms.back().from_block = fits.first_block();
   }
   return terms;
 }
@@ -186,7 +182,7 @@ std::vector<Gain> LoopState::gains_by_derivative() {
   for (std::size_t k = 0; k < result.model.effects.size(); ++k) {
     const AppliedEffect& a = result.model.effects[k];
     terms.push_back(term_of(robot, fits.tally(), k));
-    if (a.since_reference) terms.back().from_block = fits.first_block();
+    if (a.is_of_the_log_alone()) terms.back().from_block = fits.first_block();
   }
   const FitsAround around(fits, std::move(terms));
   std::vector<Gain> gains(result.model.effects.size());

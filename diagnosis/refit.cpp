@@ -35,7 +35,7 @@ void refit(LoopState& state) {
       auto& terms = choices.emplace_back();
       for (const std::size_t v : of_found[i]) {
         terms.push_back(term_of(state.robot, fits.tally(), v));
-        if (found[i].effect.since_reference) terms.back().from_block = fits.first_block();
+        if (found[i].effect.is_of_the_log_alone()) terms.back().from_block = fits.first_block();
       }
     }
     const std::vector<std::size_t> chosen = best_variants(fits, state.masses, choices);

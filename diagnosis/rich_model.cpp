@@ -53,7 +53,7 @@ View Viewer::view(const Recording& recording, std::size_t index) const {
     Sample sample = moved(recording, index, dt, transforming_.size());
     sample.in_contact = result.sample.in_contact;
     const View near = view(std::move(sample), result.surroundings);
-    result.around.push_back({logged_force(*this, near), near.Y, near.J});
+    result.around.push_back({logged_force(*this, near), near.Y, near.J, near.carried});
   }
   return result;
 }
@@ -67,13 +67,19 @@ View Viewer::view(Sample moved, Surroundings surroundings) const {
   view.J = source_.contacts == ContactTreatment::project
                ? rows_->contact_jacobian(robot_, view.sample)
                : Eigen::MatrixXd(0, robot_.dof());
+  view.carried = source_.contacts == ContactTreatment::measured
+                     ? reference::measured_contact_force(robot_, view.sample)
+                     : Eigen::VectorXd(Eigen::VectorXd::Zero(robot_.dof()));
   return view;
 }
 
 void Viewer::transform(const View& view, Rows& rows) const {
-  for (const AppliedEffect& a : transforming_) {
-    if (a.effect->transform.rows == nullptr) continue;
-    a.effect->transform.rows(robot_, view.sample, view.surroundings.down, a.site, a.value, rows);
+  for (const bool scales : {false, true}) {
+    for (const AppliedEffect& a : transforming_) {
+      const Transformation& transform = a.effect->transform;
+      if (transform.rows == nullptr || transform.scales != scales) continue;
+      transform.rows(robot_, view.sample, view.surroundings.down, a.site, a.value, rows);
+    }
   }
 }
 
@@ -89,9 +95,6 @@ Eigen::Array<bool, Eigen::Dynamic, 1> counted_rows(const Viewer& viewer, const R
 
 Eigen::VectorXd logged_force(const Viewer& viewer, const View& view) {
   Eigen::VectorXd force = reference::applied_force(viewer.robot(), view.sample);
-  if (viewer.source().contacts == ContactTreatment::measured) {
-    force += reference::measured_contact_force(viewer.robot(), view.sample);
-  }
   if (view.correction.size() > 0) force += view.correction;
   return force;
 }
@@ -109,15 +112,13 @@ Instant instant_of(const Viewer& viewer, const View& view, const PredictedLoad& 
 namespace {
 
 PredictedLoad load_of(const Viewer& viewer, const View& view, const Eigen::VectorXd& Phi) {
-  const auto load = [&](const Eigen::VectorXd& applied, const Eigen::MatrixXd& Y,
-                        const Eigen::MatrixXd& J) {
-    return predicted_load(viewer.robot(), applied, Y * Phi, J);
+  const auto load = [&](const Eigen::VectorXd& applied, const auto& at) {
+    return predicted_load(viewer.robot(), applied, at.Y * Phi - at.carried, at.J);
   };
-  PredictedLoad now = load(logged_force(viewer, view), view.Y, view.J);
+  PredictedLoad now = load(logged_force(viewer, view), view);
   if (view.around.size() == 2) {
     const Neighbour &before = view.around[0], &after = view.around[1];
-    now.rate = (load(after.applied, after.Y, after.J).joint -
-                load(before.applied, before.Y, before.J).joint) /
+    now.rate = (load(after.applied, after).joint - load(before.applied, before).joint) /
                (2.0 * neighbour_step(viewer.robot()));
   }
   return now;
@@ -132,7 +133,7 @@ Prediction predict(const Viewer& viewer, const View& view, const RichModel& mode
 Prediction predict(const Viewer& viewer, const View& view, const RichModel& model,
                    const PredictedLoad& load) {
   const Instant instant = instant_of(viewer, view, load);
-  Rows rows{view.Y * model.Phi, view.J};
+  Rows rows{view.Y * model.Phi - view.carried, view.J};
   for (const AppliedEffect& a : model.effects) {
     if (a.effect->columns != nullptr) {
       rows.E += a.effect->columns(instant, a.site, a.shape) * a.value;
@@ -156,7 +157,7 @@ reference::SampleRows mass_rows(const Viewer& viewer, const View& view, const Ri
     known.segment<10>(Eigen::Index{10} * link).setZero();
     column += 10;
   }
-  rows.E.rightCols<1>() = view.Y * known;
+  rows.E.rightCols<1>() = view.Y * known - view.carried;
   for (const AppliedEffect& a : model.effects) {
     if (a.effect->columns != nullptr) {
       rows.E.rightCols<1>() += a.effect->columns(instant, a.site, a.shape) * a.value;

@@ -25,8 +25,9 @@ struct RichModel {
 
 /// What the load is predicted from, a little earlier or later than a view.
 struct Neighbour {
-  Eigen::VectorXd applied;  ///< S^T tau and measured forces, dof
+  Eigen::VectorXd applied;  ///< S^T tau, dof
   Eigen::MatrixXd Y, J;     ///< as in View, with the contacts of the view
+  Eigen::VectorXd carried;  ///< likewise
 };
 
 /// A sample as the model sees it: transformations done.
@@ -35,6 +36,9 @@ struct View {
   std::vector<reference::LinkMotion> motions;
   Eigen::MatrixXd Y;  ///< dof x 10 links, before Transformation::rows
   Eigen::MatrixXd J;  ///< contact rows x dof, likewise
+  /// J^T f of measured contact forces, dof, likewise; zero where they are not used. It is on the
+  /// side of the prediction: a gain scales what the joints need not provide as well.
+  Eigen::VectorXd carried;
   Surroundings surroundings;
   Eigen::VectorXd correction;  ///< Recording::correction()
   /// neighbour_step() before and after, or empty if nothing needs the load's rate.
@@ -63,7 +67,7 @@ class Viewer {
   [[nodiscard]] View view(const Recording& recording, std::size_t index) const;
   /// Of a sample whose own transformations are done already (moved()).
   [[nodiscard]] View view(Sample moved, Surroundings surroundings) const;
-  /// Applies the row transformations, in order.
+  /// Applies the row transformations, in order but for those that scale, which come last.
   void transform(const View& view, Rows& rows) const;
   [[nodiscard]] const Robot& robot() const { return robot_; }
   [[nodiscard]] const RowSource& source() const { return source_; }
@@ -87,7 +91,7 @@ class Viewer {
 
 /// Y Phi + E theta and J with all transformations done: the model's rows before any projection.
 struct Prediction {
-  Eigen::VectorXd force;  ///< dof: what joints and contacts together must provide
+  Eigen::VectorXd force;  ///< dof: what joints must provide, and contacts of no measured force
   Eigen::MatrixXd J;      ///< contact rows x dof
   PredictedLoad load;     ///< of the rigid links
 };
@@ -111,8 +115,7 @@ struct Prediction {
                                                                  std::size_t index,
                                                                  const View& view);
 
-/// S^T tau as logged, plus measured contact forces if these are used, plus the correction if there
-/// is one, dof.
+/// S^T tau as logged, plus the correction if there is one, dof.
 [[nodiscard]] Eigen::VectorXd logged_force(const Viewer& viewer, const View& view);
 
 /// The columns of `force` (dof) after the part that contact forces can explain is taken out:

@@ -53,7 +53,7 @@ class Search {
     for (const std::size_t i : order) result_.last_ranking.push_back(ranking[i]);
 
     const auto is_open = [&](std::size_t i) {
-      return credibility_.passes(ranking[i]) && !ranking[i].wrong_sign;
+      return credibility_.passes(ranking[i]) && ranking[i].credible && !ranking[i].wrong_sign;
     };
     const auto best = std::find_if(order.begin(), order.end(), is_open);
     if (best == order.end()) return false;
@@ -90,7 +90,7 @@ class Search {
       if (credibility_.passes(scored)) {
         const Fit fit = fits_.fit(contenders_.terms(accepted_, k));
         scored.fit = contenders_.last_of(k, fit);
-        if (!credibility_.credible(k, fit_now, fit)) scored.gain = scored.t = 0.0;
+        scored.credible = credibility_.credible(k, fit_now, fit);
         // Of a group the members with a wrong sign are dropped at the end.
         scored.wrong_sign =
             contenders_[k].members.empty() && credibility_.wrong_sign(k, scored.fit, 0.0);

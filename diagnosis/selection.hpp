@@ -50,6 +50,8 @@ struct Scored {
   double t = 0.0;           ///< gain over its standard error
   Fit fit;                  ///< of its parameters, all blocks in
   bool wrong_sign = false;  ///< significantly negative where it cannot be
+  /// Else chance or the filter may make as much of it, or its size is not believed.
+  bool credible = true;
 };
 
 struct SelectionStep {

@@ -17,6 +17,7 @@ constexpr std::size_t fewest = 8;  // frequencies on either side
 /// Power of y, whose values that do not count are zero, at whole periods in its duration.
 struct Spectrum {
   double step = 0.0;          ///< Hz; the first frequency, and from each to the next
+  double every = 1.0;         ///< how many periods more the next one has
   std::vector<double> power;  ///< of unit variance in y: one on average
 
   [[nodiscard]] std::size_t at(double frequency) const {
@@ -42,7 +43,11 @@ Spectrum spectrum(const std::vector<double>& time, const Eigen::VectorXd& y, dou
   Spectrum result;
   const double duration = time.back() - time.front();
   if (!(duration > 0.0)) return result;
-  result.step = 1.0 / duration;
+  // The cost grows with the square of the duration: of a long log not every frequency is looked at.
+  constexpr double most_terms = 2e8;
+  const double terms = highest * duration * static_cast<double>(time.size());
+  result.every = std::max(1.0, std::ceil(terms / most_terms));
+  result.step = result.every / duration;
   double f = result.step;
   while (f < highest) {
     std::complex<double> sum = 0.0;
@@ -96,9 +101,9 @@ std::vector<Structure> slow_remains(const Robot& robot, const Recording& recordi
     structure.joint = robot.joint(j).name;
     structure.variable = slow;
     const double all = y.square().sum() / static_cast<double>(time.size());
-    structure.share = std::clamp(
-        2.0 * (low - noise) * static_cast<double>(low_end) / static_cast<double>(time.size()) / all,
-        0.0, 1.0);
+    structure.share = std::clamp(2.0 * (low - noise) * power.every * static_cast<double>(low_end) /
+                                     static_cast<double>(time.size()) / all,
+                                 0.0, 1.0);
     structure.t = z;
     set_curve(power, structure);
     found.push_back(structure);

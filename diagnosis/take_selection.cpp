@@ -13,7 +13,7 @@ std::vector<Ranked> ranked(const std::vector<Candidate>& list, const std::vector
   std::vector<Ranked> ranking;
   ranking.reserve(scores.size());
   for (const Scored& s : scores) {
-    ranking.push_back({list[s.candidate].term.id, s.gain, s.t});
+    ranking.push_back({list[s.candidate].term.id, s.gain, s.t, s.credible});
   }
   return ranking;
 }
@@ -73,8 +73,13 @@ void take_selection(const BlockFits& fits, const Term& fixed, const std::vector<
   }
   result.wrong_signs.clear();
   for (const Scored& s : selection.wrong_signs) {
-    result.wrong_signs.emplace_back(
-        list[s.candidate].term.id, (s.fit.value.array() / s.fit.standard_error.array()).minCoeff());
+    const Term& term = list[s.candidate].term;
+    double lowest = 0.0;  // standard errors, of the numbers that cannot be negative
+    for (Eigen::Index p = 0; p < std::ssize(term.columns); ++p) {
+      if (!term.nonnegative[static_cast<std::size_t>(p)]) continue;
+      lowest = std::min(lowest, s.fit.value[p] / s.fit.standard_error[p]);
+    }
+    result.wrong_signs.emplace_back(term.id, lowest);
   }
 }
 

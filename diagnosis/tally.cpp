@@ -182,9 +182,10 @@ void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const Rich
     const auto counted = counted_rows(viewer, recording, index, view);
     if (!counted.any()) continue;
     const Prediction predicted = predict(viewer, view, model);
-    Rows rows{view.Y, view.J};
+    Rows rows{Eigen::MatrixXd(robot.dof(), tally.inertial + 1), view.J};
+    rows.E << view.Y, view.carried;
     viewer.transform(view, rows);
-    M.leftCols(tally.inertial) = rows.E;
+    M.leftCols(tally.inertial) = rows.E.leftCols(tally.inertial);
     M.middleCols(tally.inertial, hypotheses.count()) =
         hypotheses.at(recording, index, view, predicted);
     for (std::size_t k = 0; k < tally.modulations.size(); ++k) {
@@ -194,7 +195,7 @@ void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const Rich
           modulated(m, M.middleCols(tally.first[m.hypothesis], n), robot, recording, index, view,
                     predicted.load, options.margin);
     }
-    M.rightCols<1>() = logged_force(viewer, view);
+    M.rightCols<1>() = logged_force(viewer, view) + rows.E.rightCols<1>();
     for (Eigen::Index row = 0; row < M.rows(); ++row) {
       if (!counted[row]) M.row(row).setZero();
     }

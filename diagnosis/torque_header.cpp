@@ -262,7 +262,7 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
     if (!code.motion.empty()) motion += scoped(a, code.motion);
     if (!code.link.empty()) between += scoped(a, code.link);
     // What scales the prediction scales all of it, wherever it stands in the list.
-    const bool scales = a.effect->transform.rows != nullptr;
+    const bool scales = a.effect->transform.scales;
     if (!code.torque.empty()) (scales ? scaling : torque) += scoped(a, code.torque);
     const bool in_robot = a.effect->transform.robot != nullptr;
     if (code.motion.empty() && code.link.empty() && code.torque.empty() && !in_robot) {

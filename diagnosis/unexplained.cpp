@@ -141,6 +141,20 @@ std::optional<Structure> curve(const std::vector<double>& x, const std::vector<d
   return found;
 }
 
+/// Other columns of the log at every sample: what is measured more rarely, a temperature say, is
+/// what it was last. NaN before the first value.
+std::vector<std::vector<double>> held_columns(const Recording& recording) {
+  std::vector<std::vector<double>> columns(recording.extra().size());
+  for (std::size_t e = 0; e < columns.size(); ++e) {
+    double last = std::numeric_limits<double>::quiet_NaN();
+    for (const Sample& s : recording.samples()) {
+      if (!std::isnan(s.extra[e])) last = s.extra[e];
+      columns[e].push_back(last);
+    }
+  }
+  return columns;
+}
+
 /// Of a curve over a signal of a joint whose predicted load is `load`.
 double abscissa(Signal signal, int joint, const Recording& recording, std::size_t index,
                 double load) {
@@ -179,6 +193,8 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
   const CurveRule rule{limit_for(usual_gain_t, blocks),
                        least_squares_sum(false_alarms / curves, waves - 1) - 2.0 * (waves - 1),
                        recording.independent_share(stride)};
+  const std::vector<std::vector<double>> extras = held_columns(recording);
+  constexpr std::size_t fewest = 10 * bins;
   for (int j = 0; j < robot.joint_count(); ++j) {
     const Eigen::Index row = robot.base_dof() + j;
     std::vector<std::size_t> places;  // in the series, of what counts
@@ -188,7 +204,7 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
       places.push_back(static_cast<std::size_t>(i));
       y.push_back(series.residual(row, i));
     }
-    if (y.size() < 10 * bins) continue;
+    if (y.size() < fewest) continue;
     const auto signal = [&](const auto& of) {
       std::vector<double> x;
       x.reserve(places.size());
@@ -198,8 +214,14 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
     const auto best_of = [&](auto&& candidates, Folds kind = Folds::stretches) {
       std::optional<Structure> best;
       for (const auto& [name, x] : candidates) {
-        if (std::any_of(x.begin(), x.end(), [](double v) { return std::isnan(v); })) continue;
-        std::optional<Structure> c = curve(x, y, rule, kind);
+        std::vector<double> known, left;  // where the signal has a value
+        for (std::size_t i = 0; i < x.size(); ++i) {
+          if (std::isnan(x[i])) continue;
+          known.push_back(x[i]);
+          left.push_back(y[i]);
+        }
+        if (known.size() < fewest) continue;
+        std::optional<Structure> c = curve(known, left, rule, kind);
         if (!c || (best && best->share >= c->share)) continue;
         best = c;
         best->joint = robot.joint(j).name;
@@ -237,8 +259,9 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
     rate.emplace_back("dtau." + own, signal(torque_rate));
     time.emplace_back("time", signal([](const Sample& s, auto) { return s.time; }));
     for (std::size_t e = 0; e < recording.extra().size(); ++e) {
-      extra.emplace_back(recording.extra()[e],
-                         signal([e](const Sample& s, auto) { return s.extra[e]; }));
+      extra.emplace_back(recording.extra()[e], signal([&](const Sample&, std::size_t i) {
+                           return extras[e][series.index[i]];
+                         }));
     }
     for (const Named& kind : {position, velocity, acceleration, torque, rate, extra}) {
       best_of(kind);
@@ -250,22 +273,37 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
   return found;
 }
 
+namespace {
+
+/// The joint where most is left, of what counts.
+int joint_with_most(const Robot& robot, const Series& without) {
+  const Eigen::VectorXd squares =
+      (without.residual.array().square() * without.counted.cast<double>()).rowwise().sum();
+  Eigen::Index most = 0;
+  squares.tail(robot.joint_count()).maxCoeff(&most);
+  return static_cast<int>(most);
+}
+
+}  // namespace
+
 Structure unnamed(const Robot& robot, const Recording& recording, const Series& without,
                   const Variation& variation) {
-  const Eigen::Index row = robot.base_dof() + variation.joint;
+  const int joint = variation.joint >= 0 ? variation.joint : joint_with_most(robot, without);
+  const Eigen::Index row = robot.base_dof() + joint;
   std::vector<double> x, y;
   for (std::size_t i = 0; i < without.index.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     if (!without.counted(row, column)) continue;
-    x.push_back(abscissa(variation.signal, variation.joint, recording, without.index[i],
+    x.push_back(abscissa(variation.signal, joint, recording, without.index[i],
                          without.predicted(row, column)));
     y.push_back(without.residual(row, column));
   }
   Structure structure;
-  structure.joint = robot.joint(variation.joint).name;
+  structure.joint = robot.joint(joint).name;
   structure.variable = variable_of(variation, robot);
   structure.share = variation.share;
   structure.t = variation.z;
+  if (x.empty()) return structure;
   const std::vector<double> edges = quantiles(x);
   Binned places, values;
   for (std::size_t i = 0; i < x.size(); ++i) {

@@ -39,6 +39,8 @@ InputError::InputError(const std::string& wrong, const std::string& right)
     : std::runtime_error(joined(wrong, right)) {}
 
 Refusal::Refusal(std::string code, const std::string& reason)
-    : std::runtime_error(fmt::format("refused ({}): {}", code, reason)), code_(std::move(code)) {}
+    : std::runtime_error(fmt::format("refused ({}): {}", code, reason)),
+      code_(std::move(code)),
+      reason_(reason) {}
 
 }  // namespace shapeid

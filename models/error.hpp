@@ -32,9 +32,11 @@ class Refusal : public std::runtime_error {
   Refusal(std::string code, const std::string& reason);
 
   [[nodiscard]] const std::string& code() const { return code_; }
+  /// What what() says behind the code.
+  [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:
-  std::string code_;
+  std::string code_, reason_;
 };
 
 }  // namespace shapeid

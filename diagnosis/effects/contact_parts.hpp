@@ -40,11 +40,14 @@ inline Eigen::MatrixXd force_columns(const Instant& at, int contact, bool declar
               .transpose();
 }
 
-/// Where the rows of a contact begin in J; empty if it does not touch.
-inline std::optional<Eigen::Index> stance_row(const Robot& robot, const Sample& sample,
-                                              int contact) {
+/// Where the rows of a contact begin in J; empty if it does not touch, or where contacts are not
+/// projected away: J has no rows then, whatever the flags say.
+inline std::optional<Eigen::Index> stance_row(const Robot& robot, const Sample& sample, int contact,
+                                              const Rows& rows) {
   const auto wanted = static_cast<std::size_t>(contact);
-  if (wanted >= sample.in_contact.size() || !sample.in_contact[wanted]) return std::nullopt;
+  if (rows.J.rows() == 0 || wanted >= sample.in_contact.size() || !sample.in_contact[wanted]) {
+    return std::nullopt;
+  }
   Eigen::Index row = 0;
   for (std::size_t c = 0; c < wanted; ++c) {
     if (sample.in_contact[c]) row += force_numbers(robot.contacts[c].kind);

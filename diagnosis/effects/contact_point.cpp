@@ -8,7 +8,7 @@ namespace {
 
 void move(const Robot& robot, const Sample& sample, const Eigen::Vector3d&, int contact,
           const Eigen::VectorXd& value, Rows& rows) {
-  const auto row = stance_row(robot, sample, contact);
+  const auto row = stance_row(robot, sample, contact, rows);
   if (!row) return;
   const auto motions = reference::link_motions(robot, sample);
   const int link = robot.contacts[static_cast<std::size_t>(contact)].link;

@@ -26,6 +26,7 @@ Effect external_force() {
   e.source = "virtual power, docs/derivations/regressor.md";
   e.applies = moves;
   e.columns = columns;
+  e.code.link = "at.f[j] += Vector{-x, -y, -z};";
   return e;
 }
 

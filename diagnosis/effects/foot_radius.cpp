@@ -8,7 +8,7 @@ namespace {
 // A ball touches below its centre, wherever the leg points, on level ground.
 void lower(const Robot& robot, const Sample& sample, const Eigen::Vector3d& down, int contact,
            const Eigen::VectorXd& value, Rows& rows) {
-  const auto row = stance_row(robot, sample, contact);
+  const auto row = stance_row(robot, sample, contact, rows);
   if (!row) return;
   move_point(robot, reference::link_motions(robot, sample), contact, value[0] * down, *row, rows);
 }

@@ -26,6 +26,7 @@ Effect torque_gain() {
   e.under_contact = "in stance seen only against the base's balance and the other legs";
   e.source = "Gautier, Briot, ASME J. Dyn. Syst. Meas. Control 136 (2014)";
   e.transform.rows = scale;
+  e.transform.scales = true;
   e.code.torque = "tau[j] *= 1.0 + g;";
   return e;
 }

@@ -13,13 +13,10 @@
 #include "shapeid/models/log.hpp"
 #include "shapeid/models/log_writer.hpp"
 #include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
-
-const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
-const std::string files =
-    fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
 
 /// The log with a function of one column added to the torque of a joint.
 void add_torque(const std::string& from, const std::string& to, const std::string& joint,
@@ -44,7 +41,7 @@ TEST(Diagnose, FindsAKneesFrictionAndItsFilesAreOfUse) {
   add_torque(scratch() + "/clean.csv.gz", scratch() + "/rough.csv.gz", "FR_knee", "dq.FR_knee",
              [](double dq) { return 0.4 * dq; });
   const CommandRun run =
-      shapeid(fmt::format("diagnose {} --log rough.csv.gz --json --out why", files));
+      shapeid(fmt::format("diagnose {} --log rough.csv.gz --json --out why", quadruped_files));
   ASSERT_EQ(run.status, 0) << run.err;
   const auto result = nlohmann::json::parse(run.out);
   const auto& findings = result["findings"];
@@ -64,18 +61,19 @@ TEST(Diagnose, FindsAKneesFrictionAndItsFilesAreOfUse) {
   const std::string folder = scratch() + "/why/";
   const std::string damping =
       fmt::format("<dynamics damping=\"{}\" friction", (*knee)["value"].get<double>());
-  EXPECT_NE(read_file(folder + "identified.urdf").find(damping), std::string::npos);
-  const std::string page = read_file(folder + "report.html");
+  EXPECT_NE(text_of(folder + "identified.urdf").find(damping), std::string::npos);
+  const std::string page = text_of(folder + "report.html");
   EXPECT_NE(page.find("viscous_friction@FR_knee"), std::string::npos);
   EXPECT_EQ(page.find("http://localhost"), std::string::npos);
-  const CommandRun again = shapeid(fmt::format(
-      "identify {} --log rough.csv.gz --effects why/effects.yaml --divisions 2 --json", files));
+  const CommandRun again = shapeid(
+      fmt::format("identify {} --log rough.csv.gz --effects why/effects.yaml --divisions 2 --json",
+                  quadruped_files));
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_LT(nlohmann::json::parse(again.out)["heldout"]["rms_after"][at].get<double>(),
             0.5 * result["heldout"]["rms_before"][at].get<double>());
 
   const CommandRun fast =
-      shapeid(fmt::format("diagnose {} --log rough.csv.gz --json --path fast", files));
+      shapeid(fmt::format("diagnose {} --log rough.csv.gz --json --path fast", quadruped_files));
   ASSERT_EQ(fast.status, 0) << fast.err;
   const auto same = nlohmann::json::parse(fast.out);
   EXPECT_EQ(result["path"], "reference");
@@ -102,7 +100,7 @@ TEST(Diagnose, DrawsJointsOfAnyName) {
     }
     return text;
   };
-  const std::string log = read_file(scratch() + "/named.csv");
+  const std::string log = text_of(scratch() + "/named.csv");
   const std::size_t line = log.find('\n');
   std::string header;
   for (std::size_t from = 0; from < line;) {
@@ -114,7 +112,7 @@ TEST(Diagnose, DrawsJointsOfAnyName) {
     from = end + 1;
   }
   scratch_file("named.csv", header + log.substr(line));
-  scratch_file("named.urdf", renamed(read_file(robots + "quadruped.urdf"), in_xml));
+  scratch_file("named.urdf", renamed(text_of(robots + "quadruped.urdf"), in_xml));
   const CommandRun run = shapeid(
       fmt::format("diagnose --robot named.urdf --robot-yaml {}quadruped.robot.yaml --log named.csv "
                   "--trust --json --out named",
@@ -130,8 +128,8 @@ TEST(Diagnose, DrawsJointsOfAnyName) {
 TEST(Diagnose, NeedsUsableSamplesToTestOn) {
   ASSERT_EQ(shapeid("simulate --seconds 8 --out long.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 0.2 --seed 3 --out short.csv").status, 0);
-  const CommandRun run =
-      shapeid(fmt::format("diagnose {} --log long.csv --test short.csv --out short", files));
+  const CommandRun run = shapeid(
+      fmt::format("diagnose {} --log long.csv --test short.csv --out short", quadruped_files));
   EXPECT_EQ(run.status, 1);
   EXPECT_NE(run.err.find("refused (no-data): nothing is left to test on"), std::string::npos)
       << run.err;
@@ -143,8 +141,8 @@ TEST(Diagnose, WritesWhatHasNoNameAsCurves) {
   ASSERT_EQ(shapeid("simulate --seconds 10 --out even.csv.gz").status, 0);
   add_torque(scratch() + "/even.csv.gz", scratch() + "/pulled.csv.gz", "FR_knee", "q.RL_hip",
              [](double q) { return 3.0 * std::sin(5.0 * q); });
-  const CommandRun run = shapeid(
-      fmt::format("diagnose {} --log pulled.csv.gz --trust --curves --json --out drawn", files));
+  const CommandRun run = shapeid(fmt::format(
+      "diagnose {} --log pulled.csv.gz --trust --curves --json --out drawn", quadruped_files));
   ASSERT_EQ(run.status, 0) << run.err;
   const auto result = nlohmann::json::parse(run.out);
   ASSERT_FALSE(result["curves"].empty());
@@ -154,7 +152,8 @@ TEST(Diagnose, WritesWhatHasNoNameAsCurves) {
   const double found = held["rms_after"][knee], with_curves = held["rms_with_curves"][knee];
   EXPECT_LT(with_curves, 0.5 * found);
   const CommandRun again = shapeid(fmt::format(
-      "identify {} --log pulled.csv.gz --effects drawn/effects.yaml --divisions 2 --json", files));
+      "identify {} --log pulled.csv.gz --effects drawn/effects.yaml --divisions 2 --json",
+      quadruped_files));
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_LT(nlohmann::json::parse(again.out)["heldout"]["rms_after"][knee].get<double>(),
             0.5 * found);
@@ -166,7 +165,7 @@ TEST(Diagnose, FitsAndTestsSeveralLogsTogether) {
     ASSERT_EQ(shapeid(words).status, 0);
   }
   const auto diagnosed = [](const std::string& logs) {
-    const CommandRun run = shapeid(fmt::format("diagnose {} {} --json", files, logs));
+    const CommandRun run = shapeid(fmt::format("diagnose {} {} --json", quadruped_files, logs));
     EXPECT_EQ(run.status, 0) << run.err;
     return nlohmann::json::parse(run.out);
   };
@@ -185,8 +184,8 @@ TEST(Diagnose, ALoadActsFromItsMomentAlsoInWhatIsHeldOut) {
   ASSERT_EQ(
       shapeid("simulate --seconds 20 --load 2 0.1 0.02 0.05 --load-from 12 --out load.csv").status,
       0);
-  const CommandRun run =
-      shapeid(fmt::format("diagnose {} --trust --log load.csv --json --out loaded", files));
+  const CommandRun run = shapeid(
+      fmt::format("diagnose {} --trust --log load.csv --json --out loaded", quadruped_files));
   ASSERT_EQ(run.status, 0) << run.err;
   const auto result = nlohmann::json::parse(run.out);
   const auto& findings = result["findings"];
@@ -207,7 +206,7 @@ TEST(Diagnose, TestsOnNothingThatIsFitted) {
   ASSERT_EQ(shapeid("simulate --seconds 2 --out run.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 2 --seed 2 --out other.csv").status, 0);
   const auto expect_refused = [](const std::string& logs, const std::string& says) {
-    const CommandRun run = shapeid(fmt::format("diagnose {} {}", files, logs));
+    const CommandRun run = shapeid(fmt::format("diagnose {} {}", quadruped_files, logs));
     EXPECT_EQ(run.status, 2) << logs;
     EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
   };
@@ -223,7 +222,8 @@ TEST(Diagnose, TestsOnNothingThatIsFitted) {
 TEST(Diagnose, LogsOfDifferentRatesAreNotMixed) {
   ASSERT_EQ(shapeid("simulate --seconds 2 --out run.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 2 --rate 250 --out slow.csv").status, 0);
-  const CommandRun run = shapeid(fmt::format("diagnose {} --log run.csv --also slow.csv", files));
+  const CommandRun run =
+      shapeid(fmt::format("diagnose {} --log run.csv --also slow.csv", quadruped_files));
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.err.find("slow.csv: has 250 samples a second, run.csv has 500"), std::string::npos)
       << run.err;
@@ -248,6 +248,41 @@ void leave_out(const std::string& from, const std::string& to, const std::string
   out.close();
 }
 
+/// The log with the other sign in the columns of these names.
+void turn_round(const std::string& from, const std::string& to, const std::string& prefix) {
+  LogReader log(scratch() + "/" + from);
+  LogWriter out(scratch() + "/" + to, log.columns());
+  while (std::optional<LogRow> row = log.next()) {
+    for (std::size_t c = 0; c < log.columns().size(); ++c) {
+      if (log.columns()[c].starts_with(prefix)) row->values[c] *= -1.0;
+    }
+    out.write(row->values);
+  }
+  out.close();
+}
+
+/// What is only tested on, or came before, means the same as what is diagnosed.
+TEST(Diagnose, OtherLogsAreCheckedAsTheLogIs) {
+  ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
+  ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out other.csv").status, 0);
+  turn_round("other.csv", "turned.csv", "tau.");
+  for (const char* option : {"test", "reference"}) {
+    const CommandRun run = shapeid(fmt::format(
+        "diagnose {} --trust --json --log run.csv --{} turned.csv", quadruped_files, option));
+    EXPECT_EQ(run.status, 1) << option;
+    EXPECT_EQ(run.out, "");
+    EXPECT_NE(run.err.find("refused (torque-sign): turned.csv: "), std::string::npos) << run.err;
+  }
+}
+
+/// Flags say which feet touch, and nothing is made of them where contacts are not asked for.
+TEST(Diagnose, GoesThroughWithoutContacts) {
+  ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
+  const CommandRun run = shapeid(
+      fmt::format("diagnose {} --trust --json --log run.csv --contacts none", quadruped_files));
+  EXPECT_EQ(run.status, 0) << run.err;
+}
+
 TEST(Diagnose, LoggedAndDerivedContactsAreNotMixed) {
   ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out flagged.csv").status, 0);
@@ -255,7 +290,7 @@ TEST(Diagnose, LoggedAndDerivedContactsAreNotMixed) {
   const auto refused = [](const std::string& verb, const std::string& option,
                           const std::string& first, const std::string& other) {
     const CommandRun run =
-        shapeid(fmt::format("{} {} --log {} --{} {}", verb, files, first, option, other));
+        shapeid(fmt::format("{} {} --log {} --{} {}", verb, quadruped_files, first, option, other));
     EXPECT_EQ(run.status, 2) << verb << " --" << option;
     EXPECT_EQ(run.out, "");
     return run.err;
@@ -282,7 +317,7 @@ TEST(Diagnose, NotesOfFurtherLogsNameThem) {
   const CommandRun run =
       shapeid(fmt::format("diagnose {} --trust --json --log run.csv --also slopeless.csv "
                           "--test test.csv",
-                          files));
+                          quadruped_files));
   ASSERT_EQ(run.status, 0) << run.err;
   const auto result = nlohmann::json::parse(run.out);
   const auto& notes = result["notes"];
@@ -292,7 +327,8 @@ TEST(Diagnose, NotesOfFurtherLogsNameThem) {
 }
 
 TEST(Diagnose, RefusesAPathThatIsNone) {
-  const CommandRun run = shapeid(fmt::format("diagnose {} --log x.csv --path slow", files));
+  const CommandRun run =
+      shapeid(fmt::format("diagnose {} --log x.csv --path slow", quadruped_files));
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   EXPECT_NE(run.err.find("--path"), std::string::npos) << run.err;
@@ -303,8 +339,9 @@ TEST(Diagnose, MassesAreFoundBesideALagThatIsKnown) {
   ASSERT_EQ(shapeid("simulate --seconds 4 --out even.csv.gz").status, 0);
   const auto masses = [&](const std::string& yaml) {
     scratch_file("known.yaml", yaml);
-    const CommandRun run = shapeid(fmt::format(
-        "identify {} --log even.csv.gz --effects known.yaml --divisions 2 --json", files));
+    const CommandRun run = shapeid(
+        fmt::format("identify {} --log even.csv.gz --effects known.yaml --divisions 2 --json",
+                    quadruped_files));
     EXPECT_EQ(run.status, 0) << run.err;
     return nlohmann::json::parse(run.out)["links"].dump();
   };
@@ -317,15 +354,15 @@ TEST(Diagnose, MassesAreFoundBesideALagThatIsKnown) {
 TEST(Diagnose, ListsTheCatalogue) {
   const CommandRun run = shapeid("diagnose --list");
   EXPECT_EQ(run.status, 0);
-  EXPECT_EQ(run.out, read_file(SHAPEID_SOURCE_DIR "/docs/effects.md"));
+  EXPECT_EQ(run.out, text_of(SHAPEID_SOURCE_DIR "/docs/effects.md"));
 }
 
 TEST(Diagnose, EffectsThatDoNotExistAreRefusedWithTheirLine) {
   ASSERT_EQ(shapeid("simulate --seconds 2 --out short.csv.gz").status, 0);
   const auto refused = [&](const std::string& yaml) {
     scratch_file("effects.yaml", yaml);
-    const CommandRun run =
-        shapeid(fmt::format("identify {} --log short.csv.gz --effects effects.yaml", files));
+    const CommandRun run = shapeid(
+        fmt::format("identify {} --log short.csv.gz --effects effects.yaml", quadruped_files));
     EXPECT_EQ(run.status, 2);
     return run.err;
   };

@@ -44,11 +44,13 @@ class BestRound : public ::testing::Test {
   const LoopResult wrong_ =
       round_with(test::effect("viscous_friction", 2, {friction}), 10.0, 0.0, 3.0);
 
+  std::size_t taken_ = 0;
+
   /// What is kept of the rounds, after the last of them.
   void keep_of(const std::vector<LoopResult>& rounds) {
     state_.result = rounds.back();
     state_.use_correction(rounds.back().correction);
-    take_best_of(rounds, state_);
+    taken_ = take_best_of(rounds, state_);
   }
 };
 
@@ -57,6 +59,7 @@ TEST_F(BestRound, IsKeptWhereverItStands) {
   for (int turn = 0; turn < 3; ++turn) {
     keep_of(rounds);
     ASSERT_EQ(test::found_ids(state_.result), Ids{"viscous_friction"}) << turn;
+    EXPECT_EQ(taken_, static_cast<std::size_t>((3 - turn) % 3)) << turn;
     EXPECT_EQ(state_.result.found[0].effect.site, 1) << turn;
     EXPECT_EQ(state_.result.model.effects[0].site, 1) << turn;
     EXPECT_EQ(state_.result.weight, right_.weight) << turn;

@@ -6,6 +6,7 @@
 
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/hypotheses.hpp"
+#include "shapeid/diagnosis/tally.hpp"
 #include "shapeid/reference/contact.hpp"
 #include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/support/generators.hpp"
@@ -293,6 +294,99 @@ RC_GTEST_PROP(Transformations, ZeroChangesNothing, ()) {
       RC_ASSERT(sample.tau == scene.sample.tau);
     }
   }
+}
+
+/// Forty samples like this one.
+Recording held(const Sample& sample) {
+  constexpr double rate = 100.0;
+  std::vector<Sample> samples(40, sample);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].time = static_cast<double>(i) / rate;
+  }
+  return {std::move(samples), rate};
+}
+
+constexpr std::size_t middle_of_held = 20;
+
+/// The flags may say that feet touch: without projection there is nothing to move.
+RC_GTEST_PROP(Transformations, OfContactsChangeNothingWhereNoneIsProjected, ()) {
+  const Scene scene = any_scene();
+  RichModel model{scene.Phi, {}};
+  for (int c = 0; c < std::ssize(scene.robot.contacts); ++c) {
+    for (const char* id : {"contact_point", "foot_radius"}) {
+      const Effect& e = *find_effect(id);
+      if (!has_site(e, scene.robot, c)) continue;
+      model.effects.push_back(at_start(e, c));
+      model.effects.back().value.setConstant(0.02);
+    }
+  }
+  const Recording recording = held(scene.sample);
+  const HypothesisColumns columns(scene.robot, reference::ContactTreatment::ignore, model,
+                                  model.effects);
+  const View view = columns.viewer().view(recording, middle_of_held);
+  const Prediction predicted = predict(columns.viewer(), view, model);
+  RC_ASSERT(predicted.J.rows() == 0);
+  RC_ASSERT(predicted.force == Eigen::VectorXd(view.Y * scene.Phi));
+  RC_ASSERT(columns.at(recording, middle_of_held, view, predicted).isZero(0.0));
+}
+
+/// A gain scales where the foot is found to be as well, wherever both stand in a list.
+RC_GTEST_PROP(Transformations, ThatScaleComeLast, ()) {
+  const Scene scene = any_scene(Root::floating);
+  RC_PRE(scene.robot.contacts.size() > 0 && scene.robot.joint_count() > 0);
+  AppliedEffect gain = at_start(*find_effect("torque_gain"), 0);
+  AppliedEffect point = at_start(*find_effect("contact_point"), 0);
+  gain.value[0] = 0.2;
+  point.value = *test::vector3(0.1);
+  const Recording recording = held(scene.sample);
+  const auto said = [&](const std::vector<AppliedEffect>& effects) {
+    const Viewer viewer(scene.robot, reference::ContactTreatment::project, effects);
+    return predict(viewer, viewer.view(recording, middle_of_held), {scene.Phi, effects});
+  };
+  const Prediction one = said({gain, point}), other = said({point, gain});
+  RC_ASSERT(one.J == other.J);
+  RC_ASSERT(one.force == other.force);
+}
+
+/// What measured forces carry the joints need not provide: a gain scales what is left, in
+/// predictions and in the sums that are fitted.
+RC_GTEST_PROP(MeasuredForces, AreScaledWithTheTorqueThatTheySpare, ()) {
+  Scene scene = any_scene(Root::floating);
+  RC_PRE(scene.robot.contacts.size() > 0 && scene.robot.joint_count() > 0);
+  scene.sample.contact_force.clear();
+  for (std::size_t c = 0; c < scene.robot.contacts.size(); ++c) {
+    scene.sample.contact_force.push_back(*test::vector3(50.0));
+  }
+  const auto measured = reference::ContactTreatment::measured;
+  AppliedEffect gain = at_start(*find_effect("torque_gain"), 0);
+  gain.value[0] = 0.2;
+  const RichModel model{scene.Phi, {gain}};
+  const Recording recording = held(scene.sample);
+  const Viewer viewer(scene.robot, measured, model.effects);
+  const View view = viewer.view(recording, middle_of_held);
+  const Eigen::VectorXd carried = reference::measured_contact_force(scene.robot, scene.sample);
+  Eigen::VectorXd wanted = scene.Y * scene.Phi - carried;
+  wanted[scene.robot.base_dof()] *= 1.2;
+  const Prediction predicted = predict(viewer, view, model);
+  const double terms = (scene.Y.cwiseAbs() * scene.Phi.cwiseAbs()).norm() + carried.norm();
+  RC_ASSERT(test::scaled((predicted.force - wanted).norm(), terms, 10) < few_hundred_eps);
+  RC_ASSERT(test::scaled((predicted.load.joint -
+                          (scene.Y * scene.Phi - carried).tail(scene.robot.joint_count()))
+                             .norm(),
+                         terms, 10) < few_hundred_eps);
+
+  Tally tally = empty_tally(scene.robot, {});
+  TallyOptions options;
+  options.stride = 1;
+  options.weight = Eigen::VectorXd::Ones(scene.robot.dof());
+  options.block_seconds = 10.0;
+  add_to_tally(tally, scene.robot, measured, model, recording, options, false);
+  Eigen::VectorXd x(tally.columns() + 1);
+  x << scene.Phi, -1.0;
+  const auto samples = static_cast<double>(recording.usable(1).size());
+  const double squares = samples * (wanted - logged_force(viewer, view)).squaredNorm();
+  const double all = samples * std::pow(terms + scene.sample.tau.norm(), 2);
+  RC_ASSERT(test::scaled(x.dot(tally.blocks.at(0).sums * x) - squares, all, 100) < few_hundred_eps);
 }
 
 /// A robot that stays as it is while its contact flags flip: looking a little earlier or later

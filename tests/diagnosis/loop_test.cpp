@@ -272,6 +272,47 @@ TEST(Consistent, LinksAreBodiesAndTheEffectIsStillThere) {
   }
 }
 
+/// What was found is given: asked is what bodies and errors make of it.
+struct Told {
+  LoopResult loop;
+  Consistent model;
+
+  Told(const Recording& log, const Recording& reference, const AppliedEffect& effect) {
+    const LoopSettings settings = arm_settings();
+    loop.weight = Eigen::VectorXd::Ones(3);
+    loop.prior = 1e-6;
+    loop.hypotheses = 150;
+    loop.model = {stacked_parameters(arm()), {effect}};
+    loop.found = {{effect, "told", Eigen::VectorXd::Zero(effect.value.size())}};
+    model = make_consistent(arm(), log, &reference, settings, loop);
+    mark_faded(log, settings, model, loop);
+  }
+};
+
+/// A tenth of both logs together would be all of the short one.
+TEST(Consistent, WhatCameSinceALongReferenceIsCertain) {
+  const Recording log = record({{effect("viscous_friction", 1, {0.3})}, 20.0, 0.02, 2});
+  AppliedEffect friction = effect("viscous_friction", 1, {0.3});
+  friction.since_reference = true;
+  const Told told(log, record({{}, 200.0}), friction);
+  ASSERT_EQ(told.model.model.effects.size(), 1U);
+  EXPECT_NEAR(told.model.model.effects[0].value[0], 0.3, 0.01);
+  EXPECT_LT(told.model.effect_error[0][0], 0.01);
+  EXPECT_FALSE(told.loop.found[0].faded);
+}
+
+/// The reference has its own clock: at the same time nothing came there.
+TEST(Consistent, ALoadThatCameIsNotInTheReference) {
+  AppliedEffect load =
+      effect("payload_from", 3, {0.8, 0.02, 0.0, 0.2, 0.06, 0.0, -0.004, 0.06, 0.0, 0.002});
+  load.shape[0] = 9.0;
+  const Told told(record({{load}, 20.0, 0.02, 2}), record({{}, 20.0}), load);
+  ASSERT_EQ(told.model.model.effects.size(), 1U);
+  EXPECT_NEAR(told.model.model.effects[0].value[0], 0.8, 0.02);
+  const double given = stacked_parameters(arm())[30];
+  EXPECT_NEAR(told.model.model.Phi[30], given, 0.1 * given);
+}
+
 /// With two links known the third comes back as it is (a wrong column of known forces once gave it
 /// the mass of all three).
 TEST(Consistent, KnownLinksAreMovedOver) {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "shapeid/tests/diagnosis/arm.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -44,9 +44,9 @@ Eigen::MatrixXd said_by_header(const std::string& header, const std::string& arr
     main += "  shapeid_model::predict(" + call +
             ", tau);\n  for (double t : tau) std::printf(\"%.17g\\n\", t);\n";
   }
-  const test::Scratch scratch;
-  static_cast<void>(scratch.file("model.hpp", header));
-  const std::string program = scratch.file("main.cpp", main + "}\n");
+  const test::ScratchFolder scratch;
+  scratch.write("model.hpp", header);
+  const std::string program = scratch.write("main.cpp", main + "}\n");
   const std::string binary = scratch.path("predict");
   const std::string build = "c++ -std=c++17 -Wall -Wextra -Werror -o " + binary + " " + program;
   EXPECT_EQ(std::system(build.c_str()), 0) << header;
@@ -60,13 +60,19 @@ Eigen::MatrixXd said_by_header(const std::string& header, const std::string& arr
 
 TEST(TorqueHeader, PredictsWhatTheModelPredicts) {
   const Robot robot = test::arm();
-  const std::vector<AppliedEffect> effects = {
-      test::effect("viscous_friction", 0, {0.3}),  test::effect("coulomb_friction", 1, {0.2}),
-      test::effect("stribeck_friction", 2, {0.1}), test::effect("load_friction", 1, {0.05}),
-      test::effect("torque_offset", 2, {-0.4}),    test::effect("rotor_inertia", 2, {0.02}),
-      test::effect("rotor_reaction", 2, {0.01}),   test::effect("joint_spring", 0, {0.5, 0.1}),
-      test::effect("cogging", 1, {0.1, -0.2}),     test::effect("link_length", 2, {0.01}),
-      test::effect("encoder_offset", 1, {0.02}),   test::effect("torque_gain", 1, {0.1})};
+  const std::vector<AppliedEffect> effects = {test::effect("viscous_friction", 0, {0.3}),
+                                              test::effect("coulomb_friction", 1, {0.2}),
+                                              test::effect("stribeck_friction", 2, {0.1}),
+                                              test::effect("load_friction", 1, {0.05}),
+                                              test::effect("torque_offset", 2, {-0.4}),
+                                              test::effect("rotor_inertia", 2, {0.02}),
+                                              test::effect("rotor_reaction", 2, {0.01}),
+                                              test::effect("joint_spring", 0, {0.5, 0.1}),
+                                              test::effect("cogging", 1, {0.1, -0.2}),
+                                              test::effect("link_length", 2, {0.01}),
+                                              test::effect("encoder_offset", 1, {0.02}),
+                                              test::effect("torque_gain", 1, {0.1}),
+                                              test::effect("external_force", 3, {2.0, -1.0, 0.5})};
   const auto follows = [](const std::string& law, int site, CurveSignal signal, int joint) {
     return Curve{test::effect(law, site, {0.0}),
                  {signal, joint},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "shapeid/diagnosis/constancy.hpp"
@@ -170,10 +171,51 @@ TEST(RipplePlacebos, AreOverThePositionOfEveryOtherJoint) {
   }));
 }
 
+/// An effect of no joint that varies with time is drawn at the joint where most is left, and not at
+/// all where nothing counts.
+TEST(Unnamed, WhatIsOfNoJointIsDrawnWhereMostIsLeft) {
+  const Robot robot = arm();
+  const Recording log = record({}, [](std::vector<Sample>& samples) {
+    for (Sample& s : samples) s.tau[1] += 0.2 * std::sin(s.time);
+  });
+  const RichModel model{stacked_parameters(robot), {}};
+  Series left = series(robot, reference::ContactTreatment::ignore, model, log, 2);
+  const Variation varies{Signal::time, -1, 0.3, 9.0};
+  const Structure drawn = unnamed(robot, log, left, varies);
+  EXPECT_EQ(drawn.joint, "joint2");
+  EXPECT_EQ(drawn.variable, "time");
+  EXPECT_FALSE(drawn.at.empty());
+  left.counted.setConstant(false);
+  EXPECT_TRUE(unnamed(robot, log, left, varies).at.empty());
+}
+
+/// A column that is logged once a second has its last value in between.
+TEST(Unexplained, FollowsColumnsThatAreLoggedRarely) {
+  const Robot robot = arm();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(20.0, 60.0);
+  std::vector<Sample> samples = record({{}, 60.0}).samples();
+  double temperature = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const bool logged = i % 100 == 50;
+    if (logged) temperature = any(random);
+    samples[i].extra = {logged ? temperature : std::numeric_limits<double>::quiet_NaN()};
+    samples[i].tau[2] += 0.01 * temperature;
+  }
+  const Recording log(std::move(samples), 100.0, {"temp"});
+  const RichModel model{stacked_parameters(robot), {}};
+  const Series left = series(robot, reference::ContactTreatment::ignore, model, log, 2);
+  const std::vector<Structure> found = unexplained(robot, log, left, 2);
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Structure& s) {
+    return s.variable == "temp" && s.joint == "joint3" && s.share > 0.9;
+  }));
+}
+
 TEST(Reach, IsWhereAnEffectChangesTorque) {
   const Robot robot = arm();
   EXPECT_EQ(reach_of(robot, effect("viscous_friction", 1, {0.1})), (Joints{false, true, false}));
   EXPECT_EQ(reach_of(robot, effect("torque_gain", 2, {0.1})), (Joints{false, false, true}));
+  EXPECT_EQ(reach_of(robot, effect("rotor_reaction", 1, {0.1})), (Joints{true, true, false}));
   EXPECT_EQ(reach_of(robot, effect("drag", 2, {1.0})), (Joints{true, true, false}));
   EXPECT_EQ(reach_of(robot, effect("encoder_offset", 0, {0.1})), (Joints{true, true, true}));
   EXPECT_EQ(reach_of(robot, effect("torque_delay", 0, {0.01})), (Joints{true, true, true}));

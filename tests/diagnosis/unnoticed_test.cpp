@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/hypotheses.hpp"
 #include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
@@ -64,6 +65,32 @@ TEST(Unnoticed, CoversARotorThatTheLinkHasTaken) {
   constexpr double errors = 3.0;
   EXPECT_GT(fitted.wrong(10 + Izz), errors * fitted.model.Phi_error[10 + Izz]);
   EXPECT_LT(fitted.wrong(10 + Izz), fitted.unnoticed.error[10 + Izz]);
+}
+
+/// Every effect that an arm can have, at each of its places, half as large as one usually sees:
+/// where the numbers that the data determine have taken it, what is said beside the standard error
+/// holds the mistake. The standard error alone does not.
+TEST(Unnoticed, CoversEveryEffectOfTheCatalogue) {
+  const Robot robot = arm();
+  constexpr double errors = 3.0;
+  int beyond_standard_errors = 0;
+  for (AppliedEffect a : all_hypotheses(robot)) {
+    for (Eigen::Index p = 0; p < a.value.size(); ++p) {
+      a.value[p] = 0.5 * a.effect->parameters[static_cast<std::size_t>(p)].size;
+    }
+    const int link = a.effect->site == SiteKind::joint ? a.site + 1 : 3;
+    const Fitted fitted(record({{a}}), link);
+    bool beyond = false;
+    for (Eigen::Index p = 0; p < 10; ++p) {
+      if (!fitted.model.data.determined[static_cast<std::size_t>(p)]) continue;
+      const Eigen::Index number = 10 * link + p;
+      EXPECT_LT(fitted.wrong(number), errors * fitted.unnoticed.error[number])
+          << hypothesis_id(robot, a) << ", number " << p;
+      beyond = beyond || fitted.wrong(number) > 5.0 * fitted.model.Phi_error[number];
+    }
+    if (beyond) ++beyond_standard_errors;
+  }
+  EXPECT_GE(beyond_standard_errors, 10);
 }
 
 TEST(Unnoticed, WhatWasFoundIsNotUnnoticed) {
