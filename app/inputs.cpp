@@ -20,6 +20,8 @@
 namespace shapeid::app {
 namespace {
 
+constexpr double usual_contact_threshold = 0.15;
+
 /// Whether a log, as seen through its mapping, has an IMU.
 bool has_imu(const LogTable& log, const std::optional<Mapping>& mapping) {
   const auto is_of_base = [](const std::string& name) {
@@ -72,7 +74,7 @@ void MotionInputs::add_robot_to(CLI::App& verb) {
   verb.add_option("--contact-threshold", contact_threshold,
                   "derived contacts: share of the robot's weight that a foot must carry")
       ->check(share_above_zero())
-      ->capture_default_str();
+      ->default_str(fmt::format("{}", usual_contact_threshold));
 }
 
 void MotionInputs::add_to(CLI::App& verb) {
@@ -102,16 +104,26 @@ void MotionInputs::add_row_cutoff_to(CLI::App& verb) {
 }
 
 ContactTreatment contact_treatment(const MotionInputs& inputs, const Robot& robot) {
-  if (inputs.contacts == "measured") return ContactTreatment::measured;
-  if (inputs.contacts == "none" || robot.root == Root::fixed || robot.contacts.empty()) {
-    return ContactTreatment::ignore;
+  const bool none =
+      inputs.contacts == "none" || robot.root == Root::fixed || robot.contacts.empty();
+  const auto treatment = inputs.contacts == "measured" ? ContactTreatment::measured
+                         : none                        ? ContactTreatment::ignore
+                                                       : ContactTreatment::project;
+  if (inputs.contact_threshold && treatment != ContactTreatment::project) {
+    throw InputError("--contact-threshold is given, and no contacts are derived here",
+                     "a floating base with contacts in robot.yaml and --contacts auto, or no "
+                     "threshold");
   }
-  return ContactTreatment::project;
+  return treatment;
+}
+
+double contact_threshold(const MotionInputs& inputs) {
+  return inputs.contact_threshold.value_or(usual_contact_threshold);
 }
 
 ContactRule contact_rule(const MotionInputs& inputs, const Robot& robot) {
   return [&robot, Phi = stacked_parameters(robot),
-          share = inputs.contact_threshold](const Sample& sample) {
+          share = contact_threshold(inputs)](const Sample& sample) {
     return std::optional(reference::detect_contacts(robot, sample, Phi, share));
   };
 }

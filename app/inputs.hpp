@@ -21,7 +21,8 @@ constexpr int stretches = 5;
 /// Options that name the robot, the log and how to read them.
 struct MotionInputs {
   std::string robot, robot_yaml, log, mapping;
-  double cutoff = 20.0, row_cutoff = 0.0, rate = 0.0, contact_threshold = 0.15;
+  double cutoff = 20.0, row_cutoff = 0.0, rate = 0.0;
+  std::optional<double> contact_threshold;  ///< as given
   std::string contacts = "auto";
   bool exact = false, accept_impossible = false;
   int held_out_stretch = stretches;  ///< which one of them
@@ -56,8 +57,12 @@ void check_no_stream(const std::string& log);
 /// The same for a log whose header is read already, as a stream's must be.
 [[nodiscard]] RobotInputs read_robot(const MotionInputs& inputs, const LogTable& log);
 
-/// What becomes of contact forces: as asked for, or nothing where nothing touches.
+/// What becomes of contact forces: as asked for, or nothing where nothing touches. Throws
+/// InputError for a threshold of derived contacts where none are derived.
 [[nodiscard]] ContactTreatment contact_treatment(const MotionInputs& inputs, const Robot& robot);
+
+/// Share of the robot's weight that a foot must carry: as given, or the usual one.
+[[nodiscard]] double contact_threshold(const MotionInputs& inputs);
 
 /// Derives contacts for logs without flags, from the model that is given. The robot must outlive
 /// it.

@@ -45,7 +45,7 @@ TrackSettings settings_for(const Options& options, const RobotInputs& robot,
   settings.stream.contacts_needed = identifier.contacts == ContactTreatment::project;
   if (settings.stream.contacts_needed) {
     settings.stream.derive_contacts = contact_rule(options.inputs, robot.robot);
-    settings.contact_threshold = options.inputs.contact_threshold;
+    settings.contact_threshold = contact_threshold(options.inputs);
   }
   return settings;
 }
@@ -190,7 +190,7 @@ void add_track(CLI::App& app) {
   auto* follow =
       verb->add_flag("--follow", options->follow.follow, "at the end of the file wait for more");
   verb->add_option("--patience", options->follow.patience,
-                   "s without a new byte after which following ends; 0 never")
+                   "s without a new byte after which following ends, of a stream too; 0 never")
       ->check(zero_or_above())
       ->needs(follow)
       ->capture_default_str();

@@ -2,12 +2,16 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <thread>
 #include <utility>
 
@@ -56,6 +60,10 @@ std::optional<Line> LineFollower::next() {
 bool LineFollower::fill() {
   block_.resize(block_size);
   in_block_ = 0;
+  if (is_stream() && options_.patience > 0.0 && keeps_silent()) {
+    block_.clear();
+    return false;
+  }
   ssize_t got = 0;
   do {
     got = ::read(file_, block_.data(), block_size);
@@ -87,6 +95,18 @@ bool LineFollower::wait_for_more() {
     if (options_.patience > 0.0 && waited.count() > options_.patience) return false;
     std::this_thread::sleep_for(between_looks);
   }
+}
+
+/// Whether a stream neither has more nor ends for as long as we wait.
+bool LineFollower::keeps_silent() const {
+  constexpr double most = std::numeric_limits<int>::max();
+  const int milliseconds = static_cast<int>(std::min(std::ceil(1e3 * options_.patience), most));
+  pollfd waiting{file_, POLLIN, 0};
+  int ready = 0;
+  do {
+    ready = ::poll(&waiting, 1, milliseconds);
+  } while (ready < 0 && errno == EINTR);
+  return ready == 0;
 }
 
 void LineFollower::refuse_shrunk() const {

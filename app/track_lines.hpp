@@ -15,8 +15,8 @@ struct Line {
 };
 
 struct FollowOptions {
-  bool follow = false;    ///< at the end of a file wait for more
-  double patience = 0.0;  ///< s without a new byte after which following ends; 0: never
+  bool follow = false;    ///< at the end of a file wait for more; streams are waited for anyway
+  double patience = 0.0;  ///< s without a new byte after which waiting ends; 0: never
 };
 
 /// Reads no further than it is asked, so that a slow reader of ours slows the writer down and
@@ -44,6 +44,7 @@ class LineFollower {
  private:
   [[nodiscard]] bool fill();
   [[nodiscard]] bool wait_for_more();
+  [[nodiscard]] bool keeps_silent() const;
   void refuse_shrunk() const;
 
   std::string path_;
