@@ -5,8 +5,8 @@
 
 #include "shapeid/models/simbody/simbody_robot.hpp"
 #include "shapeid/tests/blind/parts/yardstick.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid::blind {
 namespace {
@@ -104,7 +104,7 @@ TEST(Generator, SealedNumbersExplainTheSignals) {
 /// An effect of twice the detectable size gains more than one of the size, by what a model of known
 /// truth is worth: in noise alone the size is about 6.6 standard errors of its own fit.
 TEST(Yardstick, DetectableSizeFollowsTheNoise) {
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   Machine m = arm();
   const Item item = some("torque_offset", 1);
   const Readings readings = simulate_clean(m, 5);
@@ -136,7 +136,7 @@ Eigen::MatrixXd noise_of(const Machine& m, const diagnosis::Recording& log) {
 /// Noise may hide an item, and by luck does not show one: an item that is the noise itself has a
 /// size, and what is its opposite must first make up for it.
 TEST(Yardstick, LuckShowsNothingAndMayHide) {
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   const Machine m = arm();
   write_logs(m, arm_trial({}), simulate_clean(m, 5), scratch.path(""));
   const diagnosis::Recording log = read_log(m, scratch.path("log.csv"));
@@ -147,7 +147,7 @@ TEST(Yardstick, LuckShowsNothingAndMayHide) {
 
 /// A load that was never absent is a part of its link, but for a log without it.
 TEST(Yardstick, LogWithoutALoadShowsIt) {
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   const Machine m = arm();
   const Readings readings = simulate_clean(m, 5);
   Trial earlier = arm_trial({});

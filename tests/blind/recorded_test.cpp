@@ -7,7 +7,7 @@
 
 #include "shapeid/tests/blind/parts/plan.hpp"
 #include "shapeid/tests/blind/parts/score.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid::blind {
 namespace {
@@ -17,9 +17,10 @@ nlohmann::json read_json(const std::string& path) {
   return nlohmann::json::parse(in);
 }
 
-/// Of one trial of the set that the options plan.
+/// Of one trial of the set that the options plan; without its reference log, should it have one, as
+/// none had when these were recorded.
 Judgement judgement_of(PlanOptions options, int cutoff, int which = 0) {
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   options.trials = which + 1;
   generate(options, scratch.path("set"));
   const std::string trial = fmt::format("{}/trial{:04d}/", scratch.path("set"), which);

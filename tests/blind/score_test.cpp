@@ -89,6 +89,139 @@ TEST(Score, OneOfTwoAndMoreThanThereIs) {
   EXPECT_EQ(outcome(two, answer({wide})), Outcome::partly);
 }
 
+/// Whichever of two effects comes first in the seal.
+Outcome outcome_in_both_orders(const Item& one, const Item& other, const json& said) {
+  const Outcome first = outcome(trial({one, other}), said);
+  EXPECT_EQ(name_of(first), name_of(outcome(trial({other, one}), said)));
+  return first;
+}
+
+TEST(Score, ANameStandsForOneEffectInWhicheverOrder) {
+  const Item offset = item("torque_offset", 0), ripple = item("cogging", 3);
+  const json both = finding("cogging", "twist", {"torque_offset@turn"});
+  EXPECT_EQ(outcome_in_both_orders(offset, ripple, answer({both})), Outcome::partly);
+  // The set that holds both is left to the one that is in no other.
+  const json wide = finding("drag", "hand", {"torque_offset@turn", "cogging@twist"});
+  const json narrow = finding("drag", "fore", {"torque_offset@turn"});
+  for (const auto& said : {answer({wide, narrow}), answer({narrow, wide})}) {
+    EXPECT_EQ(outcome_in_both_orders(offset, ripple, said), Outcome::ambiguous);
+  }
+}
+
+/// A true name does not make what is said besides true, though that has it in its set.
+TEST(Score, RightIsNothingElse) {
+  const Trial t = trial({item("torque_offset", 0)});
+  const json exact = finding("torque_offset", "turn");
+  const json more = finding("joint_spring", "turn", {"torque_offset@turn"});
+  EXPECT_EQ(outcome(t, answer({exact})), Outcome::right);
+  EXPECT_EQ(outcome(t, answer({exact, more})), Outcome::ambiguous);
+  EXPECT_EQ(outcome(t, answer({more, exact})), Outcome::ambiguous);
+}
+
+/// Only of what is wrong is it said that it stands beside all that was there.
+TEST(Score, BesideIsOfTheWrong) {
+  const Trial t = trial({item("torque_offset", 0)});
+  const json exact = finding("torque_offset", "turn");
+  EXPECT_FALSE(judge(t, answer({exact})).beside);
+  EXPECT_FALSE(judge(t, answer({finding("drag", "hand", {"torque_offset@turn"})})).beside);
+  EXPECT_TRUE(judge(t, answer({exact, finding("torque_offset", "lift")})).beside);
+  EXPECT_FALSE(judge(t, answer({finding("torque_offset", "lift")})).beside);
+}
+
+Scored scored_as(const Trial& t, const json& said) { return {t, judge(t, said)}; }
+
+/// Whether the tables have a row that begins so.
+bool has_row(const std::vector<Scored>& all, const std::string& begin) {
+  return tables(all).find("\n| " + begin) != std::string::npos;
+}
+
+TEST(ScoreTables, SetsOfTheAmbiguousAreShown) {
+  const Trial t = trial({item("torque_offset", 0)});
+  std::vector<Scored> all;
+  for (const std::size_t others : {0U, 2U, 40U}) {
+    std::vector<std::string> set(others, "cogging@lift");
+    set.emplace_back("torque_offset@turn");
+    all.push_back(scored_as(t, answer({finding("joint_spring", "turn", set)})));
+  }
+  // Of what is right the set is not asked.
+  all.push_back(scored_as(
+      t, answer({finding("torque_offset", "turn", std::vector<std::string>(99, "cogging@lift"))})));
+  EXPECT_TRUE(has_row(all, "effects of the catalogue | 3 | 3 | 41 |")) << tables(all);
+  EXPECT_TRUE(has_row(all, "of these at twice the detectable size and above | 3 | 3 | 41 |"));
+  EXPECT_TRUE(has_row(all, "foreign effects | 0 | - | - |"));
+}
+
+TEST(ScoreTables, ACrashIsAnOutcomeOfItsOwn) {
+  const Trial t = trial({item("torque_offset", 0)});
+  Scored crash{t, {}};
+  crash.judgement.outcome = Outcome::crashed;
+  const std::vector<Scored> all = {crash, scored_as(t, answer({finding("torque_offset", "turn")}))};
+  EXPECT_TRUE(has_row(all, "the diagnosis crashed | 1 of 2 |")) << tables(all);
+  // It counts among what should have been right.
+  EXPECT_TRUE(has_row(
+      all, "right or honestly ambiguous, at twice the detectable size and above | 1 of 2 |"));
+  EXPECT_NE(tables(all).find("| crashed |"), std::string::npos);
+}
+
+TEST(ScoreTables, WhereAForeignEffectIsReportedIsCounted) {
+  // What is unexplained is so at lift.
+  const std::vector<Scored> all = {
+      scored_as(trial({item("backlash", 1)}), answer({}, true)),
+      scored_as(trial({item("backlash", 2)}), answer({}, true)),
+      scored_as(trial({item("warm_offset", 2)}), answer({finding("torque_offset", "bend")}, true)),
+      scored_as(trial({item("backlash", 1)}), answer({}))};
+  EXPECT_TRUE(
+      has_row(all,
+              "foreign effects unexplained or rightly described, at twice the detectable size | "
+              "3 of 4 |"))
+      << tables(all);
+  EXPECT_TRUE(has_row(
+      all, "of these with a name or something unexplained at the effect's own joint | 2 of 3 |"));
+  // An effect of no joint can be reported at any.
+  Trial feet = trial({item("soft_ground", 0)});
+  feet.machine = "quadruped";
+  EXPECT_TRUE(judge(feet, answer({}, true)).at_its_place);
+  EXPECT_FALSE(judge(feet, answer({})).at_its_place);
+}
+
+TEST(ScoreTables, NothingIsNotAtTwiceASize) {
+  const std::string text = tables({scored_as(trial({}), answer({}))});
+  const auto from = text.find("By effect, at twice");
+  const std::string by_effect = text.substr(from, text.find("Effects that are not", from) - from);
+  EXPECT_EQ(by_effect.find("| clean |"), std::string::npos) << by_effect;
+}
+
+/// A reference log tempts to name a load, and to say of what was there before that it came since.
+TEST(ScoreTables, ReferencesThatWereNotNeededAreCounted) {
+  Trial clean = trial({}), offset = trial({item("torque_offset", 0)});
+  Trial load = trial({item("payload", 3)});
+  const Trial alone = clean;
+  clean.reference = offset.reference = load.reference = true;
+  json since = finding("torque_offset", "turn");
+  since["since_reference"] = true;
+  json carried = finding("payload", "fore");
+  carried["since_reference"] = true;
+  const std::vector<Scored> all = {
+      scored_as(clean, answer({carried})), scored_as(offset, answer({since})),
+      scored_as(load, answer({carried})), scored_as(alone, answer({carried}))};
+  EXPECT_TRUE(has_row(all, "trials without a static load that had a reference log | 2 of 3 |"))
+      << tables(all);
+  EXPECT_TRUE(has_row(
+      all, "of these a load named where there is none, be it as one of several names | 1 of 2 |"));
+  EXPECT_TRUE(
+      has_row(all, "an effect said to have come since a reference log that has it too | 1 of 1 |"));
+}
+
+/// A load on the wrong link needed no reference; one that was never absent did.
+TEST(Score, AFalseLoadIsOneOfAKindThatIsNotThere) {
+  const Trial later = trial({item("payload_from", 3)});
+  EXPECT_FALSE(judge(later, answer({finding("payload_from", "fore")})).false_load);
+  EXPECT_FALSE(judge(later, answer({finding("payload_from", "hand")})).false_load);
+  EXPECT_TRUE(judge(later, answer({finding("payload", "fore")})).false_load);
+  EXPECT_TRUE(judge(trial({item("drag", 3)}), answer({finding("payload", "fore", {"drag@fore"})}))
+                  .false_load);
+}
+
 TEST(Score, NothingSaid) {
   const Trial t = trial({item("torque_offset", 0)});
   EXPECT_EQ(outcome(t, answer({})), Outcome::abstained);

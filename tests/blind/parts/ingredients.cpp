@@ -169,6 +169,8 @@ void contact_absent(Ingredients& in, const Machine&, const Amount& a) {
 }
 
 void payload(Ingredients& in, const Machine&, const Amount& a) {
+  // A second load would take the first one's place, and the seal would tell of what is not there.
+  if (in.load) throw std::logic_error("two loads in one trial");
   in.load = Load{a.site, a.size, Eigen::Vector3d::Constant(0.05), {0.01, 0.0, 0.06}};
 }
 void payload_from(Ingredients& in, const Machine& m, const Amount& a) {
@@ -262,7 +264,8 @@ std::vector<Kind> list() {
     if (k.id == "link_length" || k.id == "contact_point" || k.id == "foot_radius") {
       k.largest = 0.05;  // m
     }
-    if (k.id == "payload" || k.id == "payload_from") k.largest = 3.0;  // kg
+    k.load = k.id == "payload" || k.id == "payload_from";
+    if (k.load) k.largest = 3.0;  // kg
     if (k.id == "gravity_tilt" || k.id == "rotor_reaction") k.quadruped = false;
     if (k.id == "imu_delay" || k.place == Place::accelerometer || k.place == Place::contact) {
       k.arm = false;
@@ -292,6 +295,10 @@ const Kind& kind(const std::string& id) {
     if (k.id == id) return k;
   }
   throw std::out_of_range("no kind " + id);
+}
+
+bool fit_together(const Kind& one, const Kind& other) {
+  return one.id != other.id && !(one.load && other.load);
 }
 
 std::string place_name(const Machine& machine, Place place, int site) {

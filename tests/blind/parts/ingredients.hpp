@@ -58,6 +58,7 @@ struct Kind {
   /// It changes what is said of contacts: no number says how much that is, and no model is told the
   /// truth.
   bool flags = false;
+  bool load = false;  ///< something is carried, of which a robot has room for one
   /// Values of the catalogue's parameters for an amount. Null if foreign, or if it changes flags.
   std::vector<double> (*values)(const Machine&, const Amount&) = nullptr;
   std::vector<double> shape;
@@ -70,6 +71,9 @@ struct Kind {
 [[nodiscard]] const std::vector<Kind>& kinds();
 /// Throws std::out_of_range for an unknown id.
 [[nodiscard]] const Kind& kind(const std::string& id);
+
+/// Whether both can be in one trial: no kind twice, and no two loads.
+[[nodiscard]] bool fit_together(const Kind& one, const Kind& other);
 
 /// "knee", "base.accel", "all": as the diagnosis names it.
 [[nodiscard]] std::string place_name(const Machine& machine, Place place, int site);

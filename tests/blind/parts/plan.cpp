@@ -47,18 +47,10 @@ class Generator {
 
     const std::string own = fmt::format("{}/trial{:04}", folder_, number);
     fs::create_directories(own);
-    Readings readings;
-    if (is_dynamic(trial)) {
-      readings = simulate_trial(m, trial);
-    } else {
-      readings = clean(m, trial.motion_seed);
-      change_signals(m, trial.items, readings);
-    }
-    if (readings.empty()) {
+    trial.reference = needs_reference(trial) || has_spare_reference(trial.noise_seed);
+    if (!write_trial(m, trial, own)) {
       trial.error = "the robot fell";
-    } else {
-      write_logs(m, trial, readings, own);
-      if (needs_reference(trial)) write_reference(m, trial, own);
+      trial.reference = false;
     }
     write_file(own + "/sealed.json", to_json(trial).dump(2) + "\n");
     return trial;
@@ -88,15 +80,36 @@ class Generator {
     return logs_.emplace(noise_seed, read_log(m, scratch_ + "/log.csv")).first->second;
   }
 
-  static bool needs_reference(const Trial& trial) {
-    return std::any_of(trial.items.begin(), trial.items.end(),
-                       [](const Item& item) { return item.kind == "payload"; });
+  /// The trial's truth before any noise. Empty if the robot falls.
+  Readings readings_of(const Machine& m, const Trial& trial) {
+    if (is_dynamic(trial)) return simulate_trial(m, trial);
+    Readings readings = clean(m, trial.motion_seed);
+    change_signals(m, trial.items, readings);
+    return readings;
   }
 
-  /// The same robot earlier, with nothing in it and other noise.
-  void write_reference(const Machine& m, const Trial& trial, const std::string& own) {
-    write_logs(m, without_items(reference_seed(trial)), clean(m, trial.motion_seed), scratch_);
+  /// What the diagnosis may see. False if the robot falls: then nothing of it is written.
+  bool write_trial(const Machine& m, const Trial& trial, const std::string& own) {
+    const Readings readings = readings_of(m, trial);
+    if (readings.empty()) return false;
+    if (trial.reference && !write_reference(m, trial, readings, own)) return false;
+    write_logs(m, trial, readings, own);
+    return true;
+  }
+
+  /// The same robot earlier: without the loads, but with all else that is in the trial, and with
+  /// other noise. False if it falls so.
+  bool write_reference(const Machine& m, const Trial& trial, const Readings& readings,
+                       const std::string& own) {
+    Trial earlier = trial;
+    earlier.items = without_loads(trial.items);
+    earlier.noise_seed = reference_seed(trial);
+    const bool no_load = earlier.items.size() == trial.items.size();
+    const Readings before = no_load ? readings : readings_of(m, earlier);
+    if (before.empty()) return false;
+    write_logs(m, earlier, before, scratch_);
     fs::rename(scratch_ + "/log.csv", own + "/reference.csv");
+    return true;
   }
 
   static std::uint64_t reference_seed(const Trial& trial) { return trial.noise_seed + 3; }
@@ -126,10 +139,10 @@ class Generator {
     for (int attempt = 0; attempt < most_draws && std::ssize(trial.items) < count; ++attempt) {
       if (possible.empty()) return;
       const Kind& k = *possible[draw(random, possible.size())];
-      const bool again = !trial.items.empty() && trial.items.front().kind == k.id;
+      const bool fits = trial.items.empty() || fit_together(kind(trial.items.front().kind), k);
       const double drawn = ratios[draw(random, ratios.size())];
       const double ratio = options_.ratio > 0.0 ? options_.ratio : drawn;
-      if (again) continue;
+      if (!fits) continue;
       if (const auto item = sized(m, k, ratio, random, trial)) trial.items.push_back(*item);
     }
   }
@@ -186,6 +199,11 @@ class Generator {
 };
 
 }  // namespace
+
+bool has_spare_reference(std::uint64_t noise_seed) {
+  // Numbers of its own: what is in the trial, its noise and its inertias are drawn by others.
+  return Random(noise_seed * 7919 + 1).uniform() < 1.0 / 3.0;
+}
 
 void generate(const PlanOptions& options, const std::string& folder,
               const std::function<void(int, const Trial&)>& on_trial) {

@@ -18,8 +18,14 @@ struct PlanOptions {
   std::string only;         ///< trials of this kind alone ("clean" for none); empty: all kinds
 };
 
+/// Whether a trial with this noise has a reference log that it does not need: a third do, whatever
+/// is in them.
+[[nodiscard]] bool has_spare_reference(std::uint64_t noise_seed);
+
 /// Of ten trials two are clean, five hold one effect, one holds two, and two hold something that
 /// is not in the catalogue. Sizes are 0.5, 1, 2, 4 or 8 times the detectable size.
+/// With a trial that needs no reference log one comes nevertheless in a third of all, so that its
+/// presence tells nothing.
 /// Writes one folder a trial into `folder`: what the diagnosis may see (write_logs()), and
 /// sealed.json for the scorer alone. `on_trial` hears of each.
 void generate(const PlanOptions& options, const std::string& folder,

@@ -18,9 +18,10 @@ std::string id_of(const Machine& m, const Item& item) {
 }
 
 struct Said {
-  std::string id, effect;
+  std::string id, effect, site;
   std::vector<std::string> set;  ///< other names for it
   bool doubted = false;          ///< a law without a name is said to do as well
+  bool since = false;            ///< it is said to have come since the reference log
 };
 
 std::vector<Said> said_in(const json& result) {
@@ -28,9 +29,11 @@ std::vector<Said> said_in(const json& result) {
   for (const json& f : result.at("findings")) {
     Said s;
     s.effect = f.at("effect").get<std::string>();
-    s.id = fmt::format("{}@{}", s.effect, f.at("site").get<std::string>());
+    s.site = f.at("site").get<std::string>();
+    s.id = fmt::format("{}@{}", s.effect, s.site);
     if (f.contains("ambiguous_with")) s.set = f.at("ambiguous_with");
     s.doubted = f.contains("or_without_name");
+    s.since = f.value("since_reference", false);
     list.push_back(s);
   }
   return list;
@@ -59,48 +62,124 @@ Outcome judge_foreign(const Machine& m, const Item& item, const std::vector<Said
   return structure ? Outcome::unexplained : Outcome::abstained;
 }
 
-Outcome judge_known(const Machine& m, const Trial& trial, const std::vector<Said>& said,
-                    bool structure, bool& beside) {
-  std::size_t named = 0, within = 0;
-  std::vector<bool> used(said.size(), false);
-  for (const Item& item : trial.items) {
-    const std::string id = id_of(m, item);
-    std::size_t at = said.size();
-    for (std::size_t i = 0; i < said.size() && at == said.size(); ++i) {
-      if (said[i].id == id) at = i;
+/// Which of the names stand for which of the items.
+class Matching {
+ public:
+  Matching(const std::vector<std::string>& ids, const std::vector<Said>& said)
+      : ids_(ids), said_(said), holder_(said.size(), nobody), exact_(said.size(), false) {
+    // All exact names first: what an item is called by must not be taken before by another item
+    // that is only in that name's set.
+    std::vector<std::size_t> others;
+    for (std::size_t item = 0; item < ids.size(); ++item) {
+      if (!name_exactly(item)) others.push_back(item);
     }
-    if (at < said.size()) {
-      ++named;
-      used[at] = true;
-      continue;
-    }
-    for (std::size_t i = 0; i < said.size() && at == said.size(); ++i) {
-      if (!used[i] && in_set(said[i], id)) at = i;
-    }
-    if (at < said.size()) {
-      ++within;
-      used[at] = true;
+    named_ = ids.size() - others.size();
+    for (const std::size_t item : others) {
+      std::vector<bool> asked = exact_;
+      if (find_set(item, asked)) ++within_;
     }
   }
-  bool wrong = false, misplaced = false;
+
+  [[nodiscard]] std::size_t named() const { return named_; }
+  [[nodiscard]] std::size_t within() const { return within_; }
+  [[nodiscard]] bool used(std::size_t name) const { return holder_[name] != nobody; }
+
+ private:
+  bool name_exactly(std::size_t item) {
+    for (std::size_t i = 0; i < said_.size(); ++i) {
+      if (used(i) || said_[i].id != ids_[item]) continue;
+      holder_[i] = item;
+      exact_[i] = true;
+      return true;
+    }
+    return false;
+  }
+
+  /// By Kuhn's augmenting paths: whoever holds a name gives it up if there is another for it, so
+  /// that as many items as can be have one, in whichever order they ask.
+  bool find_set(std::size_t item, std::vector<bool>& asked) {
+    for (std::size_t i = 0; i < said_.size(); ++i) {
+      if (asked[i] || !in_set(said_[i], ids_[item])) continue;
+      asked[i] = true;
+      if (used(i) && !find_set(holder_[i], asked)) continue;
+      holder_[i] = item;
+      return true;
+    }
+    return false;
+  }
+
+  static constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
+  const std::vector<std::string>& ids_;
+  const std::vector<Said>& said_;
+  std::vector<std::size_t> holder_;  ///< the item that each name stands for
+  std::vector<bool> exact_;
+  std::size_t named_ = 0, within_ = 0;
+};
+
+std::vector<std::string> ids_of(const Machine& m, const Trial& trial) {
+  std::vector<std::string> ids;
+  for (const Item& item : trial.items) ids.push_back(id_of(m, item));
+  return ids;
+}
+
+Outcome judge_known(const Machine& m, const Trial& trial, const std::vector<Said>& said,
+                    bool structure, bool& beside) {
+  const std::vector<std::string> ids = ids_of(m, trial);
+  const Matching matching(ids, said);
+  bool wrong = false, misplaced = false, excused = false;
   for (std::size_t i = 0; i < said.size(); ++i) {
+    if (matching.used(i)) continue;
     // Of one cause several names may be said, each with the cause among what it cannot be told
-    // from.
-    const bool within_set =
-        std::any_of(trial.items.begin(), trial.items.end(),
-                    [&](const Item& item) { return in_set(said[i], id_of(m, item)); });
-    if (used[i] || within_set) continue;
+    // from. That is honest, but not right: the reader is told of more than there is.
+    if (std::any_of(ids.begin(), ids.end(),
+                    [&](const std::string& id) { return in_set(said[i], id); })) {
+      excused = true;
+      continue;
+    }
     const bool same = std::any_of(trial.items.begin(), trial.items.end(),
                                   [&](const Item& item) { return item.kind == said[i].effect; });
     (same ? misplaced : wrong) = true;
   }
-  const bool all = named + within == trial.items.size();
-  beside = all && !trial.items.empty();
+  const std::size_t found = matching.named() + matching.within();
+  const bool all = found == ids.size();
+  beside = all && !ids.empty() && (wrong || misplaced);
   if (wrong) return Outcome::wrong;
   if (misplaced) return Outcome::wrong_place;
-  if (all) return within > 0 ? Outcome::ambiguous : Outcome::right;
-  if (named + within > 0) return Outcome::partly;
+  if (all) return matching.within() > 0 || excused ? Outcome::ambiguous : Outcome::right;
+  if (found > 0) return Outcome::partly;
   return structure ? Outcome::unexplained : Outcome::abstained;
+}
+
+bool is_load(const std::string& effect) {
+  return std::any_of(kinds().begin(), kinds().end(),
+                     [&](const Kind& k) { return k.load && k.id == effect; });
+}
+
+/// Whether something is said of the place where a foreign effect is.
+bool is_at_its_place(const Machine& m, const Item& item, const std::vector<Said>& said,
+                     const json& unexplained) {
+  if (kind(item.kind).place != Place::joint) return !said.empty() || !unexplained.empty();
+  const std::string joint = place_name(m, Place::joint, item.amount.site);
+  return std::any_of(said.begin(), said.end(), [&](const Said& s) { return s.site == joint; }) ||
+         std::any_of(unexplained.begin(), unexplained.end(),
+                     [&](const json& entry) { return entry.at("joint") == joint; });
+}
+
+/// What a reference log tempts a diagnosis to say.
+void judge_reference(const Machine& m, const Trial& trial, const std::vector<Said>& said,
+                     Judgement& j) {
+  const std::vector<std::string> ids = ids_of(m, trial);
+  for (const Said& s : said) {
+    const bool there = std::find(ids.begin(), ids.end(), s.id) != ids.end();
+    if (is_load(s.effect)) {
+      // A load on the wrong link is another fault, and one that needs no reference.
+      const bool carried = std::any_of(trial.items.begin(), trial.items.end(),
+                                       [&](const Item& item) { return item.kind == s.effect; });
+      j.false_load = j.false_load || !carried;
+    } else {
+      j.false_since = j.false_since || (there && s.since);
+    }
+  }
 }
 
 Judgement::Distance distance(const Machine& m, const json& links, const std::string& which) {
@@ -146,6 +225,11 @@ double most_errors(const Machine& m, const json& links, const std::string& which
   return most;
 }
 
+/// Of a foreign effect: something is said of it, and no wrong name.
+bool is_described(Outcome o) {
+  return o == Outcome::unexplained || o == Outcome::described || o == Outcome::ambiguous;
+}
+
 struct Count {
   int of[outcomes] = {};
   int all = 0;
@@ -156,6 +240,13 @@ struct Count {
   [[nodiscard]] int operator()(Outcome o) const { return of[static_cast<int>(o)]; }
   [[nodiscard]] int good() const { return (*this)(Outcome::right) + (*this)(Outcome::ambiguous); }
   [[nodiscard]] int bad() const { return (*this)(Outcome::wrong) + (*this)(Outcome::wrong_place); }
+  [[nodiscard]] int described() const {
+    int sum = 0;
+    for (int o = 0; o < outcomes; ++o) {
+      if (is_described(static_cast<Outcome>(o))) sum += of[o];
+    }
+    return sum;
+  }
 };
 
 std::string row(const std::string& name, const Count& c) {
@@ -208,6 +299,54 @@ std::string table(const std::vector<Scored>& all, const std::string& first, cons
 /// Of sorted values, the one that so large a share lies below.
 double quantile(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+/// Reference logs come with a third of the trials that need none: what the diagnosis makes of
+/// these.
+std::string reference_rows(const std::vector<Scored>& all) {
+  int unneeded = 0, without_load = 0, false_load = 0, others = 0, false_since = 0;
+  for (const Scored& s : all) {
+    const bool answered =
+        s.judgement.outcome != Outcome::refused && s.judgement.outcome != Outcome::crashed;
+    if (!needs_reference(s.trial)) {
+      ++without_load;
+      if (s.trial.reference) ++unneeded;
+      if (s.trial.reference && s.judgement.false_load) ++false_load;
+    }
+    if (!s.trial.reference || !answered || without_loads(s.trial.items).empty()) continue;
+    ++others;
+    if (s.judgement.false_since) ++false_since;
+  }
+  return share("trials without a static load that had a reference log", unneeded, without_load,
+               "a third") +
+         share("of these a load named where there is none, be it as one of several names",
+               false_load, unneeded, "<= 1 %") +
+         share("an effect said to have come since a reference log that has it too", false_since,
+               others, "none");
+}
+
+/// How much is hidden behind "ambiguous": a diagnosis that lists the whole catalogue is never
+/// wrong, and says nothing.
+std::string set_row(const std::string& name, const std::vector<Scored>& all,
+                    bool (*wanted)(const Trial&)) {
+  std::vector<double> sizes;
+  for (const Scored& s : all) {
+    if (s.judgement.outcome != Outcome::ambiguous || !wanted(s.trial)) continue;
+    sizes.push_back(static_cast<double>(s.judgement.set_size));
+  }
+  if (sizes.empty()) return fmt::format("| {} | 0 | - | - |\n", name);
+  std::sort(sizes.begin(), sizes.end());
+  return fmt::format("| {} | {} | {:g} | {:g} |\n", name, sizes.size(), quantile(sizes, 0.5),
+                     sizes.back());
+}
+
+std::string set_table(const std::vector<Scored>& all) {
+  return "Names besides the one that is said, in the largest set of each ambiguous answer:\n\n"
+         "| | ambiguous | median | largest |\n|---|---|---|---|\n" +
+         set_row("effects of the catalogue", all, [](const Trial& t) { return !is_foreign(t); }) +
+         set_row("of these at twice the detectable size and above", all,
+                 [](const Trial& t) { return !is_foreign(t) && least_ratio(t) >= 2.0; }) +
+         set_row("foreign effects", all, [](const Trial& t) { return is_foreign(t); }) + "\n";
 }
 
 using ByUnit = std::array<double, 3> Judgement::Distance::*;
@@ -307,6 +446,8 @@ std::string name_of(Outcome outcome) {
       return "abstained";
     case Outcome::refused:
       return "refused";
+    case Outcome::crashed:
+      return "crashed";
     case Outcome::wrong_place:
       return "wrong place";
     case Outcome::wrong:
@@ -335,6 +476,10 @@ Judgement judge(const Trial& trial, const json& result) {
   if (trial.items.empty() && said.empty()) {
     j.outcome = structure ? Outcome::unexplained : Outcome::right;
   }
+  if (is_foreign(trial)) {
+    j.at_its_place = is_at_its_place(m, trial.items.front(), said, result.at("unexplained"));
+  }
+  judge_reference(m, trial, said, j);
   const json& links = result.at("links");
   j.given = distance(m, links, "given");
   j.found = distance(m, links, "parameters");
@@ -353,19 +498,25 @@ Bounds wilson(int hits, int count) {
 }
 
 std::string tables(const std::vector<Scored>& all) {
-  Count clean, at_twice, known, foreign, foreign_at_twice;
-  int beside = 0;
+  Count clean, at_twice, known, foreign, foreign_at_twice, any;
+  int beside = 0, own_place = 0, own_place_at_twice = 0;
   for (const Scored& s : all) {
     const Outcome o = s.judgement.outcome;
+    any.add(o);
     if (s.trial.items.empty()) {
       clean.add(o);
     } else if (is_foreign(s.trial)) {
       foreign.add(o);
-      if (least_ratio(s.trial) >= 2.0) foreign_at_twice.add(o);
+      const bool large = least_ratio(s.trial) >= 2.0;
+      if (large) foreign_at_twice.add(o);
+      if (is_described(o) && s.judgement.at_its_place) {
+        ++own_place;
+        if (large) ++own_place_at_twice;
+      }
     } else {
       known.add(o);
       if (least_ratio(s.trial) >= 2.0) at_twice.add(o);
-      if (s.judgement.beside && (o == Outcome::wrong || o == Outcome::wrong_place)) ++beside;
+      if (s.judgement.beside) ++beside;
     }
   }
   std::string text = "| | seen | 95 % bounds | wanted |\n|---|---|---|---|\n";
@@ -376,23 +527,28 @@ std::string tables(const std::vector<Scored>& all) {
   text += share("a name on clean logs", clean.bad(), clean.all, "<= 1 %");
   text += share("something unexplained on clean logs", clean(Outcome::unexplained), clean.all,
                 "<= 1 %");
-  const auto described = [](const Count& c) {
-    return c(Outcome::unexplained) + c(Outcome::described) + c(Outcome::ambiguous);
-  };
   text += share("foreign effects unexplained or rightly described, at twice the detectable size",
-                described(foreign_at_twice), foreign_at_twice.all, ">= 90 %");
-  text += share("the same, any size", described(foreign), foreign.all, "");
+                foreign_at_twice.described(), foreign_at_twice.all, ">= 90 %");
+  text += share("of these with a name or something unexplained at the effect's own joint",
+                own_place_at_twice, foreign_at_twice.described(), "");
+  text += share("foreign effects unexplained or rightly described, any size", foreign.described(),
+                foreign.all, "");
+  text += share("of these with a name or something unexplained at the effect's own joint",
+                own_place, foreign.described(), "");
   text += share("foreign effects given a wrong name, at twice the detectable size",
                 foreign_at_twice.bad(), foreign_at_twice.all, "");
   text += share("the same, any size", foreign.bad(), foreign.all, "");
-  text.append("\n").append(numbers(all));
+  text += share("the diagnosis crashed", any(Outcome::crashed), any.all, "none");
+  text.append(reference_rows(all)).append("\n");
+  text.append(set_table(all)).append(numbers(all));
   text += "By size (the smaller one of two), effects of the catalogue:\n\n";
   text += table(all, "times detectable", [](const Trial& t) {
     return t.items.empty() || is_foreign(t) ? "" : fmt::format("{:g}", least_ratio(t));
   });
   text += "By effect, at twice the detectable size and above:\n\n";
   text += table(all, "effect", [](const Trial& t) {
-    return is_foreign(t) || least_ratio(t) < 2.0 ? "" : kind_of(t);
+    // The smallest of no sizes is infinite, but nothing is not at twice a size.
+    return t.items.empty() || is_foreign(t) || least_ratio(t) < 2.0 ? "" : kind_of(t);
   });
   text += "Effects that are not in the catalogue, all sizes:\n\n";
   text += table(all, "effect", [](const Trial& t) { return is_foreign(t) ? kind_of(t) : ""; });

@@ -13,25 +13,33 @@ namespace shapeid::blind {
 
 enum class Outcome {
   right,      ///< every item by name and place, nothing else (clean: nothing at all)
-  ambiguous,  ///< likewise, some item within the set of names that are said to be inseparable; a
-              ///< foreign effect by a name beside which a law without a name is said to do as well
+  ambiguous,  ///< likewise, some item within the set of names that are said to be inseparable, or
+              ///< more names, each with an item in its set; a foreign effect by a name beside which
+              ///< a law without a name is said to do as well
   partly,     ///< of two items one, nothing wrong
   described,  ///< a foreign effect by the part of it that the catalogue has
   unexplained,  ///< no name, structure reported
   abstained,    ///< nothing said though something was there
   refused,      ///< the log was refused
+  crashed,      ///< the diagnosis ended without an answer: a defect, or memory that ran out
   wrong_place,  ///< the right effect somewhere else
   wrong         ///< something named that is not there
 };
-inline constexpr int outcomes = 9;
+inline constexpr int outcomes = 10;
 
 [[nodiscard]] std::string name_of(Outcome outcome);
 
 struct Judgement {
   Outcome outcome = Outcome::abstained;
-  bool beside = false;       ///< of the wrong: all that was there is named as well
-  std::string said;          ///< the findings' names
-  std::size_t set_size = 0;  ///< of the largest set of inseparable names
+  bool beside = false;        ///< of the wrong: all that was there is named as well
+  bool at_its_place = false;  ///< a foreign effect: a name or something unexplained is said of its
+                              ///< own joint, or of any if it has none
+  bool false_load = false;    ///< a load is named where there is none of the kind (static, from a
+                              ///< moment on), be it as one of a set
+  bool false_since = false;   ///< what is there is said to have come since the reference log, which
+                              ///< has it too
+  std::string said;           ///< the findings' names
+  std::size_t set_size = 0;   ///< other names in the largest set of inseparable ones
   double error_ratio = 0.0;  ///< held-out error over that of the model told the truth; 0: not known
   /// Distance from the true inertias, of all numbers and of those that the diagnosis calls
   /// determined: relative to the links' masses and a decimetre, and in kg, kg m and kg m^2 apart.

@@ -60,6 +60,16 @@ Readings simulate(const Machine& machine, const Ingredients& in, std::uint64_t s
 
 }  // namespace
 
+bool needs_reference(const Trial& trial) {
+  return std::any_of(trial.items.begin(), trial.items.end(),
+                     [](const Item& item) { return item.kind == "payload"; });
+}
+
+std::vector<Item> without_loads(std::vector<Item> items) {
+  std::erase_if(items, [](const Item& item) { return kind(item.kind).load; });
+  return items;
+}
+
 json to_json(const Trial& trial) {
   json items = json::array();
   for (const Item& item : trial.items) {
@@ -75,6 +85,8 @@ json to_json(const Trial& trial) {
           {"noise_seed", trial.noise_seed},
           {"inertia_seed", trial.inertia_seed},
           {"items", items},
+          {"reference", trial.reference},
+          {"reference_needed", needs_reference(trial)},
           {"error", trial.error}};
 }
 
@@ -93,6 +105,7 @@ Trial trial_from_json(const json& document) {
           Eigen::Vector3d(d.at(0).get<double>(), d.at(1).get<double>(), d.at(2).get<double>())},
          item.at("ratio")});
   }
+  trial.reference = document.value("reference", needs_reference(trial));
   return trial;
 }
 

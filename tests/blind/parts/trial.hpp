@@ -22,10 +22,18 @@ struct Trial {
   std::string machine;
   std::uint64_t motion_seed = 1, noise_seed = 1, inertia_seed = 1;
   std::vector<Item> items;
-  std::string error;  ///< why there is no log (the robot fell); else empty
+  bool reference = false;  ///< a log without the loads comes with it
+  std::string error;       ///< why there is no log (the robot fell); else empty
 };
 
+/// Whether something in it is told from its link only by a log without it: a load that was never
+/// absent.
+[[nodiscard]] bool needs_reference(const Trial& trial);
+/// What acts in the reference log: all but loads, which were put on since.
+[[nodiscard]] std::vector<Item> without_loads(std::vector<Item> items);
+
 [[nodiscard]] nlohmann::json to_json(const Trial& trial);
+/// Of seals that say nothing of a reference: there was one where it was needed.
 [[nodiscard]] Trial trial_from_json(const nlohmann::json& document);
 
 /// Seconds for the diagnosis to fit, and after them to test on.

@@ -3,23 +3,14 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 
+#include "shapeid/tests/blind/parts/folders.hpp"
 #include "shapeid/tests/blind/parts/plan.hpp"
-#include "shapeid/tests/blind/parts/score.hpp"
-#include "shapeid/tests/blind/parts/yardstick.hpp"
 
 namespace {
 
-namespace fs = std::filesystem;
 using namespace shapeid::blind;
-
-nlohmann::json read_json(const fs::path& path) {
-  std::ifstream in(path);
-  return nlohmann::json::parse(in);
-}
 
 std::string items_text(const Trial& trial) {
   const Machine m = machine(trial.machine);
@@ -32,58 +23,23 @@ std::string items_text(const Trial& trial) {
   return text.empty() ? "clean" : text;
 }
 
-Scored score_trial(const fs::path& folder) {
-  Scored s;
-  s.trial = trial_from_json(read_json(folder / "sealed.json"));
-  const fs::path said = folder / "result.json";
-  const bool answered = fs::exists(said) && fs::file_size(said) > 0;
-  const nlohmann::json result = answered ? read_json(said) : nlohmann::json();
-  s.judgement = judge(s.trial, result);
-  const bool has_numbers =
-      std::all_of(s.trial.items.begin(), s.trial.items.end(),
-                  [](const Item& item) { return kind(item.kind).values != nullptr; });
-  if (answered && has_numbers) {
-    const Machine m = machine(s.trial.machine);
-    double sum = 0.0;
-    for (const double rms : result.at("heldout_rms_after")) sum += rms * rms;
-    s.judgement.error_ratio =
-        std::sqrt(sum) / told_truth_error(m, s.trial, read_log(m, folder / "log.csv"),
-                                          read_log(m, folder / "test.csv"));
-  }
-  return s;
-}
-
 void score(const std::vector<std::string>& folders) {
-  std::vector<fs::path> trials;
-  for (const std::string& folder : folders) {
-    const auto before = std::ssize(trials);
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      // Made, but not diagnosed yet: a run that was stopped is scored as far as it came.
-      const bool complete =
-          fs::exists(entry.path() / "sealed.json") && fs::exists(entry.path() / "result.json");
-      if (complete) trials.push_back(entry.path());
-    }
-    std::sort(trials.begin() + before, trials.end());
-  }
+  const TrialFolders found = find_trials(folders);
   std::vector<Scored> all;
   std::string lines;
-  for (const fs::path& trial : trials) {
+  for (const std::filesystem::path& trial : found.ended) {
     const Scored s = score_trial(trial);
-    if (!s.trial.error.empty()) {
-      fmt::print(stderr, "{}: {}\n", trial.filename().string(), s.trial.error);
-      continue;
-    }
     const double ratio = s.judgement.error_ratio;
-    lines += fmt::format("| {} | {} | {} | {}{} | {} |\n", s.trial.machine, items_text(s.trial),
-                         s.judgement.said, name_of(s.judgement.outcome),
-                         s.judgement.beside ? " beside" : "",
+    lines += fmt::format("| {} | {}{} | {} | {}{} | {} |\n", s.trial.machine, items_text(s.trial),
+                         s.trial.reference ? ", reference" : "", s.judgement.said,
+                         name_of(s.judgement.outcome), s.judgement.beside ? " beside" : "",
                          ratio > 0.0 ? fmt::format("{:.3f}", ratio) : "-");
     all.push_back(s);
   }
   fmt::print(
-      "{}Every trial:\n\n| robot | truth | said | outcome | error over told |\n"
+      "{}\n\n{}Every trial:\n\n| robot | truth | said | outcome | error over told |\n"
       "|---|---|---|---|---|\n{}",
-      tables(all), lines);
+      how_many(found), tables(all), lines);
 }
 
 }  // namespace
