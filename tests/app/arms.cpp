@@ -73,6 +73,12 @@ std::string arms_urdf(const std::vector<BoxMasses>& masses) {
   return text + "</robot>\n";
 }
 
+Robot read_arms(const std::string& path) {
+  UrdfOptions options;
+  options.root = Root::fixed;
+  return read_urdf(path, options).robot;
+}
+
 void write_arms_log(const std::string& name, const std::vector<BoxMasses>& masses,
                     const NoiseOfArms& noise) {
   UrdfOptions fixed;

@@ -4,10 +4,11 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
-#include "shapeid/models/inertia.hpp"
+#include "shapeid/models/robot.hpp"
 
 namespace shapeid::test {
 
@@ -37,6 +38,10 @@ inline constexpr int links_of_arms = 13;
 struct NoiseOfArms {
   double odd = 0.0, even = 0.0;
 };
+
+[[nodiscard]] Robot read_arms(const std::string& path);
+
+[[nodiscard]] constexpr std::size_t at(int link) { return static_cast<std::size_t>(link); }
 
 /// Moves arms of these masses and logs it exactly, torques as Simbody has them but for the noise,
 /// to NAME.csv in scratch().

@@ -1,9 +1,17 @@
 // Runs the command as a user would.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 
 namespace shapeid::test {
+
+/// The bundled robots, and the options that name the quadruped's files.
+inline const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
+inline const std::string quadruped_files =
+    fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
+inline const std::string quadruped_shapes = fmt::format("--shapes {}quadruped.shapes.yaml", robots);
 
 struct CommandRun {
   int status = -1;
@@ -15,7 +23,13 @@ struct CommandRun {
 [[nodiscard]] CommandRun shapeid(const std::string& arguments,
                                  const std::string& input = "/dev/null");
 
-/// The same for any program.
+/// What the shell calls for `shapeid ARGUMENTS`, as a part of a longer line.
+[[nodiscard]] std::string command(const std::string& arguments);
+
+/// A line for bash, which can do what the plain shell cannot.
+[[nodiscard]] std::string in_bash(const std::string& line);
+
+/// The same as shapeid() for any program.
 [[nodiscard]] CommandRun program(const std::string& line, const std::string& input = "/dev/null");
 
 /// A folder that is made anew for every test program and that tests may write into.
@@ -24,6 +38,7 @@ struct CommandRun {
 /// Writes a file into scratch() and returns its path.
 std::string scratch_file(const std::string& name, const std::string& text);
 
-[[nodiscard]] std::string read_file(const std::string& path);
+/// Expects that the command said what is wrong in one line that holds `words`.
+void expect_one_line(const CommandRun& run, int status, const std::string& words);
 
 }  // namespace shapeid::test

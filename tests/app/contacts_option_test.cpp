@@ -9,11 +9,10 @@
 #include "shapeid/models/log.hpp"
 #include "shapeid/models/log_writer.hpp"
 #include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
-
-const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
 
 /// A simulated trot without the columns whose names begin so; its path.
 std::string trot_without(const std::string& prefix) {
@@ -77,7 +76,7 @@ TEST(ContactsOption, ARobotThatIsTakenToTouchNothingIsSaidTo) {
 TEST(ContactsOption, ARootFloatsByItsSensorsAlone) {
   const std::string log = trot_without("base.");
   EXPECT_EQ(app::read_robot(inputs_for(log)).robot.root, Root::fixed);
-  std::string text = read_file(log);
+  std::string text = text_of(log);
   text.insert(text.find('\n'), ",base.temperature");
   for (std::size_t at = text.find('\n'); (at = text.find('\n', at + 1)) != std::string::npos;) {
     text.insert(at, ",20");

@@ -13,6 +13,7 @@
 #include "shapeid/models/inertia.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
@@ -56,12 +57,12 @@ TEST(Demo, FindsTheBaseAndTheLoad) {
 
   const std::string folder = scratch() + "/demo/";
   EXPECT_EQ(document["report"], "demo/report.html");
-  const std::string page = read_file(folder + "report.html");
+  const std::string page = text_of(folder + "report.html");
   EXPECT_EQ(count(page, "<table"), 2U);
   EXPECT_EQ(count(page, "<svg"), 2U) << "pictures are in the page, which may be moved";
   EXPECT_EQ(count(page, "src=\"http"), 0U);
   for (const char* picture : {"division.svg", "trace.svg"}) {
-    EXPECT_EQ(count(read_file(folder + picture), "</svg>"), 1U) << picture;
+    EXPECT_EQ(count(text_of(folder + picture), "</svg>"), 1U) << picture;
   }
   for (const char* log : {"trot.csv.gz", "trot_with_load.csv.gz"}) {
     EXPECT_TRUE(std::filesystem::exists(folder + log)) << log;

@@ -23,10 +23,6 @@
 namespace shapeid::test {
 namespace {
 
-const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
-const std::string robot =
-    fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
-
 /// One line that says so, exit status 2 (or another), nothing printed.
 void expect_refused(const std::string& arguments, const std::string& says, int status = 2) {
   SCOPED_TRACE("shapeid " + arguments);
@@ -64,21 +60,21 @@ class Given : public ::testing::Test {
 };
 
 TEST_F(Given, NumbersThatAreNoneOrBeyondAnyRobot) {
-  const std::string identify = fmt::format("identify {} --log given.csv ", robot);
+  const std::string identify = fmt::format("identify {} --log given.csv ", quadruped_files);
   for (const char* rate : {"0", "-5", "nan", "inf", "1e9", "0x100"}) {
     expect_refused(identify + "--rate " + rate, "--rate");
-    expect_refused(fmt::format("track {} given.csv --rate {}", robot, rate), "--rate");
+    expect_refused(fmt::format("track {} given.csv --rate {}", quadruped_files, rate), "--rate");
   }
   for (const char* mass : {"1e307", "1e-200", "nan"}) {
     expect_refused(identify + "--expected-mass " + mass, "--expected-mass");
-    expect_refused(fmt::format("track {} given.csv --expected-mass {}", robot, mass),
+    expect_refused(fmt::format("track {} given.csv --expected-mass {}", quadruped_files, mass),
                    "--expected-mass");
   }
   expect_refused(identify + "--k1 0 --k2 0", "both 0");
   expect_refused(identify + "--online --alpha 0", "--alpha");
   expect_refused(identify + "--contact-threshold 5", "at most 1");
   expect_refused(identify + "--contact-threshold nan", "nan");
-  expect_refused(fmt::format("track {} given.csv --recent 1e9", robot), "--recent");
+  expect_refused(fmt::format("track {} given.csv --recent 1e9", quadruped_files), "--recent");
   expect_refused("certify given.csv given.csv --gap nan", "--gap is not a finite number");
   expect_refused("simulate --out a.csv --seed -1", "--seed");
   expect_refused("simulate --out a.csv --seed 99999999999999999999", "--seed");
@@ -91,7 +87,7 @@ TEST_F(Given, NumbersThatAreNoneOrBeyondAnyRobot) {
 }
 
 TEST_F(Given, ValuesThatAreEmptyAndOptionsThatWouldDoNothing) {
-  const std::string identify = fmt::format("identify {} --log given.csv ", robot);
+  const std::string identify = fmt::format("identify {} --log given.csv ", quadruped_files);
   for (const char* option : {"--out", "--test", "--effects", "--shapes", "--mapping"}) {
     expect_refused(fmt::format("{} {} ''", identify, option), fmt::format("{} is empty", option));
   }
@@ -104,19 +100,27 @@ TEST_F(Given, ValuesThatAreEmptyAndOptionsThatWouldDoNothing) {
   }
   expect_refused(identify + "--exact --cutoff 20", "excludes");
   expect_refused(identify + "--exact --rate 500", "excludes");
-  expect_refused(fmt::format("track {} given.csv --patience 5", robot), "requires --follow");
+  for (const char* verb : {"identify --log", "diagnose --log", "track"}) {
+    expect_refused(fmt::format("{} given.csv {} --contacts none --contact-threshold 0.2", verb,
+                               quadruped_files),
+                   "no contacts are derived");
+  }
+  expect_refused(fmt::format("track {} given.csv --patience 5", quadruped_files),
+                 "requires --follow");
   expect_refused("simulate --out a.csv --load-from 1", "requires --load");
   expect_refused("simulate --out a.txt", "no name of a log");
   expect_refused("inspect given.csv --mapping none.yaml", "requires --robot");
   expect_refused(fmt::format("inspect {0}quadruped.urdf --robot none", robots), "a robot itself");
-  expect_refused(fmt::format("diagnose {} --log given.csv --row-cutoff 5", robot), "--row-cutoff");
+  expect_refused(fmt::format("diagnose {} --log given.csv --row-cutoff 5", quadruped_files),
+                 "--row-cutoff");
   expect_refused("identfy", "there is no verb \"identfy\"");
 }
 
 TEST_F(Given, LogsThatAreGivenTwiceOrFlowBy) {
-  expect_refused(fmt::format("batch {} --log given.csv ./given.csv", robot), "given twice");
-  expect_refused(fmt::format("identify {} --log -", robot), "is a stream");
-  expect_refused(fmt::format("inspect - {}", robot), "is a stream");
+  expect_refused(fmt::format("batch {} --log given.csv ./given.csv", quadruped_files),
+                 "given twice");
+  expect_refused(fmt::format("identify {} --log -", quadruped_files), "is a stream");
+  expect_refused(fmt::format("inspect - {}", quadruped_files), "is a stream");
 }
 
 TEST_F(Given, FilesThatAreReadAreNotWrittenOver) {
@@ -136,7 +140,7 @@ TEST_F(Given, FilesThatAreReadAreNotWrittenOver) {
                              "--out own/../own/identified.robot.yaml",
                              own),
                  "would be written over by --out");
-  expect_refused(fmt::format("track {} own/log.csv --checkpoint own/log.csv", robot),
+  expect_refused(fmt::format("track {} own/log.csv --checkpoint own/log.csv", quadruped_files),
                  "would be written over by --checkpoint");
   expect_refused(fmt::format("track --robot {0} own/log.csv --checkpoint {0}", own),
                  "would be written over by --checkpoint");
@@ -158,12 +162,13 @@ TEST_F(Given, FilesThatAreReadAreNotWrittenOver) {
   scratch_file("own/effects.yaml", "effects: []\n");
   EXPECT_EQ(shapeid(fmt::format("identify {} --log own/log.csv --divisions 0 --effects "
                                 "own/effects.yaml --out own",
-                                robot))
+                                quadruped_files))
                 .status,
             0);
   // A folder with other files of the user's in it is a place like any other.
   EXPECT_EQ(
-      shapeid(fmt::format("identify {} --log own/log.csv --divisions 0 --out own", robot)).status,
+      shapeid(fmt::format("identify {} --log own/log.csv --divisions 0 --out own", quadruped_files))
+          .status,
       0);
 }
 
@@ -181,7 +186,7 @@ TEST_F(Given, NumbersWithoutALeadingDigitOrWithAPlus) {
 /// An option that no log can make right is no log's fault.
 TEST_F(Given, ABatchOfWrongOptionsBlamesNoLog) {
   ASSERT_EQ(shapeid("simulate --seconds 2 --seed 2 --out other.csv").status, 0);
-  const std::string batch = fmt::format("batch {} --log given.csv other.csv ", robot);
+  const std::string batch = fmt::format("batch {} --log given.csv other.csv ", quadruped_files);
   expect_refused(batch + "--k1 0 --k2 0", "both 0");
   scratch_file("twice.yaml", "contacts: [{link: FR_foot}, {link: FR_foot, point: [0.01, 0, 0]}]\n");
   expect_refused(fmt::format("batch --robot {}quadruped.urdf --robot-yaml twice.yaml --log "
@@ -192,7 +197,7 @@ TEST_F(Given, ABatchOfWrongOptionsBlamesNoLog) {
 
 /// CLI11 would read 010 as eight.
 TEST_F(Given, CountsWithLeadingZeros) {
-  const std::string words = fmt::format("identify {} --log given.csv ", robot);
+  const std::string words = fmt::format("identify {} --log given.csv ", quadruped_files);
   expect_refused(words + "--divisions 012", "--divisions is \"012\"");
   expect_refused(words + "--online --window 010", "--window is \"010\"");
   expect_refused("simulate --seconds 1 --seed 0123 --out no.csv", "--seed is \"0123\"");
@@ -201,7 +206,7 @@ TEST_F(Given, CountsWithLeadingZeros) {
 
 /// Options that would do nothing beside each other.
 TEST_F(Given, DiagnoseOptionsThatWouldDoNothing) {
-  const std::string words = fmt::format("diagnose {} --log given.csv ", robot);
+  const std::string words = fmt::format("diagnose {} --log given.csv ", quadruped_files);
   expect_refused(words + "--curves", "--curves requires --out");
   expect_refused(words + "--trust --expected-mass 5", "--trust");
 }
@@ -211,11 +216,11 @@ TEST_F(Given, StreamsAreNoLogs) {
   const CommandRun pipe = program("mkfifo flow.csv");
   ASSERT_EQ(pipe.status, 0) << pipe.err;
   for (const std::string& words :
-       {fmt::format("identify {} --log given.csv --test flow.csv", robot),
-        fmt::format("diagnose {} --log given.csv --also flow.csv", robot),
-        fmt::format("diagnose {} --log given.csv --test flow.csv", robot),
-        fmt::format("diagnose {} --log given.csv --reference flow.csv", robot),
-        fmt::format("batch {} --log given.csv flow.csv", robot)}) {
+       {fmt::format("identify {} --log given.csv --test flow.csv", quadruped_files),
+        fmt::format("diagnose {} --log given.csv --also flow.csv", quadruped_files),
+        fmt::format("diagnose {} --log given.csv --test flow.csv", quadruped_files),
+        fmt::format("diagnose {} --log given.csv --reference flow.csv", quadruped_files),
+        fmt::format("batch {} --log given.csv flow.csv", quadruped_files)}) {
     expect_refused(words, "flow.csv: is a stream");
   }
 }
@@ -229,7 +234,7 @@ TEST_F(Given, SlowLogsCanBeInspected) {
     if (i % every == 0) out.write(row->values);
   }
   out.close();
-  const std::string inspect = fmt::format("inspect slow.csv {} ", robot);
+  const std::string inspect = fmt::format("inspect slow.csv {} ", quadruped_files);
   expect_refused(inspect, "choose a cutoff");
   const CommandRun seen = shapeid(inspect + "--cutoff 5");
   EXPECT_EQ(seen.status, 0) << seen.err;
@@ -267,7 +272,8 @@ TEST_F(Given, TheMassOfALoadThatIsExpected) {
 }
 
 TEST_F(Given, ReadingsThatNoRobotHas) {
-  const auto identified = fmt::format("identify {} --log changed.csv --divisions 0", robot);
+  const auto identified =
+      fmt::format("identify {} --log changed.csv --divisions 0", quadruped_files);
   const std::vector<std::pair<std::string, double>> readings = {{"base.gyro.x", 1e80},
                                                                 {"base.gyro.z", -2e3},
                                                                 {"base.accel.y", 1e6},
@@ -280,10 +286,12 @@ TEST_F(Given, ReadingsThatNoRobotHas) {
   for (const double time : {1.7e18, 1e30, 2e5}) {
     write_with("time", 1001, time);
     expect_refused(identified, "changed.csv:1001, column time");
-    expect_refused(fmt::format("inspect changed.csv {}", robot), "changed.csv:1001, column time");
+    expect_refused(fmt::format("inspect changed.csv {}", quadruped_files),
+                   "changed.csv:1001, column time");
   }
   write_with("time", 2, -1.7e18);
-  expect_refused(fmt::format("track {} changed.csv", robot), "changed.csv:2, column time");
+  expect_refused(fmt::format("track {} changed.csv", quadruped_files),
+                 "changed.csv:2, column time");
 }
 
 TEST_F(Given, LogsThatAskForNoMass) {
@@ -294,14 +302,16 @@ TEST_F(Given, LogsThatAskForNoMass) {
       }
     });
   };
-  const auto identified = fmt::format("identify {} --log changed.csv --divisions 0", robot);
+  const auto identified =
+      fmt::format("identify {} --log changed.csv --divisions 0", quadruped_files);
   scale("base.accel.", -1.0);
   expect_refused(identified, "asks for no mass", 1);
   scale("tau.", -1.0);
   expect_refused(identified, "asks for no mass", 1);
   ASSERT_EQ(program("cp changed.csv likewise.csv").status, 0);
-  expect_refused(fmt::format("batch {} --log changed.csv likewise.csv --divisions 0", robot),
-                 "asks for no mass", 1);
+  expect_refused(
+      fmt::format("batch {} --log changed.csv likewise.csv --divisions 0", quadruped_files),
+      "asks for no mass", 1);
   scale("tau.", 0.0);
   expect_refused(identified, "never changes while the joints move");
 }
@@ -309,7 +319,8 @@ TEST_F(Given, LogsThatAskForNoMass) {
 /// A mapping that says nothing of the base leaves the log's own names, and with them the base.
 TEST_F(Given, AMappingNeedsNoEntryForOurOwnNames) {
   scratch_file("torque.yaml", "torque: {kind: joint}\n");
-  const std::string plain = fmt::format("identify {} --log given.csv --divisions 0 --json", robot);
+  const std::string plain =
+      fmt::format("identify {} --log given.csv --divisions 0 --json", quadruped_files);
   const CommandRun mapped = shapeid(plain + " --mapping torque.yaml"), unmapped = shapeid(plain);
   ASSERT_EQ(mapped.status, 0) << mapped.err;
   EXPECT_EQ(mapped.out, unmapped.out);
@@ -329,9 +340,9 @@ TEST_F(Given, ARobotWithoutNotesSaysWhatIsTakenForGranted) {
 TEST_F(Given, EffectsBeyondTheirRange) {
   const auto expect_wrong = [](const std::string& entry, const std::string& says) {
     scratch_file("wrong.yaml", "effects:\n  - " + entry + "\n");
-    expect_refused(
-        fmt::format("identify {} --log given.csv --divisions 0 --effects wrong.yaml", robot),
-        "wrong.yaml:2: " + says);
+    expect_refused(fmt::format("identify {} --log given.csv --divisions 0 --effects wrong.yaml",
+                               quadruped_files),
+                   "wrong.yaml:2: " + says);
   };
   expect_wrong("{effect: torque_delay, site: all, values: {d: 0.05}}", "d is 0.05");
   expect_wrong("{effect: torque_delay, site: all, values: {d: -1e300}}", "d is -1e+300");
@@ -341,7 +352,7 @@ TEST_F(Given, EffectsBeyondTheirRange) {
                "width is 50");
   expect_wrong("{effect: rotor_inertia, site: FR_knee, values: {I: -1}}", "I is -1; at least 0");
   scratch_file("wrong.yaml", "effects: []\n---\neffects: []\n");
-  expect_refused(fmt::format("identify {} --log given.csv --effects wrong.yaml", robot),
+  expect_refused(fmt::format("identify {} --log given.csv --effects wrong.yaml", quadruped_files),
                  "wrong.yaml:2: a second document");
 }
 
@@ -379,14 +390,15 @@ TEST_F(Given, ExactLogsInOtherUnits) {
     }
   });
   SetUpTestSuite();  // the log as it was, for the others
-  expect_refused(fmt::format("identify {} --log changed.csv --exact", robot), "looks like g");
+  expect_refused(fmt::format("identify {} --log changed.csv --exact", quadruped_files),
+                 "looks like g");
 }
 
 /// The expected mass scales a criterion: a bad guess must not make the tool reject its own answer.
 TEST_F(Given, AMassThatWasExpectedWrongly) {
   ASSERT_EQ(shapeid(fmt::format(
                         "identify {} --log given.csv --expected-mass 0.3 --divisions 2 --out light",
-                        robot))
+                        quadruped_files))
                 .status,
             0);
   const CommandRun certified =
@@ -401,13 +413,13 @@ TEST_F(Given, FactorsForJointsThatAreNotThere) {
       factors += fmt::format(", {}_{}: 6", leg, joint);
   }
   scratch_file("factors.yaml", factors + "}}\n");
-  expect_refused(fmt::format("identify {} --log given.csv --mapping factors.yaml", robot),
+  expect_refused(fmt::format("identify {} --log given.csv --mapping factors.yaml", quadruped_files),
                  "nosuch");
 }
 
 /// Windows that are longer than the silence after which a line says that nothing comes.
 TEST_F(Given, LongWindowsAreNoSilence) {
-  const CommandRun run = shapeid(fmt::format("track {} given.csv --window 100", robot));
+  const CommandRun run = shapeid(fmt::format("track {} given.csv --window 100", quadruped_files));
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.out.find("no samples"), std::string::npos);
   EXPECT_GT(std::count(run.out.begin(), run.out.end(), '\n'), 3);
@@ -445,11 +457,13 @@ TEST_F(Given, LogsWithNamesThatAreNoText) {
   std::filesystem::copy_file(scratch() + "/given.csv", scratch() + "/" + name,
                              std::filesystem::copy_options::overwrite_existing);
   EXPECT_EQ(shapeid("inspect --json '" + name + "'").status, 0);
-  EXPECT_EQ(shapeid(fmt::format("identify {} --log '{}' --divisions 0 --json", robot, name)).status,
-            0);
+  EXPECT_EQ(
+      shapeid(fmt::format("identify {} --log '{}' --divisions 0 --json", quadruped_files, name))
+          .status,
+      0);
   const CommandRun batch =
       shapeid(fmt::format("batch {} --log given.csv '{}' '{}' --skip-refused --divisions 0 --json",
-                          robot, name, "none\xfe.csv"));
+                          quadruped_files, name, "none\xfe.csv"));
   EXPECT_EQ(batch.status, 0) << batch.err;
   EXPECT_EQ(shapeid("simulate --seconds 0.2 --json --out 'new\xfe.csv'").status, 0);
 }

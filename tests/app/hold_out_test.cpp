@@ -14,10 +14,6 @@
 namespace shapeid::test {
 namespace {
 
-const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
-const std::string files =
-    fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
-
 constexpr double spoilt_by = 50.0;  // N m
 
 /// The log with more torque of a knee from one time to another.
@@ -37,10 +33,10 @@ void spoil(const std::string& log_name, const std::string& to, double from, doub
   out.close();
 }
 
-nlohmann::json identified(const std::string& arguments) {
+nlohmann::json identified_with(const std::string& arguments) {
   // Torque as logged (--exact): a filter would carry it out of the stretch.
   const CommandRun run = shapeid(fmt::format(
-      "identify {} --shapes box.yaml --exact --divisions 3 --json {}", files, arguments));
+      "identify {} --shapes box.yaml --exact --divisions 3 --json {}", quadruped_files, arguments));
   EXPECT_EQ(run.status, 0) << run.err;
   return run.status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
 }
@@ -52,17 +48,18 @@ TEST(HoldOut, IsUsedForNothingElse) {
     constexpr double length = 2.0, margin = 0.09;
     spoil("clean.csv", "spoilt.csv", length * (stretch - 1) - margin, length * stretch + margin);
     const std::string chosen = fmt::format("--hold-out {}", stretch);
-    const auto clean = identified("--log clean.csv " + chosen);
-    const auto spoilt = identified("--log spoilt.csv " + chosen);
+    const auto clean = identified_with("--log clean.csv " + chosen);
+    const auto spoilt = identified_with("--log spoilt.csv " + chosen);
     EXPECT_EQ(clean["links"], spoilt["links"]) << stretch;
-    const auto wrong = identified(fmt::format("--log spoilt.csv --hold-out {}", stretch % 5 + 1));
+    const auto wrong =
+        identified_with(fmt::format("--log spoilt.csv --hold-out {}", stretch % 5 + 1));
     EXPECT_NE(clean["links"], wrong["links"]) << stretch;
     double largest = 0.0;
     for (const auto& rms : spoilt["heldout"]["rms_after"])
       largest = std::max(largest, rms.get<double>());
     EXPECT_GT(largest, 0.5 * spoilt_by) << "the test stretch is what was spoilt";
     if (stretch < 5) continue;
-    EXPECT_EQ(clean["links"], identified("--log clean.csv")["links"])
+    EXPECT_EQ(clean["links"], identified_with("--log clean.csv")["links"])
         << "the last, if none is said";
   }
 }
@@ -71,7 +68,8 @@ TEST(HoldOut, RefusesWhatIsNoStretch) {
   for (const char* wrong : {"--hold-out 0", "--hold-out 6", "--hold-out 1.5", "--hold-out two",
                             "--hold-out 2 --test other.csv"}) {
     for (const char* verb : {"identify", "diagnose"}) {
-      const CommandRun run = shapeid(fmt::format("{} {} --log clean.csv {}", verb, files, wrong));
+      const CommandRun run =
+          shapeid(fmt::format("{} {} --log clean.csv {}", verb, quadruped_files, wrong));
       EXPECT_EQ(run.status, 2) << verb << " " << wrong;
       EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
       EXPECT_NE(run.err.find("hold-out"), std::string::npos) << run.err;

@@ -19,8 +19,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t at(int link) { return static_cast<std::size_t>(link); }
-
 double mass(int link) {
   const BoxMasses& boxes = masses_of_arms()[at(link)];
   return boxes[0] + boxes[1];
@@ -31,12 +29,6 @@ std::vector<BoxMasses> with_link(int link, double factor) {
   std::vector<BoxMasses> masses = masses_of_arms();
   for (double& box : masses[at(link)]) box *= factor;
   return masses;
-}
-
-Robot read_arms(const std::string& path) {
-  UrdfOptions options;
-  options.root = Root::fixed;
-  return read_urdf(path, options).robot;
 }
 
 class KeptLinks : public testing::Test {

@@ -19,6 +19,7 @@
 #include "shapeid/tests/app/arms.hpp"
 #include "shapeid/tests/app/command.hpp"
 #include "shapeid/tests/app/farthest.hpp"
+#include "shapeid/tests/support/files.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid::test {
@@ -29,14 +30,6 @@ using nlohmann::json;
 // None is carried by another one of them: neighbours could hide each other's mass.
 const std::vector<int> sought = {1, 5, 6, 9, 12};
 const std::string free_links = "--free l9 l12 l1 l6 l5";
-
-constexpr std::size_t at(int link) { return static_cast<std::size_t>(link); }
-
-Robot read_arms(const std::string& path) {
-  UrdfOptions options;
-  options.root = Root::fixed;
-  return read_urdf(path, options).robot;
-}
 
 /// Ten numbers of a link; one that is not known is infinite.
 Vector10 ten(const json& link, const std::string& key) {
@@ -68,7 +61,7 @@ class LinksAnswer : public testing::Test {
     EXPECT_EQ(run.status, 0) << run.err;
     return run.out;
   }
-  static json result() { return json::parse(read_file(scratch() + "/found/result.json")); }
+  static json result() { return json::parse(text_of(scratch() + "/found/result.json")); }
   static json links(const std::string& options) {
     identify(options);
     const json links = result().at("links");
@@ -78,7 +71,7 @@ class LinksAnswer : public testing::Test {
 };
 
 MassProblem rows_found() {
-  return problem_from_json(read_file(scratch() + "/found/problem.json"), "problem.json");
+  return problem_from_json(text_of(scratch() + "/found/problem.json"), "problem.json");
 }
 
 // kg, kg m, kg m^2: what an answer may be off by and still tell every link from every other one.

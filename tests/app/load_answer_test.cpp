@@ -11,6 +11,7 @@
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/tests/app/command.hpp"
 #include "shapeid/tests/app/farthest.hpp"
+#include "shapeid/tests/support/files.hpp"
 #include "shapeid/tests/support/load_problem.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -20,7 +21,6 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::json;
 
-const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
 const std::string yaml = fmt::format("--robot-yaml {}quadruped.robot.yaml", robots);
 
 // So many leave cells smaller than a block around it, which can make it exactly.
@@ -36,7 +36,7 @@ Answer load(const std::string& words, int divisions) {
       "load {} {} --divisions {} --eps 0 --lambda 0 --out load_found", words, yaml, divisions));
   EXPECT_EQ(run.status, 0) << run.err;
   if (run.status != 0) return {};
-  return {json::parse(read_file(scratch() + "/load_found/result.json")), run.out};
+  return {json::parse(text_of(scratch() + "/load_found/result.json")), run.out};
 }
 
 InertialParameters found(const json& load) {
@@ -63,7 +63,7 @@ void expect_found(const Answer& answer, const std::string& carrier, const Vector
   EXPECT_EQ(load.at("link"), carrier);
   const InertialParameters body = found(load);
   const MassProblem rows =
-      problem_from_json(read_file(scratch() + "/load_found/problem.json"), "problem.json");
+      problem_from_json(text_of(scratch() + "/load_found/problem.json"), "problem.json");
   const double error =
       farthest(rows.Y, rows.F, truth.values, answer.document.at("objective").at("data"));
   EXPECT_LE((body.values - truth.values).norm(), error);
@@ -103,7 +103,7 @@ TEST(LoadAnswer, OfABlockOnTheBase) {
 
 /// The bundled quadruped with a rack on a link, turned; on the rack there may be something.
 std::string with_rack(const std::string& carrier, const std::string& on_it) {
-  std::string text = read_file(robots + "quadruped.urdf");
+  std::string text = text_of(robots + "quadruped.urdf");
   return text.replace(text.rfind("</robot>"), std::string::npos,
                       fmt::format("<link name=\"rack\">{}</link>\n<joint name=\"rack_fixed\" "
                                   "type=\"fixed\"><parent link=\"{}\"/><child link=\"rack\"/>"
@@ -170,7 +170,7 @@ TEST(LoadAnswer, IsHeldAgainstWhatTheDataSayOfIt) {
 
 /// A robot that weighs less than it should carries nothing.
 TEST(LoadAnswer, OfNothing) {
-  std::string heavier = read_file(robots + "quadruped.urdf");
+  std::string heavier = text_of(robots + "quadruped.urdf");
   const std::string mass = "<mass value=\"5.48\"/>";
   heavier.replace(heavier.find(mass), mass.size(), "<mass value=\"5.98\"/>");
   scratch_file("heavier.urdf", heavier);

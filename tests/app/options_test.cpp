@@ -10,16 +10,12 @@
 
 #include "shapeid/models/division.hpp"
 #include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
 
 using nlohmann::json;
-
-const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
-const std::string robot =
-    fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
-const std::string shapes = fmt::format("--shapes {}quadruped.shapes.yaml", robots);
 
 class Options : public testing::Test {
  protected:
@@ -36,14 +32,16 @@ class Options : public testing::Test {
     return result;
   }
   static std::vector<json> online(const std::string& options) {
-    return lines(fmt::format("identify {} --log trot.csv {} --online {}", robot, shapes, options));
+    return lines(fmt::format("identify {} --log trot.csv {} --online {}", quadruped_files,
+                             quadruped_shapes, options));
   }
   static std::vector<json> track(const std::string& options) {
-    return lines(fmt::format("track trot.csv {} {} {}", robot, shapes, options));
+    return lines(
+        fmt::format("track trot.csv {} {} {}", quadruped_files, quadruped_shapes, options));
   }
   static json identified(const std::string& options) {
-    const CommandRun run =
-        shapeid(fmt::format("identify {} --log trot.csv {} --json {}", robot, shapes, options));
+    const CommandRun run = shapeid(fmt::format("identify {} --log trot.csv {} --json {}",
+                                               quadruped_files, quadruped_shapes, options));
     EXPECT_EQ(run.status, 0) << run.err;
     return json::parse(run.out);
   }
@@ -80,10 +78,10 @@ TEST_F(Options, AlphaIsTheFilters) {
 
 TEST_F(Options, LambdaIsTheProblems) {
   ASSERT_EQ(shapeid(fmt::format("identify {} --log trot.csv {} --divisions 0 --lambda 0.25 --out l",
-                                robot, shapes))
+                                quadruped_files, quadruped_shapes))
                 .status,
             0);
-  EXPECT_EQ(json::parse(read_file(scratch() + "/l/problem.json"))["lambda"], 0.25);
+  EXPECT_EQ(json::parse(text_of(scratch() + "/l/problem.json"))["lambda"], 0.25);
   const auto evened = online("--lambda 1e9");
   // So much density term leaves next to no mass.
   EXPECT_LT(evened[10]["parameters"][0].get<double>(), 1e-3);
@@ -128,7 +126,7 @@ TEST_F(Options, TrackRemembersAsLongAsItIsTold) {
 /// A link at the hip whose tensor no body can have, which is known: its given inertia counts as it
 /// is.
 TEST_F(Options, AcceptImpossibleTakesAGivenInertiaAsItIsAndSaysSo) {
-  std::string text = read_file(robots + "quadruped.urdf");
+  std::string text = text_of(robots + "quadruped.urdf");
   const std::string before = "ixx=\"0.00034\"", after = "ixx=\"0.00934\"";
   const std::size_t at = text.find(before);
   ASSERT_NE(at, std::string::npos);
@@ -136,7 +134,7 @@ TEST_F(Options, AcceptImpossibleTakesAGivenInertiaAsItIsAndSaysSo) {
   const std::string words = fmt::format(
       "identify --robot odd.urdf --robot-yaml {}quadruped.robot.yaml --log trot.csv {} "
       "--divisions 0 --json ",
-      robots, shapes);
+      robots, quadruped_shapes);
   const CommandRun refused = shapeid(words);
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("odd.urdf:"), std::string::npos) << refused.err;

@@ -9,18 +9,17 @@
 
 #include "shapeid/models/log.hpp"
 #include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
 
-const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
-const std::string shapes = fmt::format("--shapes {}quadruped.shapes.yaml", robots);
 constexpr double inertia = 6e-5, gear = 9.0;
 
 class Rotors : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const std::string notes = read_file(robots + "quadruped.robot.yaml");
+    const std::string notes = text_of(robots + "quadruped.robot.yaml");
     scratch_file("plain.yaml", notes);
     scratch_file("rotors.yaml",
                  notes + fmt::format("\nrotors: {{FR_knee: {{inertia: {}, gear: {}}}, RL_hip: "
@@ -39,7 +38,7 @@ class Rotors : public testing::Test {
     const CommandRun run = shapeid(
         fmt::format("identify --robot {}quadruped.urdf --robot-yaml {}.yaml --log {}.csv {} "
                     "--exact --divisions 0 --json",
-                    robots, notes, log, shapes));
+                    robots, notes, log, quadruped_shapes));
     EXPECT_EQ(run.status, 0) << run.err;
     return nlohmann::json::parse(run.out);
   }
@@ -99,7 +98,7 @@ TEST_F(Rotors, AreInThePredictionThatDiagnoseWrites) {
   for (const auto& finding : nlohmann::json::parse(run.out)["findings"]) {
     EXPECT_NE(finding["effect"], "rotor_inertia") << "which is declared";
   }
-  const std::string header = read_file(scratch() + "/predicted/predict_torque.hpp");
+  const std::string header = text_of(scratch() + "/predicted/predict_torque.hpp");
   EXPECT_NE(header.find(fmt::format("tau[2] += {} * ddq[2];  // rotor\n", inertia * gear * gear)),
             std::string::npos)
       << header.substr(header.find("inline void predict("));

@@ -7,6 +7,7 @@
 
 #include "shapeid/models/robot.hpp"
 #include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
@@ -86,7 +87,7 @@ TEST(Units, OfFrictionWhereAJointSlides) {
   ASSERT_EQ(found.status, 0) << found.err;
   EXPECT_NE(found.out.find("N s/m"), std::string::npos) << found.out;
   EXPECT_EQ(found.out.find("N m s/rad"), std::string::npos) << found.out;
-  const std::string page = read_file(scratch() + "/post/report.html");
+  const std::string page = text_of(scratch() + "/post/report.html");
   EXPECT_NE(page.find("N s/m"), std::string::npos);
   EXPECT_NE(page.find("velocity (m/s)"), std::string::npos);
 }

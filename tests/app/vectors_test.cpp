@@ -6,11 +6,12 @@
 #include <string>
 
 #include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
 
-const std::string folder = SHAPEID_SOURCE_DIR "/tests/vectors";
+const std::string vectors_folder = SHAPEID_SOURCE_DIR "/tests/vectors";
 const std::string example = "python3 " SHAPEID_SOURCE_DIR "/docs/examples/vectors.py";
 
 bool has_python() { return std::system("python3 -c pass") == 0; }
@@ -24,11 +25,10 @@ TEST(Vectors, AreWhatTheToolWrites) {
   std::filesystem::create_directories(made);
   ASSERT_EQ(std::system((SHAPEID_MAKE_VECTORS " " + made).c_str()), 0);
   int files = 0;
-  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+  for (const auto& file : std::filesystem::directory_iterator(vectors_folder)) {
     if (file.path().extension() != ".json") continue;
     ++files;
-    EXPECT_EQ(read_file(file.path().string()),
-              read_file(made + "/" + file.path().filename().string()))
+    EXPECT_EQ(text_of(file.path()), text_of(made + "/" + file.path().filename().string()))
         << file.path();
   }
   EXPECT_EQ(files, 12);
@@ -49,12 +49,12 @@ TEST(Vectors, TheExampleInCppPasses) {
 TEST(Vectors, EverySeededBugIsCaughtAsTheTableSays) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
   const std::string made = scratch() + "/bugs.md";
-  ASSERT_EQ(std::system(fmt::format("python3 {}/table.py {} > {}", folder,
+  ASSERT_EQ(std::system(fmt::format("python3 {}/table.py {} > {}", vectors_folder,
                                     SHAPEID_BUILD_DIR "/shapeid", made)
                             .c_str()),
             0)
-      << read_file(made);
-  EXPECT_EQ(read_file(made), read_file(SHAPEID_SOURCE_DIR "/docs/bugs.md")) << "./run vectors";
+      << text_of(made);
+  EXPECT_EQ(text_of(made), text_of(SHAPEID_SOURCE_DIR "/docs/bugs.md")) << "./run vectors";
 }
 
 TEST(Vectors, ProgramsThatDoNotAnswerAreSaid) {
@@ -74,8 +74,8 @@ TEST(Vectors, ProgramsThatDoNotAnswerAreSaid) {
 TEST(Vectors, ChangedFilesAreRefused) {
   const std::string copy = scratch() + "/changed";
   std::filesystem::remove_all(copy);
-  std::filesystem::copy(folder, copy, std::filesystem::copy_options::recursive);
-  const std::string text = read_file(copy + "/moments.json");
+  std::filesystem::copy(vectors_folder, copy, std::filesystem::copy_options::recursive);
+  const std::string text = text_of(copy + "/moments.json");
   scratch_file("changed/moments.json", text + " ");
   const CommandRun run = check("cat", "--vectors " + copy);
   EXPECT_EQ(run.status, 2);

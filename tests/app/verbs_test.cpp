@@ -11,17 +11,16 @@
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/models/version.hpp"
 #include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
-
-const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
 
 TEST(Verbs, VersionIsThatOfTheProject) {
   const CommandRun run = shapeid("--version");
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.out, std::string(version) + "\n");
-  const std::string project = read_file(SHAPEID_SOURCE_DIR "/CMakeLists.txt");
+  const std::string project = text_of(SHAPEID_SOURCE_DIR "/CMakeLists.txt");
   EXPECT_NE(project.find(fmt::format("project(shapeid VERSION {} ", version)), std::string::npos);
 }
 
@@ -38,12 +37,12 @@ TEST(Verbs, InspectSaysWhichInertiaNoBodyCanHave) {
       "rod.urdf",
       "<robot name='rod'>\n<link name='rod'><inertial><mass value='2'/><inertia ixx='1' "
       "iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial></link></robot>\n");
-  for (const std::string json : {"", "--json "}) {
-    const CommandRun run = shapeid("inspect " + json + robot);
+  for (const std::string option : {"", "--json "}) {
+    const CommandRun run = shapeid("inspect " + option + robot);
     EXPECT_EQ(run.status, 1);
     EXPECT_NE(run.err.find("refused (impossible-inertia)"), std::string::npos) << run.err;
     EXPECT_NE(run.out.find("short by 0.8"), std::string::npos) << run.out;
-    if (json.empty()) {
+    if (option.empty()) {
       EXPECT_NE(run.out.find("rod.urdf:2: link rod: the triangle"), std::string::npos) << run.out;
       continue;
     }
@@ -93,9 +92,9 @@ TEST(Verbs, FromSimulationToAnIdentifiedUrdf) {
   // problem.json and answer.json are what the library's own readers accept, and they agree.
   const std::string folder = scratch() + "/found/";
   const StatedProblem stated =
-      stated_problem_from_json(read_file(folder + "problem.json"), "problem.json");
+      stated_problem_from_json(text_of(folder + "problem.json"), "problem.json");
   const MassProblem& problem = stated.masses;
-  const Answer answer = answer_from_json(read_file(folder + "answer.json"), "answer.json");
+  const Answer answer = answer_from_json(text_of(folder + "answer.json"), "answer.json");
   EXPECT_EQ(answer.problem_digest, problem_digest(stated));
   EXPECT_EQ(result["problem_digest"], answer.problem_digest);
   EXPECT_EQ(objective(problem, answer.masses).total(), answer.objective);
@@ -112,7 +111,7 @@ TEST(Verbs, FromSimulationToAnIdentifiedUrdf) {
   const nlohmann::json accepted = {
       {"accepted", true}, {"gap", proof["gap"]}, {"reasons", nlohmann::json::array()}};
   EXPECT_EQ(result["certificate"], accepted);
-  EXPECT_EQ(nlohmann::json::parse(read_file(folder + "result.json")), result);
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder + "result.json")), result);
 
   // Its columns are what the shapes beside them make, and those lie in the undivided ones; the
   // optima of larger sets come in order.

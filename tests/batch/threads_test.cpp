@@ -10,6 +10,7 @@
 
 #include "shapeid/tests/app/command.hpp"
 #include "shapeid/tests/batch/pieces.hpp"
+#include "shapeid/tests/support/files.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 #include "shapeid/tests/track/logs.hpp"
 
@@ -62,7 +63,7 @@ TEST(BatchThreads, EqualsIdentifyOnOneLogWithGaps) {
   // is a piece's last.
   const json parts = done(batch("--rate 500 --divisions 5 --log " + piece_names()));
   // All of it is fitted if something else is tested on.
-  scratch_file("again.csv", read_file(scratch() + "/" + whole_name()));
+  scratch_file("again.csv", text_of(scratch() + "/" + whole_name()));
   const json whole =
       done(fmt::format("identify {0} --json --rate 500 --divisions 5 --log {1} --test again.csv",
                        bundled_robot(), whole_name()));

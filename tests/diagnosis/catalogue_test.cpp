@@ -2,12 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
 
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -30,9 +29,7 @@ TEST(Catalogue, EveryFileIsRegisteredOnce) {
 }
 
 TEST(Catalogue, PageIsTheCatalogue) {
-  std::ifstream in(SHAPEID_SOURCE_DIR "/docs/effects.md", std::ios::binary);
-  const std::string page{std::istreambuf_iterator<char>(in), {}};
-  EXPECT_TRUE(page == catalogue_page())
+  EXPECT_TRUE(test::text_of(SHAPEID_SOURCE_DIR "/docs/effects.md") == catalogue_page())
       << "renew it: ./run shapeid diagnose --list > docs/effects.md";
 }
 

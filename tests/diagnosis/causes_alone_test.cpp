@@ -15,12 +15,12 @@ using test::arm_settings;
 using test::effect;
 using test::record;
 
-struct Fitted {
+struct LoopedArm {
   LoopSettings settings = arm_settings();
   Recording log;
   LoopResult loop;
 
-  explicit Fitted(const Recording& recording)
+  explicit LoopedArm(const Recording& recording)
       : log(recording), loop(close_loop(arm(), log, nullptr, settings)) {}
 
   [[nodiscard]] Consistent consistent() const {
@@ -39,13 +39,13 @@ bool some_link_hangs(const Consistent& model, const Consistent& causes_alone) {
 }
 
 TEST(CausesAlone, NothingIsFittedAgainWhereEveryNameStands) {
-  const Fitted fitted(record({{effect("viscous_friction", 1, {0.3})}}));
+  const LoopedArm fitted(record({{effect("viscous_friction", 1, {0.3})}}));
   ASSERT_EQ(fitted.loop.found.size(), 1U);
   EXPECT_FALSE(fitted.causes_alone());
 }
 
 TEST(CausesAlone, MassesThatADescriptionCarriesAreNotIdentified) {
-  Fitted fitted(record({{effect("joint_spring", 1, {4.0, 2.0})}}));
+  LoopedArm fitted(record({{effect("joint_spring", 1, {4.0, 2.0})}}));
   ASSERT_EQ(fitted.loop.found.size(), 1U);
   const Consistent model = fitted.consistent();
   fitted.loop.found[0].displaced = true;
@@ -56,7 +56,7 @@ TEST(CausesAlone, MassesThatADescriptionCarriesAreNotIdentified) {
 }
 
 TEST(CausesAlone, ADescriptionOfNothingCarriesNone) {
-  Fitted fitted(record({}));
+  LoopedArm fitted(record({}));
   Found nothing{effect("viscous_friction", 1, {0.0}), "viscous_friction@joint2",
                 Eigen::VectorXd::Zero(1)};
   nothing.drowned = true;
@@ -72,7 +72,7 @@ TEST(CausesAlone, ADescriptionOfNothingCarriesNone) {
 
 /// What stays in is what is a cause, and has the value that it has in the model.
 TEST(CausesAlone, CausesStay) {
-  Fitted fitted(
+  LoopedArm fitted(
       record({{effect("viscous_friction", 0, {0.4}), effect("viscous_friction", 1, {0.3})}}));
   ASSERT_EQ(fitted.loop.found.size(), 2U);
   fitted.loop.found[0].varies = Variation{};
@@ -86,7 +86,7 @@ TEST(CausesAlone, CausesStay) {
 /// The first link turns about a vertical axis: its mass is seen by no joint. The last one is
 /// lifted.
 TEST(Consistent, SaysWhatTheDataDetermine) {
-  const Consistent result = Fitted(record({})).consistent();
+  const Consistent result = LoopedArm(record({})).consistent();
   ASSERT_EQ(result.data.determined.size(), 30U);
   EXPECT_FALSE(result.data.determined[0]);
   EXPECT_FALSE(result.data.determined[3]) << "m rz along the axis";
@@ -95,8 +95,8 @@ TEST(Consistent, SaysWhatTheDataDetermine) {
 }
 
 TEST(Consistent, TheDatasOwnErrorsGrowWithTheirNoise) {
-  const double quiet = Fitted(record({{}, 20.0, 0.02, 3})).consistent().data.standard_error[23];
-  const double loud = Fitted(record({{}, 20.0, 0.08, 3})).consistent().data.standard_error[23];
+  const double quiet = LoopedArm(record({{}, 20.0, 0.02, 3})).consistent().data.standard_error[23];
+  const double loud = LoopedArm(record({{}, 20.0, 0.08, 3})).consistent().data.standard_error[23];
   EXPECT_GT(loud, 2.5 * quiet);
   EXPECT_LT(loud, 6.0 * quiet) << "four times the noise";
 }
@@ -106,7 +106,7 @@ TEST(Consistent, TheDatasOwnErrorsGrowWithTheirNoise) {
 TEST(Consistent, WhatAnEffectContainsIsNotDetermined) {
   const AppliedEffect load =
       effect("payload", 3, {0.8, 0.02, 0.0, 0.2, 0.06, 0.0, -0.004, 0.06, 0.0, 0.002});
-  Fitted fitted(record({{load}}));
+  LoopedArm fitted(record({{load}}));
   fitted.loop.found = {Found{load, "payload@link3", Eigen::VectorXd::Zero(10)}};
   fitted.loop.model.effects = {load};
   const Consistent result = fitted.consistent();

@@ -10,8 +10,8 @@
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -138,9 +138,9 @@ TEST(EffectsYaml, NamesOfAnyKindAreReadBack) {
     robot.links[2].joint.name = name;
     KnownEffects known{{test::effect("torque_offset", 1, {0.25})}, {}};
     known.curves = {curve("torque_offset", 1, {CurveSignal::speed, 1}, {-1.5, 0.1}, {0.3, -0.4})};
-    const test::Scratch scratch;
+    const test::ScratchFolder scratch;
     const std::string text = write_effects_yaml(robot, known);
-    const KnownEffects again = read_effects_yaml(scratch.file("effects.yaml", text), robot);
+    const KnownEffects again = read_effects_yaml(scratch.write("effects.yaml", text), robot);
     EXPECT_EQ(again.effects.at(0).site, 1) << text;
     EXPECT_EQ(again.curves.at(0).over, (CurveVariable{CurveSignal::speed, 1})) << text;
   }
@@ -149,9 +149,9 @@ TEST(EffectsYaml, NamesOfAnyKindAreReadBack) {
 TEST(EffectsYaml, OneEntryAnEffectAndPlaceAndOneOfWhatCameSince) {
   const Robot robot = test::arm();
   const auto read = [&](const std::vector<AppliedEffect>& effects) {
-    const test::Scratch scratch;
-    return read_effects_yaml(scratch.file("effects.yaml", write_effects_yaml(robot, {effects, {}})),
-                             robot)
+    const test::ScratchFolder scratch;
+    return read_effects_yaml(
+               scratch.write("effects.yaml", write_effects_yaml(robot, {effects, {}})), robot)
         .effects;
   };
   const AppliedEffect friction = test::effect("viscous_friction", 1, {0.25});
@@ -182,9 +182,9 @@ TEST(EffectsYaml, TellsContactsOfOneLinkApart) {
   for (const int contact : {4, 0, 3, 2, 1}) {
     known.effects.push_back(test::effect("contact_point", contact, {0.01 * contact, 0.0, 0.002}));
   }
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   const KnownEffects again =
-      read_effects_yaml(scratch.file("effects.yaml", write_effects_yaml(robot, known)), robot);
+      read_effects_yaml(scratch.write("effects.yaml", write_effects_yaml(robot, known)), robot);
   ASSERT_EQ(again.effects.size(), known.effects.size());
   for (std::size_t i = 0; i < known.effects.size(); ++i) {
     EXPECT_EQ(again.effects[i].site, known.effects[i].site);
@@ -196,9 +196,9 @@ TEST(EffectsYaml, TellsContactsOfOneLinkApart) {
 TEST(EffectsYaml, LimitsOfWhatIsBelievedAreNoLimitsOfWhatIsKnown) {
   const Robot robot = test::arm();
   const auto read = [&](const AppliedEffect& effect) {
-    const test::Scratch scratch;
+    const test::ScratchFolder scratch;
     return read_effects_yaml(
-               scratch.file("effects.yaml", write_effects_yaml(robot, {{effect}, {}})), robot)
+               scratch.write("effects.yaml", write_effects_yaml(robot, {{effect}, {}})), robot)
         .effects.at(0)
         .value[0];
   };
@@ -215,9 +215,9 @@ TEST(CurvesYaml, IsReadBackTheSame) {
       curve("torque_offset", 0, {CurveSignal::speed, 2}, {-1.5, 0.1, 1.0}, {0.3, -0.4, 1e-7}),
       curve("coulomb_friction", 1, {CurveSignal::acceleration, 1}, {0.0, 2.0}, {0.1, 0.2})};
   known.curves[1].law.shape[0] = 0.07;
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   const std::string text = write_effects_yaml(robot, known);
-  const KnownEffects again = read_effects_yaml(scratch.file("effects.yaml", text), robot);
+  const KnownEffects again = read_effects_yaml(scratch.write("effects.yaml", text), robot);
   EXPECT_EQ(write_effects_yaml(robot, again), text);
   ASSERT_EQ(again.curves.size(), 2U);
   EXPECT_EQ(again.curves[0].number, known.curves[0].number);
@@ -228,9 +228,9 @@ TEST(CurvesYaml, IsReadBackTheSame) {
 
 TEST(CurvesYaml, SaysWhatIsWrong) {
   const auto said_to = [](const std::string& text) -> std::string {
-    const test::Scratch scratch;
+    const test::ScratchFolder scratch;
     try {
-      static_cast<void>(read_effects_yaml(scratch.file("effects.yaml", text), test::arm()));
+      static_cast<void>(read_effects_yaml(scratch.write("effects.yaml", text), test::arm()));
     } catch (const InputError& error) {
       return error.what();
     }

@@ -14,7 +14,7 @@
 #include "shapeid/models/simbody/simulation.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -114,7 +114,7 @@ TEST(FilterError, IsTheResidualOfATrueModelOnItsFeet) {
   SensorOptions perfect;
   perfect.noise = false;
   Sensors sensors(robot, notes, perfect);
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   const std::string path = scratch.path("trot.csv");
   LogWriter writer(path, sensors.columns());
   simulate(robot, trot, [&](const SimulatedSample& s) {

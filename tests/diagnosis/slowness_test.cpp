@@ -12,7 +12,7 @@
 namespace shapeid::diagnosis {
 namespace {
 
-constexpr double cutoff = 15.0;
+constexpr double filter_cutoff = 15.0;
 
 /// A residual of three joints at every sample of a log: white noise, and `more` of it at joint 2.
 /// It counts in the log's first part alone, or in all of it.
@@ -34,7 +34,7 @@ std::vector<Structure> said_of(std::uint32_t seed,
   }
   const auto counted = static_cast<Eigen::Index>(part * static_cast<double>(count));
   series.counted.rightCols(count - counted) = false;
-  return slow_remains(test::arm(), log, series, cutoff);
+  return slow_remains(test::arm(), log, series, filter_cutoff);
 }
 
 TEST(SlowRemains, NoiseIsNotSlow) {
@@ -78,7 +78,7 @@ TEST(SlowRemains, WhatWandersIsSlow) {
   EXPECT_LT(found[0].share, 0.6);
   ASSERT_FALSE(found[0].at.empty());
   EXPECT_GT(found[0].value.front(), 1.5 * found[0].value.back());
-  EXPECT_LT(found[0].at.back(), 0.5 * cutoff);
+  EXPECT_LT(found[0].at.back(), 0.5 * filter_cutoff);
 }
 
 /// A burst that no curve over a signal shows, because it comes once.
@@ -92,7 +92,7 @@ TEST(SlowRemains, ABurstIsSlow) {
 
 TEST(SlowRemains, AFilterBelowWhatALogResolvesSaysNothing) {
   const Recording log = test::record({{}, 20.0, 0.02, 1});
-  EXPECT_TRUE(slow_remains(test::arm(), log, {}, cutoff).empty());
+  EXPECT_TRUE(slow_remains(test::arm(), log, {}, filter_cutoff).empty());
 }
 
 }  // namespace

@@ -2,22 +2,16 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "shapeid/tests/app/command.hpp"
 #include "shapeid/tests/hostile/refused.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
-
-void expect_one_line(const CommandRun& run, int status, const std::string& words) {
-  EXPECT_EQ(run.status, status) << run.err.substr(0, 1000);
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err.substr(0, 1000);
-  EXPECT_TRUE(says(run.err, words)) << run.err.substr(0, 1000);
-}
 
 TEST(HostileCommand, CertifyDeepAnswers) {
   scratch_file("deep.json", repeated("[", 1000000));
@@ -50,7 +44,7 @@ TEST(HostileCommand, CheckpointsThatAreDamaged) {
       "track --robot {0}.urdf --shapes {0}.shapes.yaml --checkpoint state.json", robots);
   ASSERT_EQ(shapeid("simulate --seconds 1 --out trot.csv").status, 0);
   ASSERT_EQ(shapeid(track + " trot.csv").status, 0);
-  const std::string good = read_file(scratch() + "/state.json");
+  const std::string good = text_of(scratch() + "/state.json");
   const auto expect_refused = [&](const std::string& text, const std::string& words) {
     scratch_file("state.json", text);
     expect_one_line(shapeid(track + " --resume trot.csv"), 2, words);

@@ -4,8 +4,6 @@
 
 #include <clocale>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <locale>
 #include <string>
 
@@ -16,8 +14,9 @@
 #include "shapeid/models/robot_yaml.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
 #include "shapeid/models/urdf.hpp"
-#include "shapeid/tests/robot/scratch_folder.hpp"
 #include "shapeid/tests/robot/two_link_robot.hpp"
+#include "shapeid/tests/support/files.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
@@ -66,11 +65,6 @@ class ForeignCLocale {
   test::ScratchFolder folder_;
 };
 
-std::string content(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Everything that a session reads and writes, as one text with every bit of every number.
 std::string session() {
   const test::ScratchFolder folder;
@@ -95,7 +89,7 @@ std::string session() {
   writer.write({0.125, 1234567.5});
   writer.write({1e-300, -0.1});
   writer.close();
-  all += content(log);
+  all += test::text_of(log);
   LogReader reader(log);
 
   MassProblem p;

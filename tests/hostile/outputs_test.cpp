@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <string>
@@ -16,6 +14,7 @@
 #include "shapeid/models/log_writer.hpp"
 #include "shapeid/tests/app/command.hpp"
 #include "shapeid/tests/hostile/refused.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
@@ -26,12 +25,6 @@ constexpr const char* ten_numbers =
     "convert --from pinocchio --to drake 2 0.2 -0.4 0.6 1 0.1 1.2 "
     "-0.2 0.3 1.4";
 
-void expect_one_line(const CommandRun& run, const std::string& words) {
-  EXPECT_EQ(run.status, 2) << run.err;
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-  EXPECT_TRUE(says(run.err, words)) << run.err;
-}
-
 /// Whether something half-written was left behind.
 bool leftovers() {
   return std::any_of(fs::directory_iterator(scratch()), fs::directory_iterator(),
@@ -41,18 +34,13 @@ bool leftovers() {
 /// The command with its standard output elsewhere, or limited, as the shell can do it.
 CommandRun run_in_shell(const std::string& before, const std::string& arguments,
                         const std::string& after) {
-  const std::string err = scratch() + "/err";
-  const int status =
-      std::system(fmt::format("bash -c \"{} cd '{}' && '{}/shapeid' {} {} 2>'{}'\"", before,
-                              scratch(), SHAPEID_BUILD_DIR, arguments, after, err)
-                      .c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", read_file(err)};
+  return program(in_bash(fmt::format("{} {} {}", before, command(arguments), after)));
 }
 
 TEST(HostileOutputs, StandardOutputThatIsFull) {
-  expect_one_line(run_in_shell("", ten_numbers, ">/dev/full"), "standard output");
-  expect_one_line(run_in_shell("", ten_numbers, ">&-"), "standard output");
-  expect_one_line(run_in_shell("", "--help", ">/dev/full"), "standard output");
+  expect_one_line(run_in_shell("", ten_numbers, ">/dev/full"), 2, "standard output");
+  expect_one_line(run_in_shell("", ten_numbers, ">&-"), 2, "standard output");
+  expect_one_line(run_in_shell("", "--help", ">/dev/full"), 2, "standard output");
 }
 
 // A limit on the size of files stands for a full disk: writing stops in the middle.
@@ -61,8 +49,8 @@ TEST(HostileOutputs, ADiskThatIsFull) {
     scratch_file(name, "the one from before\n");
     const CommandRun run = run_in_shell("trap '' XFSZ; ulimit -f 2;",
                                         "simulate --seconds 0.2 --out " + name, ">/dev/null");
-    expect_one_line(run, name + ": cannot be written");
-    EXPECT_EQ(read_file(scratch() + "/" + name), "the one from before\n");
+    expect_one_line(run, 2, name + ": cannot be written");
+    EXPECT_EQ(text_of(scratch() + "/" + name), "the one from before\n");
     EXPECT_FALSE(leftovers());
   }
 }
@@ -73,12 +61,12 @@ TEST(HostileOutputs, LinksAreFollowedAndStay) {
   fs::create_symlink("target.txt", link);
   write_file(link, "new");
   EXPECT_TRUE(fs::is_symlink(link));
-  EXPECT_EQ(read_file(target), "new");
+  EXPECT_EQ(text_of(target), "new");
 
   const std::string nowhere = scratch() + "/nowhere.txt";
   fs::create_symlink(scratch() + "/none/there.txt", nowhere);
   write_file(nowhere, "new");
-  EXPECT_EQ(read_file(nowhere), "new");
+  EXPECT_EQ(text_of(nowhere), "new");
 }
 
 TEST(HostileOutputs, DevicesAreWrittenToAndNotReplaced) {
@@ -129,7 +117,7 @@ TEST(HostileOutputs, AFolderWhereOneOfASetWouldBe) {
 
 // What a user types may hold anything as well.
 TEST(HostileOutputs, ArgumentsInMessages) {
-  expect_one_line(shapeid("inspect \"$(printf 'a\\nb.csv')\""), "a\\x0ab.csv");
+  expect_one_line(shapeid("inspect \"$(printf 'a\\nb.csv')\""), 2, "a\\x0ab.csv");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 using test::refusal, test::repeated, test::says;
 
-std::string refusal_of(const std::string& text) {
+std::string refusal_of_xml(const std::string& text) {
   return refusal([&] { static_cast<void>(parse_urdf(text, "r.urdf")); });
 }
 
@@ -41,7 +41,7 @@ TEST(HostileXml, EntityBomb) {
   }
   text += "]>\n<robot name=\"r\"><link name=\"&a9;\"/></robot>";
   EXPECT_EQ(
-      refusal_of(text),
+      refusal_of_xml(text),
       "r.urdf:2: a document type or entity declaration (\"<!\"); a URDF needs none: remove it");
 }
 
@@ -55,8 +55,8 @@ TEST(HostileXml, AHundredThousandDeep) {
   constexpr std::size_t deep = 100000;
   const std::string text =
       "<robot name=\"r\">" + repeated("<a>", deep) + repeated("</a>", deep) + "</robot>";
-  EXPECT_TRUE(says(refusal_of(text), "nested more than 100 deep"));
-  EXPECT_TRUE(says(refusal_of("<robot name=\"r\">" + repeated("<a>", deep)), "r.urdf:1"));
+  EXPECT_TRUE(says(refusal_of_xml(text), "nested more than 100 deep"));
+  EXPECT_TRUE(says(refusal_of_xml("<robot name=\"r\">" + repeated("<a>", deep)), "r.urdf:1"));
 }
 
 // As many elements, attributes and comments as a file may hold: read in seconds or refused.
@@ -65,7 +65,7 @@ TEST(HostileXml, SixteenMegabytesOfAnything) {
   for (const std::string part : {"<a/>", "<!--x-->", "x ", "<collision/>"}) {
     const std::string text = "<robot name=\"r\"><link name=\"a\">" +
                              repeated(part, size / part.size() - 1) + "</link></robot>";
-    const std::string message = refusal_of(text);
+    const std::string message = refusal_of_xml(text);
     EXPECT_TRUE(message == "accepted" || says(message, "r.urdf")) << message;
   }
 }
@@ -73,7 +73,7 @@ TEST(HostileXml, SixteenMegabytesOfAnything) {
 TEST(HostileXml, ThousandsOfLinks) {
   EXPECT_EQ(parse_urdf(chain(5000, "fixed"), "r").robot.links.at(0).inertia.mass(), 5000.0);
   EXPECT_EQ(parse_urdf(chain(1000, "revolute"), "r").robot.link_count(), 1000);
-  EXPECT_EQ(refusal_of(chain(5000, "revolute")),
+  EXPECT_EQ(refusal_of_xml(chain(5000, "revolute")),
             "r.urdf:2002: more than 1000 links that move; write joints that do not move as fixed");
 }
 
@@ -82,7 +82,7 @@ TEST(HostileXml, CyclesOfThousands) {
   text.insert(
       text.find("</robot>"),
       "<joint name=\"back\" type=\"fixed\"><parent link=\"l2999\"/><child link=\"l0\"/></joint>");
-  EXPECT_TRUE(says(refusal_of(text), "the joints form a cycle"));
+  EXPECT_TRUE(says(refusal_of_xml(text), "the joints form a cycle"));
 }
 
 std::string with_mass(const std::string& mass) {
@@ -94,12 +94,12 @@ std::string with_mass(const std::string& mass) {
 
 TEST(HostileXml, NumbersAtTheEndsOfDouble) {
   EXPECT_EQ(parse_urdf(with_mass("5e-324"), "r").robot.links[0].inertia.mass(), 5e-324);
-  EXPECT_TRUE(says(refusal_of(with_mass("1e400")), "does not fit into a double"));
-  EXPECT_TRUE(says(refusal_of(with_mass("1e-400")), "does not fit into a double"));
-  EXPECT_TRUE(says(refusal_of(with_mass("1e308")), "nothing here exceeds 1e+09"));
-  EXPECT_TRUE(says(refusal_of(with_mass("INF")), "is not a finite number"));
-  EXPECT_TRUE(says(refusal_of(with_mass("-nan(0x1)")), "is not a finite number"));
-  EXPECT_TRUE(says(refusal_of(with_mass(repeated("1", 100000))), "does not fit into a double"));
+  EXPECT_TRUE(says(refusal_of_xml(with_mass("1e400")), "does not fit into a double"));
+  EXPECT_TRUE(says(refusal_of_xml(with_mass("1e-400")), "does not fit into a double"));
+  EXPECT_TRUE(says(refusal_of_xml(with_mass("1e308")), "nothing here exceeds 1e+09"));
+  EXPECT_TRUE(says(refusal_of_xml(with_mass("INF")), "is not a finite number"));
+  EXPECT_TRUE(says(refusal_of_xml(with_mass("-nan(0x1)")), "is not a finite number"));
+  EXPECT_TRUE(says(refusal_of_xml(with_mass(repeated("1", 100000))), "does not fit into a double"));
 }
 
 TEST(HostileXml, ByteOrderMarkAndCarriageReturns) {
@@ -107,17 +107,18 @@ TEST(HostileXml, ByteOrderMarkAndCarriageReturns) {
   std::string windows = "\xEF\xBB\xBF";
   for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
   EXPECT_EQ(parse_urdf(windows, "r").robot.link_count(), 3);
-  EXPECT_TRUE(says(refusal_of("\xFF\xFE<\0r\0o\0"), "r.urdf"));  // UTF-16
+  EXPECT_TRUE(says(refusal_of_xml("\xFF\xFE<\0r\0o\0"), "r.urdf"));  // UTF-16
 }
 
 // A name of a megabyte, and one that would clear the screen, are quoted so that neither does harm.
 TEST(HostileXml, NamesInMessages) {
   const std::string name = repeated("long ", 200000) + "name";
   const std::string twice = "<link name=\"" + name + "\"/>";
-  EXPECT_TRUE(says(refusal_of("<robot name=\"r\">" + twice + twice + "</robot>"), "a second link"));
   EXPECT_TRUE(
-      says(refusal_of("<robot name=\"r\"><link name=\"a\"><inertial><mass value=\"\x1b[2J\"/>"
-                      "<inertia/></inertial></link></robot>"),
+      says(refusal_of_xml("<robot name=\"r\">" + twice + twice + "</robot>"), "a second link"));
+  EXPECT_TRUE(
+      says(refusal_of_xml("<robot name=\"r\"><link name=\"a\"><inertial><mass value=\"\x1b[2J\"/>"
+                          "<inertia/></inertial></link></robot>"),
            "\\x1b[2J"));
 }
 

@@ -8,8 +8,8 @@
 #include "shapeid/models/robot_yaml.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
 #include "shapeid/tests/hostile/refused.hpp"
-#include "shapeid/tests/robot/scratch_folder.hpp"
 #include "shapeid/tests/robot/two_link_robot.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {

@@ -2,13 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <string>
+
+#include "shapeid/tests/support/files.hpp"
 
 inline const std::filesystem::path root = SHAPEID_SOURCE_DIR;
 
-inline std::string text_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using shapeid::test::text_of;

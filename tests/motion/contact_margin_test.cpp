@@ -8,13 +8,13 @@
 #include <cmath>
 
 #include "shapeid/tests/motion/example.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
 
 // Dyadic, so that a sample may lie exactly on the margin.
-constexpr double step = 0.125;
+constexpr double margin_step = 0.125;
 
 std::vector<FlaggedSample> drawn_log() {
   std::vector<FlaggedSample> log;
@@ -25,7 +25,7 @@ std::vector<FlaggedSample> drawn_log() {
   for (int k = 0; k < count; ++k) {
     FlaggedSample sample;
     sample.starts_segment = k == 0 || *rc::gen::inRange(0, 12) == 0;
-    time += step * *rc::gen::inRange(1, 3);
+    time += margin_step * *rc::gen::inRange(1, 3);
     sample.sample.time = time;
     if (*rc::gen::inRange(0, 4) == 0) {
       const auto c = static_cast<std::size_t>(*rc::gen::inRange(0, contacts));
@@ -68,7 +68,7 @@ std::vector<Kept> looked_up(const std::vector<FlaggedSample>& segment, ContactCh
 RC_GTEST_PROP(ContactMargin, EqualsALookUpInTheWholeLog, ()) {
   const std::vector<FlaggedSample> log = drawn_log();
   const auto change = *rc::gen::element(ContactChange::widen, ContactChange::drop);
-  const double margin = step * *rc::gen::inRange(0, 5);
+  const double margin = margin_step * *rc::gen::inRange(0, 5);
   ContactMargin tested(change, margin);
   std::vector<Kept> out;
   std::size_t pushed = 0;
@@ -104,7 +104,7 @@ RC_GTEST_PROP(ContactMargin, EqualsALookUpInTheWholeLog, ()) {
 
 // A foot that touched before a gap says nothing about the samples after it.
 TEST(ContactMargin, NothingCountsAcrossAGapOfTheLog) {
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   const auto path = scratch.path("x.csv");
   Robot robot = test::chain(2, Root::floating);
   robot.contacts.push_back({"l1", 2, ContactKind::point, Eigen::Isometry3d::Identity()});

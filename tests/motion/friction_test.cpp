@@ -11,7 +11,7 @@
 #include "shapeid/models/log_writer.hpp"
 #include "shapeid/models/motion.hpp"
 #include "shapeid/tests/motion/example.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
@@ -19,10 +19,10 @@ namespace {
 using test::chain;
 using test::read_motion;
 using test::regular_times;
-using test::Scratch;
+using test::ScratchFolder;
 
 constexpr double inertia = 0.07, weight = 2.3;  // kg m^2, N m
-constexpr double rate = 500.0;
+constexpr double log_rate = 500.0;
 
 /// tau = inertia ddq + weight sin q, exactly; no friction.
 Sample pendulum(double t) {
@@ -43,12 +43,12 @@ struct Noise {
   double q = 0.0, tau = 0.0;  ///< standard deviations, rad and N m
 };
 
-std::string write_pendulum(const Scratch& scratch, const Noise& noise, std::uint32_t seed) {
+std::string write_pendulum(const ScratchFolder& scratch, const Noise& noise, std::uint32_t seed) {
   const auto path = scratch.path("a.csv");
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   LogWriter writer(path, {"time", "q.j0", "tau.j0"});
-  for (const double t : regular_times(0.0, rate, 10000)) {
+  for (const double t : regular_times(0.0, log_rate, 10000)) {
     const Sample s = pendulum(t);
     writer.write({t, s.q[0] + noise.q * normal(random), s.tau[0] + noise.tau * normal(random)});
   }
@@ -79,7 +79,7 @@ MotionOptions with(Smoothing smoothing, double cutoff) {
 /// Joins samples at equal times: two readers lose different ends.
 void align(std::vector<Sample>& a, std::vector<Sample>& b) {
   const auto drop_before = [](std::vector<Sample>& x, double time) {
-    std::erase_if(x, [&](const Sample& s) { return s.time < time - 0.5 / rate; });
+    std::erase_if(x, [&](const Sample& s) { return s.time < time - 0.5 / log_rate; });
   };
   drop_before(a, b.front().time);
   drop_before(b, a.front().time);
@@ -89,7 +89,7 @@ void align(std::vector<Sample>& a, std::vector<Sample>& b) {
 // order in the motion's frequency over the cutoff, and free of phase.
 TEST(Friction, OneFilterOverAllChannelsInventsNone) {
   const Robot robot = chain(1, Root::fixed);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   for (const Smoothing smoothing : {Smoothing::zero_phase, Smoothing::causal}) {
     std::vector<double> viscous;
     for (std::uint32_t seed = 0; seed < 8; ++seed) {
@@ -115,7 +115,7 @@ TEST(Friction, OneFilterOverAllChannelsInventsNone) {
 // and on a sine dddq = -w^2 dq: a viscous coefficient of about -I d w^2 plus what gravity adds.
 TEST(Friction, FilteringTheJointsAloneInventsIt) {
   const Robot robot = chain(1, Root::fixed);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = write_pendulum(scratch, {1e-5, 0.02}, 1);
   std::vector<Sample> raw = read_motion(path, robot, with(Smoothing::none, 20.0)).samples;
   auto [late, report] = read_motion(path, robot, with(Smoothing::causal, 20.0));

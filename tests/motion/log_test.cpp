@@ -13,13 +13,15 @@
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/log_table.hpp"
 #include "shapeid/models/log_writer.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/motion/message_of.hpp"
+#include "shapeid/tests/support/files.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
 
 using test::message_of;
-using test::Scratch;
+using test::ScratchFolder;
 using namespace std::string_literals;
 
 std::vector<LogRow> read_all(const std::string& path) {
@@ -34,8 +36,8 @@ std::string complaint(const std::string& path) {
 }
 
 TEST(LogReader, ReadsMarksLineEndsQuotesAndMissingValues) {
-  const Scratch scratch;
-  const auto path = scratch.file(
+  const ScratchFolder scratch;
+  const auto path = scratch.write(
       "a.csv", "\xEF\xBB\xBF\"time\", q.a ,\"tau,a\"\r\n0,1e-3,+2.5\r\n0.5,,-0\r\n\r\n");
   const LogReader log(path);
   EXPECT_EQ(log.columns(), (std::vector<std::string>{"time", "q.a", "tau,a"}));
@@ -49,8 +51,8 @@ TEST(LogReader, ReadsMarksLineEndsQuotesAndMissingValues) {
 }
 
 TEST(LogReader, LastLineNeedsNoEnd) {
-  const Scratch scratch;
-  EXPECT_EQ(read_all(scratch.file("a.csv", "a,b\n1,2\n3,4")).size(), 2u);
+  const ScratchFolder scratch;
+  EXPECT_EQ(read_all(scratch.write("a.csv", "a,b\n1,2\n3,4")).size(), 2u);
 }
 
 TEST(LogReader, SaysWhatIsWrongWithBrokenFiles) {
@@ -90,34 +92,33 @@ TEST(LogReader, SaysWhatIsWrongWithBrokenFiles) {
       {std::string(1 << 21, 'a'),
        "x.csv:1: line longer than 1048576 bytes; a log has one row a line"},
   };
-  const Scratch scratch;
+  const ScratchFolder scratch;
   for (const Broken& broken : table) {
-    EXPECT_EQ(complaint(scratch.file("x.csv", broken.text)), broken.message);
+    EXPECT_EQ(complaint(scratch.write("x.csv", broken.text)), broken.message);
   }
   EXPECT_EQ(complaint(scratch.path("none.csv")),
             "none.csv: cannot be opened; give a readable CSV file");
 }
 
 TEST(LogReader, TruncatedOrDamagedArchivesAreRefused) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("a.csv.gz");
   LogWriter writer(path, {"a", "b"});
   for (int i = 0; i < 20000; ++i) writer.write({i * 0.1, std::sin(i)});
   writer.close();
   EXPECT_EQ(read_all(path).size(), 20000u);
 
-  std::ifstream in(path, std::ios::binary);
-  const std::string whole((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  const auto cut = complaint(scratch.file("cut.csv.gz", whole.substr(0, whole.size() / 2)));
+  const std::string whole = test::text_of(path);
+  const auto cut = complaint(scratch.write("cut.csv.gz", whole.substr(0, whole.size() / 2)));
   EXPECT_NE(cut.find("cannot be read: "), std::string::npos) << cut;
   EXPECT_NE(cut.find("unexpected end of file; give a complete CSV"), std::string::npos) << cut;
 
   // Only the checksum at the end tells: all rows would be read.
-  const auto tail = complaint(scratch.file("tail.csv.gz", whole.substr(0, whole.size() - 8)));
+  const auto tail = complaint(scratch.write("tail.csv.gz", whole.substr(0, whole.size() - 8)));
   EXPECT_NE(tail.find("unexpected end of file"), std::string::npos) << tail;
   std::string flipped = whole;
   flipped[flipped.size() - 6] = static_cast<char>(flipped[flipped.size() - 6] ^ 1);
-  const auto sum = complaint(scratch.file("sum.csv.gz", flipped));
+  const auto sum = complaint(scratch.write("sum.csv.gz", flipped));
   EXPECT_NE(sum.find("incorrect data check"), std::string::npos) << sum;
 }
 
@@ -128,7 +129,7 @@ RC_GTEST_PROP(LogWriter, NumbersReadBackExactly, (std::vector<std::uint64_t> bit
     const auto number = std::bit_cast<double>(b);
     if (std::abs(number) <= largest_reading) numbers.push_back(number);
   }
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path(zipped ? "a.csv.gz" : "a.csv");
   LogWriter writer(path, {"a", "b"});
   for (const double number : numbers) {
@@ -145,8 +146,8 @@ RC_GTEST_PROP(LogWriter, NumbersReadBackExactly, (std::vector<std::uint64_t> bit
 }
 
 TEST(LogWriter, NothingAppearsBeforeClose) {
-  const Scratch scratch;
-  const auto path = scratch.file("a.csv", "old\n1\n");
+  const ScratchFolder scratch;
+  const auto path = scratch.write("a.csv", "old\n1\n");
   {
     LogWriter writer(path, {"new"});
     writer.write({2.0});
@@ -159,7 +160,7 @@ TEST(LogWriter, NothingAppearsBeforeClose) {
 }
 
 TEST(LogWriter, RefusesWhatItCouldNotReadBack) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("a.csv");
   for (const std::vector<std::string>& names :
        {std::vector<std::string>{}, {"a", "a"}, {"a", ""}, {"a,b"}, {"a\n"}}) {
@@ -177,7 +178,7 @@ std::size_t open_files() {
 }
 
 TEST(Log, FilesAreClosed) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const std::size_t before = open_files();
   for (const char* name : {"x.csv", "x.csv.gz"}) {
     const auto path = scratch.path(name);
@@ -194,13 +195,13 @@ TEST(Log, FilesAreClosed) {
     }
     EXPECT_EQ(open_files(), before);
   }
-  EXPECT_THROW(LogReader(scratch.file("y.csv", "1,2\n")), InputError);
+  EXPECT_THROW(LogReader(scratch.write("y.csv", "1,2\n")), InputError);
   EXPECT_EQ(open_files(), before);
 }
 
 // Wherever the blocks in which a file is read end, nothing of it is lost.
 TEST(LogReader, FilesOfEveryLengthAreReadToTheirLastByte) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   for (const std::size_t block : {std::size_t{1} << 14, std::size_t{1} << 16}) {
     for (std::size_t length = block - 2; length <= block + 2; ++length) {
       std::string text = "a\n";
@@ -208,7 +209,7 @@ TEST(LogReader, FilesOfEveryLengthAreReadToTheirLastByte) {
       text += "0.";
       while (text.size() + 1 < length) text += "0";
       text += "7";  // the last byte
-      const auto rows = read_all(scratch.file("x.csv", text));
+      const auto rows = read_all(scratch.write("x.csv", text));
       ASSERT_EQ(text.size(), length);
       ASSERT_EQ(rows.size(), 1 + (length - 22 + 5) / 6) << length;
       EXPECT_GT(rows.back().values[0], 0.0) << length;

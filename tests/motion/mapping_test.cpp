@@ -7,14 +7,15 @@
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/log.hpp"
 #include "shapeid/tests/motion/example.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/motion/message_of.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
 
 using test::chain;
 using test::message_of;
-using test::Scratch;
+using test::ScratchFolder;
 
 std::vector<MeasuredRow> rows_of(MeasuredRows& rows) {
   std::vector<MeasuredRow> out;
@@ -23,9 +24,9 @@ std::vector<MeasuredRow> rows_of(MeasuredRows& rows) {
 }
 
 TEST(Mapping, NamesUnitsSignsAndOffsets) {
-  const Scratch scratch;
-  const auto log = scratch.file("a.csv", "t_ms,angle,load,temp\n1000,90,2,30\n1002,180,4,31\n");
-  const Mapping mapping = read_mapping_yaml(scratch.file("m.yaml", R"(
+  const ScratchFolder scratch;
+  const auto log = scratch.write("a.csv", "t_ms,angle,load,temp\n1000,90,2,30\n1002,180,4,31\n");
+  const Mapping mapping = read_mapping_yaml(scratch.write("m.yaml", R"(
 columns:
   time: {from: t_ms, scale: 0.001}
   q.j0: {from: angle, scale: 0.017453292519943295, sign: -1, offset: 0.5}
@@ -43,10 +44,10 @@ torque: {kind: joint}
 }
 
 TEST(Mapping, GearsAndCurrentsScaleTheTorque) {
-  const Scratch scratch;
-  const auto log = scratch.file("a.csv", "time,q.j0,q.j1,i1_A,i2_A\n0,0,0,2,3\n");
+  const ScratchFolder scratch;
+  const auto log = scratch.write("a.csv", "time,q.j0,q.j1,i1_A,i2_A\n0,0,0,2,3\n");
   for (const char* kind : {"motor", "current"}) {
-    const Mapping mapping = read_mapping_yaml(scratch.file(
+    const Mapping mapping = read_mapping_yaml(scratch.write(
         "m.yaml", std::string("columns: {tau.j0: i1_A, tau.j1: {from: i2_A, offset: 1}}\n"
                               "torque: {kind: ") +
                       kind + ", factor: {j0: 9.5, j1: -2}}\n"));
@@ -59,23 +60,23 @@ TEST(Mapping, GearsAndCurrentsScaleTheTorque) {
 
 // A name that nothing asks for is a slip of the pen, not an extra signal.
 TEST(Mapping, MakesNothingThatTheRobotDoesNotKnow) {
-  const Scratch scratch;
-  const auto log = scratch.file("a.csv", "time,q.j0,tau.j0,speed\n0,0,0,3\n");
+  const ScratchFolder scratch;
+  const auto log = scratch.write("a.csv", "time,q.j0,tau.j0,speed\n0,0,0,3\n");
   for (const std::string target : {"dq.j7", "velocity.j0", "force.foot.x", "base.gyrodot.x"}) {
     const Mapping mapping =
-        read_mapping_yaml(scratch.file("m.yaml", "columns: {" + target + ": speed}\n"));
+        read_mapping_yaml(scratch.write("m.yaml", "columns: {" + target + ": speed}\n"));
     const std::string said =
         message_of<InputError>([&] { MeasuredRows(log, chain(1, Root::fixed), mapping); }, log);
     EXPECT_EQ(said.find("the mapping makes " + target + " of speed, which means nothing"), 0u)
         << said;
   }
-  const Mapping right = read_mapping_yaml(scratch.file("m.yaml", "columns: {dq.j0: speed}\n"));
+  const Mapping right = read_mapping_yaml(scratch.write("m.yaml", "columns: {dq.j0: speed}\n"));
   EXPECT_GE(MeasuredRows(log, chain(1, Root::fixed), right).plan().dq, 0);
 }
 
 TEST(Mapping, JointsAreFoundByNameInTheRobotsOrder) {
-  const Scratch scratch;
-  const auto log = scratch.file("a.csv", "tau.j1,q.j1,time,tau.j0,q.j0,q.gripper\n4,3,0,2,1,9\n");
+  const ScratchFolder scratch;
+  const auto log = scratch.write("a.csv", "tau.j1,q.j1,time,tau.j0,q.j0,q.gripper\n4,3,0,2,1,9\n");
   MeasuredRows rows(log, chain(2, Root::fixed), {});
   const MeasuredRow row = rows_of(rows).at(0);
   EXPECT_EQ(row.values, Eigen::Vector4d(1, 3, 2, 4));
@@ -83,10 +84,10 @@ TEST(Mapping, JointsAreFoundByNameInTheRobotsOrder) {
 }
 
 TEST(Mapping, RowsAreKeptByValue) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto log =
-      scratch.file("a.csv", "time,q.j0,tau.j0,new\n0,1,1,1\n0,2,2,0\n1,3,3,1\n2,4,4,\n");
-  const Mapping mapping = read_mapping_yaml(scratch.file("m.yaml", "keep_rows: {new: 1}\n"));
+      scratch.write("a.csv", "time,q.j0,tau.j0,new\n0,1,1,1\n0,2,2,0\n1,3,3,1\n2,4,4,\n");
+  const Mapping mapping = read_mapping_yaml(scratch.write("m.yaml", "keep_rows: {new: 1}\n"));
   MeasuredRows rows(log, chain(1, Root::fixed), mapping);
   const auto out = rows_of(rows);  // the repeated stamp of row 2 does not count
   ASSERT_EQ(out.size(), 2u);
@@ -97,10 +98,10 @@ TEST(Mapping, RowsAreKeptByValue) {
 
 // A value that happens to repeat is a new measurement when another of its group has changed.
 TEST(Mapping, HeldColumnsCountWhereTheyOrTheirGroupChange) {
-  const Scratch scratch;
-  const auto log = scratch.file(
+  const ScratchFolder scratch;
+  const auto log = scratch.write(
       "a.csv", "time,a,b,c,d\n0,1,5,7,1\n1,1,5,7,2\n2,2,5,7,3\n3,2,6,7,4\n4,2,6,8,5\n");
-  const Mapping mapping = read_mapping_yaml(scratch.file("m.yaml", R"(
+  const Mapping mapping = read_mapping_yaml(scratch.write("m.yaml", R"(
 columns:
   q.j0: {from: a, hold: encoders}
   q.j1: {from: b, hold: encoders}
@@ -154,9 +155,9 @@ TEST(Mapping, SaysWhatIsWrongWithBrokenFiles) {
        "m.yaml:1: joint torque has factors; give a gear ratio (motor) or N m per A (current) for "
        "every joint"},
   };
-  const Scratch scratch;
+  const ScratchFolder scratch;
   for (const Broken& broken : table) {
-    const auto path = scratch.file("m.yaml", broken.text);
+    const auto path = scratch.write("m.yaml", broken.text);
     EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(read_mapping_yaml(path)); }, path),
               broken.message);
   }
@@ -167,11 +168,11 @@ TEST(Mapping, SaysWhatIsWrongWithBrokenFiles) {
 
 /// Reads all rows of a log and says how it went.
 std::string reception(const std::string& log, const Robot& robot, const std::string& mapping) {
-  const Scratch scratch;
-  const auto path = scratch.file("x.csv", log);
+  const ScratchFolder scratch;
+  const auto path = scratch.write("x.csv", log);
   const auto read = [&] {
     std::optional<Mapping> map;
-    if (!mapping.empty()) map = read_mapping_yaml(scratch.file("m.yaml", mapping));
+    if (!mapping.empty()) map = read_mapping_yaml(scratch.write("m.yaml", mapping));
     MeasuredRows rows(path, robot, map);
     rows_of(rows);
   };
@@ -243,10 +244,10 @@ TEST(Channels, SayWhatALogLacks) {
 TEST(Mapping, FlagsMayBeTurnedRound) {
   Robot foot = chain(1, Root::fixed);
   foot.contacts.push_back({"l0", 1, ContactKind::point, Eigen::Isometry3d::Identity()});
-  const Scratch scratch;
-  const auto log = scratch.file("a.csv", "time,q.j0,tau.j0,in_air\n0,1,1,1\n1,1,1,0\n2,1,1,\n");
+  const ScratchFolder scratch;
+  const auto log = scratch.write("a.csv", "time,q.j0,tau.j0,in_air\n0,1,1,1\n1,1,1,0\n2,1,1,\n");
   const Mapping mapping = read_mapping_yaml(
-      scratch.file("m.yaml", "columns:\n  contact.l0: {from: in_air, scale: -1, offset: 1}\n"));
+      scratch.write("m.yaml", "columns:\n  contact.l0: {from: in_air, scale: -1, offset: 1}\n"));
   MeasuredRows rows(log, foot, mapping);
   std::vector<int> flags;
   for (const MeasuredRow& row : rows_of(rows)) flags.push_back(row.contacts.at(0));
@@ -259,10 +260,10 @@ TEST(DefaultContacts, SitAtTheOriginOfTheNamedLinkAlsoWhenLumped) {
   foot.name = "foot";
   foot.pose.translation() = Eigen::Vector3d(0.1, -0.2, -0.3);
   robot.links[2].members.push_back(foot);
-  const Scratch scratch;
-  const auto log = scratch.file("a.csv", "time,contact.l0,touch\n");
+  const ScratchFolder scratch;
+  const auto log = scratch.write("a.csv", "time,contact.l0,touch\n");
   const Mapping mapping =
-      read_mapping_yaml(scratch.file("m.yaml", "columns: {contact.foot: touch}"));
+      read_mapping_yaml(scratch.write("m.yaml", "columns: {contact.foot: touch}"));
   add_default_contacts(robot, log, mapping);
   ASSERT_EQ(robot.contacts.size(), 2u);
   EXPECT_EQ(robot.contacts[0].name, "foot");

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/tests/motion/example.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid {
 namespace {
@@ -17,11 +17,7 @@ namespace {
 using test::read_motion;
 using test::ReadMotion;
 
-std::filesystem::path data(const std::string& file) {
-  const char* const folder = std::getenv("SHAPEID_DATA");
-  return std::filesystem::path(folder != nullptr ? folder : SHAPEID_SOURCE_DIR "/../shared/data") /
-         file;
-}
+std::filesystem::path data(const std::string& file) { return test::data_folder() / file; }
 
 bool absent(const std::string& file) { return !std::filesystem::exists(data(file)); }
 

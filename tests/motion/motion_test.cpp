@@ -13,8 +13,9 @@
 #include "shapeid/models/log_writer.hpp"
 #include "shapeid/models/sample_builder.hpp"
 #include "shapeid/tests/motion/example.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/motion/message_of.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
@@ -28,7 +29,7 @@ using test::ReadMotion;
 using test::regular_times;
 using test::scaled;
 using test::scaled_difference;
-using test::Scratch;
+using test::ScratchFolder;
 using test::smooth_motion;
 using test::write_log;
 
@@ -66,7 +67,7 @@ double attenuation(const MotionOptions& o, double rate) {
 
 TEST(Motion, ZeroPhaseGivesTheMotionAndItsDerivatives) {
   const Robot robot = chain(4, Root::floating);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("a.csv.gz");
   write_log(path, robot, regular_times(100.0, 500.0, 10000),
             [&](double t) { return smooth_motion(robot, t); });
@@ -99,7 +100,7 @@ TEST(Motion, ZeroPhaseGivesTheMotionAndItsDerivatives) {
 TEST(Motion, ExactDerivativesAreTakenAsTheyAre) {
   Robot robot = chain(3, Root::floating);
   robot.contacts.push_back({"l2", 3, ContactKind::point, Eigen::Isometry3d::Identity()});
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("a.csv");
   const auto motion = [&](double t) {
     Sample s = smooth_motion(robot, t);
@@ -128,7 +129,7 @@ TEST(Motion, ExactDerivativesAreTakenAsTheyAre) {
 TEST(Motion, ABodyWithoutJointsHasItsExactDerivatives) {
   for (const Root root : {Root::fixed, Root::floating}) {
     const Robot robot = chain(0, root);
-    const Scratch scratch;
+    const ScratchFolder scratch;
     const auto path = scratch.path("a.csv");
     write_log(path, robot, {0.0, 0.1, 0.2}, [&](double t) { return smooth_motion(robot, t); });
     MotionOptions options;
@@ -139,7 +140,7 @@ TEST(Motion, ABodyWithoutJointsHasItsExactDerivatives) {
 
 TEST(Motion, CausalIsLateByTheStatedDelayInEveryChannel) {
   const Robot robot = chain(3, Root::floating);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("a.csv");
   write_log(path, robot, regular_times(0.0, 500.0, 6000),
             [&](double t) { return smooth_motion(robot, t); });
@@ -162,7 +163,7 @@ TEST(Motion, CausalIsLateByTheStatedDelayInEveryChannel) {
 
 TEST(Motion, WithoutSmoothingValuesAreThoseLogged) {
   const Robot robot = chain(2, Root::fixed);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("a.csv");
   write_log(path, robot, regular_times(0.0, 500.0, 2000),
             [&](double t) { return smooth_motion(robot, t); });
@@ -180,12 +181,12 @@ TEST(Motion, WithoutSmoothingValuesAreThoseLogged) {
 }
 
 TEST(Motion, SaysWhatCouldNotBeChecked) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   std::string text = "time,q.j0,tau.j0,temperature.j0\n";
   for (int k = 0; k < 500; ++k) text += fmt::format("{},{},1,20\n", 0.002 * k, 0.001 * k);
   MotionOptions options;
   options.refuse_frozen = false;
-  const auto path = scratch.file("a.csv", text);
+  const auto path = scratch.write("a.csv", text);
   const MotionReport report = read_motion(path, chain(1, Root::fixed), options).report;
   EXPECT_EQ(report.extra, std::vector<std::string>{"temperature.j0"});
   EXPECT_EQ(report.notes, std::vector<std::string>{
@@ -193,7 +194,7 @@ TEST(Motion, SaysWhatCouldNotBeChecked) {
 }
 
 TEST(Motion, OtherColumnsComeAlongFromTheNearestRow) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   std::string text = "time,q.j0,tau.j0,temperature.j0\n";
   // The row at 0.4 s has no temperature, the others have the row's number.
   for (int k = 0; k < 500; ++k) {
@@ -204,7 +205,7 @@ TEST(Motion, OtherColumnsComeAlongFromTheNearestRow) {
   for (const bool exact : {false, true}) {
     options.smoothing = exact ? Smoothing::none : Smoothing::zero_phase;
     const auto samples =
-        read_motion(scratch.file("a.csv", text), chain(1, Root::fixed), options).samples;
+        read_motion(scratch.write("a.csv", text), chain(1, Root::fixed), options).samples;
     ASSERT_FALSE(samples.empty());
     for (const Sample& s : samples) {
       ASSERT_EQ(s.extra.size(), 1U);
@@ -216,7 +217,7 @@ TEST(Motion, OtherColumnsComeAlongFromTheNearestRow) {
 
 TEST(Motion, LoggedVelocityIsUsedWhenTrusted) {
   const Robot robot = chain(2, Root::fixed);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("a.csv");
   // 10 percent off: below what is refused, and easy to tell from the derivative.
   write_log(path, robot, regular_times(0.0, 500.0, 4000), [&](double t) {
@@ -263,7 +264,7 @@ class ImuPose : public testing::Test {
 
   Robot robot_;
   RobotNotes notes_;
-  Scratch scratch_;
+  ScratchFolder scratch_;
 };
 
 TEST_F(ImuPose, ExactRowsComeBackInTheBaseFrame) {
@@ -299,7 +300,7 @@ TEST(Motion, LogsOfAnyLengthTakeFixedMemory) {
   fmt::print("skipped: the address sanitizer keeps freed memory\n");
 #else
   const Robot robot = chain(3, Root::fixed);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("a.csv");
   write_log(path, robot, regular_times(0.0, 1000.0, 200000),
             [&](double t) { return smooth_motion(robot, t); });
@@ -321,7 +322,7 @@ TEST(Motion, LogsOfAnyLengthTakeFixedMemory) {
 
 TEST(Motion, SaysWhatItCannotDoWithALog) {
   Robot robot = chain(1, Root::fixed);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto good = scratch.path("x.csv");
   write_log(good, robot, regular_times(0.0, 500.0, 1000),
             [&](double t) { return smooth_motion(robot, t); });
@@ -343,7 +344,7 @@ TEST(Motion, SaysWhatItCannotDoWithALog) {
   options.order = 0;
   EXPECT_EQ(reception(good, options), "filter of order 0; choose an order from 1 to 8");
 
-  const auto bare = scratch.file("x.csv", "time,q.j0,tau.j0\n0,1,2\n0.1,1,2\n");
+  const auto bare = scratch.write("x.csv", "time,q.j0,tau.j0\n0,1,2\n0.1,1,2\n");
   options = {};
   options.exact_derivatives = true;
   EXPECT_EQ(reception(bare, options),
@@ -352,18 +353,18 @@ TEST(Motion, SaysWhatItCannotDoWithALog) {
   options.use_logged_velocity = true;
   EXPECT_EQ(reception(bare, options),
             "x.csv: has no dq.* columns; log them, or do not ask to use them");
-  const auto hole = scratch.file("x.csv", "time,q.j0,dq.j0,ddq.j0,tau.j0\n0,1,1,1,1\n1,1,1,,1\n");
+  const auto hole = scratch.write("x.csv", "time,q.j0,dq.j0,ddq.j0,tau.j0\n0,1,1,1,1\n1,1,1,,1\n");
   options = {};
   options.exact_derivatives = true;
   EXPECT_EQ(reception(hole, options),
             "x.csv:3: has an empty field; exact derivatives need every value in every row");
-  EXPECT_EQ(reception(scratch.file("x.csv", "time,q.j0,tau.j0\n0,1,2\n"), {}),
+  EXPECT_EQ(reception(scratch.write("x.csv", "time,q.j0,tau.j0\n0,1,2\n"), {}),
             "x.csv: has 1 rows of measurements; a motion takes at least some tenths of a second");
-  EXPECT_EQ(reception(scratch.file("x.csv", "time,q.j0,tau.j0\n0,1,\n0.1,2,\n0.2,3,\n"), {}),
+  EXPECT_EQ(reception(scratch.write("x.csv", "time,q.j0,tau.j0\n0,1,\n0.1,2,\n0.2,3,\n"), {}),
             "x.csv, column tau.j0: is empty; tau.j0 needs measurements from the log's beginning");
   Mapping held;
   held.columns["q.j0"] = {.from = "q.j0", .hold = "q"};
-  EXPECT_EQ(reception(scratch.file("x.csv", "time,q.j0,tau.j0\n0,1,1\n0.1,1,2\n"), {}, held),
+  EXPECT_EQ(reception(scratch.write("x.csv", "time,q.j0,tau.j0\n0,1,1\n0.1,1,2\n"), {}, held),
             "x.csv, column q.j0: is held and never changes; q.j0 needs measurements from the log's "
             "beginning");
   robot.contacts.push_back({"l0", 1, ContactKind::point, Eigen::Isometry3d::Identity()});

@@ -10,7 +10,8 @@
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/tests/motion/example.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/motion/message_of.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
@@ -19,7 +20,7 @@ using test::chain;
 using test::message_of;
 using test::read_motion;
 using test::regular_times;
-using test::Scratch;
+using test::ScratchFolder;
 using test::smooth_motion;
 using test::write_log;
 
@@ -28,7 +29,7 @@ constexpr double radian = 180.0 / std::numbers::pi;
 /// Writes what `spoil` makes of a good motion, and says how it is received.
 std::string reception(const std::function<void(Sample&)>& spoil, const Robot& robot,
                       const MotionOptions& options = {}) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("x.csv");
   write_log(path, robot, regular_times(0.0, 500.0, 5000), [&](double t) {
     Sample s = smooth_motion(robot, t);

@@ -15,15 +15,15 @@ namespace {
 using test::few_hundred_eps;
 using test::scaled;
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-constexpr double step = 1.0 / 64.0, rate = 256.0;  // four points of the grid a row
+constexpr double gap_value = std::numeric_limits<double>::quiet_NaN();
+constexpr double row_step = 1.0 / 64.0, grid_rate = 256.0;  // four points of the grid a row
 
 double cubic(double t) { return 1.0 + t * (2.0 + t * (-7.0 + 11.0 * t)); }
 
 MeasuredRow row_at(int k, const Eigen::VectorXd& values) {
   MeasuredRow row;
   row.line = k;
-  row.time = step * k;
+  row.time = row_step * k;
   row.values = values;
   row.contacts = {k};
   return row;
@@ -41,14 +41,14 @@ std::vector<GridRow> drained(Resampler& grid) {
 /// nothing.
 TEST(ResamplerSteps, RowsCloseTogetherDoNotAmplifyNoise) {
   for (const double apart : {5e-2, 1e-3, 1e-6}) {
-    Resampler grid(rate, one(4.0 * step));
+    Resampler grid(grid_rate, one(4.0 * row_step));
     double most = 0.0;
     for (int k = 0; k < 400; ++k) {
       const double noise = k % 3 == 0 ? 1.0 : -1.0;
       MeasuredRow row = row_at(k, one(noise));
       grid.push(row);
       if (k % 7 == 0) {  // twice, almost at once
-        row.time += apart * step;
+        row.time += apart * row_step;
         row.values = one(-noise);
         grid.push(row);
       }
@@ -62,15 +62,15 @@ TEST(ResamplerSteps, RowsCloseTogetherDoNotAmplifyNoise) {
 // Two measurements on either side make the cubic: a point waits for the second row after it, and
 // for no other.
 TEST(ResamplerSteps, APointWaitsForTwoRowsAfterIt) {
-  Resampler grid(rate, one(4.0 * step));
+  Resampler grid(grid_rate, one(4.0 * row_step));
   std::size_t out = 0;
   for (int k = 0; k < 40; ++k) {
-    grid.push(row_at(k, one(cubic(step * k))));
+    grid.push(row_at(k, one(cubic(row_step * k))));
     for (const GridRow& row : drained(grid)) {
-      EXPECT_EQ(row.time, static_cast<double>(out++) / rate);
+      EXPECT_EQ(row.time, static_cast<double>(out++) / grid_rate);
       EXPECT_EQ(row.starts_segment, out == 1);
       // From the second row on, the cubic is exact.
-      if (row.time >= step) {
+      if (row.time >= row_step) {
         EXPECT_LT(scaled(std::abs(row.values[0] - cubic(row.time)), 10.0, 4), few_hundred_eps);
       }
     }
@@ -80,41 +80,41 @@ TEST(ResamplerSteps, APointWaitsForTwoRowsAfterIt) {
   grid.finish();
   // What is left has one row after it, and then none: a parabola, and the last row itself.
   for (const GridRow& row : drained(grid)) {
-    EXPECT_EQ(row.time, static_cast<double>(out++) / rate);
-    const double a = 37.0 * step, b = 38.0 * step, c = 39.0 * step, t = row.time;
+    EXPECT_EQ(row.time, static_cast<double>(out++) / grid_rate);
+    const double a = 37.0 * row_step, b = 38.0 * row_step, c = 39.0 * row_step, t = row.time;
     const double parabola = cubic(t) - 11.0 * (t - a) * (t - b) * (t - c);
     EXPECT_LT(scaled(std::abs(row.values[0] - parabola), 10.0, 4), few_hundred_eps);
   }
   EXPECT_EQ(out, 4U * 39U + 1U);
 }
 
-// "Further apart than this leave a gap": a step of exactly the longest does not, and its cubic has
-// all its points.
+// "Further apart than this leave a gap": a step of exactly the longest does not, and its cubic
+// has all its points.
 TEST(ResamplerSteps, TheLongestStepIsInterpolated) {
-  Resampler grid(rate, one(step));
+  Resampler grid(grid_rate, one(row_step));
   std::vector<GridRow> out;
   for (int k = 0; k < 40; ++k) {
-    grid.push(row_at(k, one(cubic(step * k))));
+    grid.push(row_at(k, one(cubic(row_step * k))));
     for (GridRow& row : drained(grid)) out.push_back(std::move(row));
   }
   ASSERT_EQ(out.size(), 4U * 38U + 1U);
   for (const GridRow& row : out) {
     EXPECT_EQ(row.starts_segment, row.time == 0.0);
-    if (row.time >= step) {
+    if (row.time >= row_step) {
       EXPECT_LT(scaled(std::abs(row.values[0] - cubic(row.time)), 10.0, 4), few_hundred_eps);
     }
   }
-  Resampler shorter(rate, one(0.999 * step));
+  Resampler shorter(grid_rate, one(0.999 * row_step));
   for (int k = 0; k < 10; ++k) shorter.push(row_at(k, one(1.0)));
   for (const GridRow& row : drained(shorter)) {
     EXPECT_TRUE(row.starts_segment);
-    EXPECT_EQ(row.time, step * std::round(row.time / step));
+    EXPECT_EQ(row.time, row_step * std::round(row.time / row_step));
   }
 }
 
 // Flags are those of the nearest row; of two that are as near, the newer.
 TEST(ResamplerSteps, FlagsAreThoseOfTheNearestRow) {
-  Resampler grid(rate, one(4.0 * step));
+  Resampler grid(grid_rate, one(4.0 * row_step));
   for (int k = 0; k < 20; ++k) grid.push(row_at(k, one(0.0)));
   grid.finish();
   const std::vector<GridRow> out = drained(grid);
@@ -127,13 +127,13 @@ TEST(ResamplerSteps, FlagsAreThoseOfTheNearestRow) {
 // A measurement that is late holds everything up for the longest step, and no longer.
 TEST(ResamplerSteps, AChannelIsWaitedForAsLongAsItsLongestStep) {
   constexpr int dies = 20, longest = 5;
-  Resampler grid(rate, Eigen::Vector2d(longest * step, longest * step));
+  Resampler grid(grid_rate, Eigen::Vector2d(longest * row_step, longest * row_step));
   std::size_t out = 0;
   for (int k = 0; k < 60; ++k) {
-    grid.push(row_at(k, Eigen::Vector2d(1.0 * k, k <= dies ? 2.0 * k : missing)));
+    grid.push(row_at(k, Eigen::Vector2d(1.0 * k, k <= dies ? 2.0 * k : gap_value)));
     for (const GridRow& row : drained(grid)) {
       ++out;
-      EXPECT_LE(row.time, dies * step);
+      EXPECT_LE(row.time, dies * row_step);
     }
     // Its last two points have fewer neighbours, and wait for it to be given up.
     const int known = k <= dies ? k - 1 : k <= dies + longest ? dies - 1 : dies;
@@ -143,7 +143,7 @@ TEST(ResamplerSteps, AChannelIsWaitedForAsLongAsItsLongestStep) {
   for (int k = 60; k < 80; ++k) grid.push(row_at(k, Eigen::Vector2d(1.0 * k, 2.0 * k)));
   const std::vector<GridRow> again = drained(grid);
   ASSERT_FALSE(again.empty());
-  EXPECT_EQ(again.front().time, 60 * step);
+  EXPECT_EQ(again.front().time, 60 * row_step);
   EXPECT_TRUE(again.front().starts_segment);
   EXPECT_FALSE(again.at(1).starts_segment);
 }

@@ -13,7 +13,7 @@
 namespace shapeid {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double lost_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double largest = 10.0;
 // Rows of a swing: so slow that neighbours differ by 1.6 percent of the largest value.
 constexpr int swing = 400;
@@ -194,7 +194,7 @@ TEST(RowGuard, OutliersAreFewerThanTheirNeighbours) {
 
 TEST(RowGuard, ASlowChannelIsComparedWithItsOwnMeasurements) {
   const ChannelPlan plan = joints_plan(1);
-  const Signal every_other = [](int k, int c) { return k % 2 == c ? sine(k, c) : missing; };
+  const Signal every_other = [](int k, int c) { return k % 2 == c ? sine(k, c) : lost_value; };
   EXPECT_EQ(found(plan, 1, every_other), Found{});
   EXPECT_EQ(found(plan, 1, with(every_other, {{later, 0}}, 5.0)), (Found{{{later, 0}}, {}, {}}));
 }

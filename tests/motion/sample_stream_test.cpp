@@ -11,8 +11,8 @@
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/log_writer.hpp"
 #include "shapeid/tests/motion/example.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
@@ -21,7 +21,7 @@ using test::chain;
 using test::few_hundred_eps;
 using test::read_motion;
 using test::scaled;
-using test::Scratch;
+using test::ScratchFolder;
 using test::smooth_motion;
 
 constexpr double cutoff = 12.0;
@@ -102,7 +102,7 @@ void expect_same(const Sample& a, const Sample& b) {
 
 /// A log and the stream that it is pushed into.
 struct Streaming {
-  Scratch scratch;
+  ScratchFolder scratch;
   std::string path = scratch.path("x.csv");
   Robot robot;
   std::vector<MeasuredRow> rows;

@@ -12,9 +12,9 @@
 #include "shapeid/models/motion.hpp"
 #include "shapeid/models/resampler.hpp"
 #include "shapeid/tests/motion/example.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
@@ -26,11 +26,11 @@ using test::log_row;
 using test::read_motion;
 using test::regular_times;
 using test::scaled;
-using test::Scratch;
+using test::ScratchFolder;
 using test::smooth_motion;
 using test::write_log;
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<GridRow> resample(const std::vector<MeasuredRow>& rows, double rate, double longest) {
   Resampler grid(rate, Eigen::VectorXd::Constant(rows.front().values.size(), longest));
@@ -81,7 +81,7 @@ TEST(Resampler, ChannelsKeepTheirOwnTimes) {
   std::vector<MeasuredRow> rows;
   for (int k = 0; k < 100; ++k) {
     const double t = 0.01 * k;
-    rows.push_back(row_at(t, {2.0 * t, k % 4 == 0 ? 5.0 * t : missing}));
+    rows.push_back(row_at(t, {2.0 * t, k % 4 == 0 ? 5.0 * t : no_value}));
   }
   for (const GridRow& row : resample(rows, 100.0, 0.1)) {
     EXPECT_LT(scaled(std::abs(row.values[0] - 2.0 * row.time), 2.0, 4), few_hundred_eps);
@@ -94,7 +94,7 @@ TEST(Resampler, NothingIsInterpolatedAcrossAGapOfAnyChannel) {
   for (int k = 0; k < 300; ++k) {
     if (k > 50 && k < 70) continue;  // rows lost
     const bool second_lost = k > 150 && k < 180;
-    rows.push_back(row_at(0.01 * k, {1.0 * k, second_lost ? missing : 3.0 * k}));
+    rows.push_back(row_at(0.01 * k, {1.0 * k, second_lost ? no_value : 3.0 * k}));
   }
   const auto grid = resample(rows, 100.0, 0.05);
   int segments = 0;
@@ -114,7 +114,7 @@ TEST(Resampler, AChannelThatDiesDoesNotFillTheMemory) {
   Resampler grid(100.0, Eigen::VectorXd::Constant(2, 0.05));
   std::size_t out = 0;
   for (int k = 0; k < 100000; ++k) {
-    grid.push(row_at(0.01 * k, {1.0, k < 1000 ? 2.0 : missing}));
+    grid.push(row_at(0.01 * k, {1.0, k < 1000 ? 2.0 : no_value}));
     while (grid.next()) ++out;
   }
   grid.finish();
@@ -129,7 +129,7 @@ TEST(Motion, IrregularStampsGiveTheSameMotion) {
   std::uniform_real_distribution<double> step(0.0005, 0.0035);
   std::vector<double> times = {0.0};
   while (times.size() < 8000) times.push_back(times.back() + step(random));
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("a.csv");
   write_log(path, robot, times, [&](double t) { return smooth_motion(robot, t); });
   const auto [samples, report] = read_motion(path, robot);
@@ -154,7 +154,7 @@ TEST(Motion, IrregularStampsGiveTheSameMotion) {
 
 TEST(Motion, SegmentsLoseTheirEndsAndNothingCrossesAGap) {
   const Robot robot = chain(2, Root::fixed);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("a.csv");
   std::vector<double> times;
   for (const double t : regular_times(0.0, 500.0, 6000)) {
@@ -180,7 +180,7 @@ TEST(Motion, SegmentsLoseTheirEndsAndNothingCrossesAGap) {
 
 TEST(Motion, SegmentsTooShortToFilterAreCountedAsLost) {
   const Robot robot = chain(1, Root::fixed);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const auto path = scratch.path("a.csv");
   std::vector<double> times;
   for (int k = 0; k < 5000; ++k) {
@@ -209,7 +209,7 @@ class Contacts : public testing::Test {
       Sample s = smooth_motion(robot_, t);
       s.in_contact = {touches(t)};
       std::vector<double> row = log_row(robot_, s);
-      if (t > 4.0) row.back() = t < 5.0 ? -1.0 : missing;
+      if (t > 4.0) row.back() = t < 5.0 ? -1.0 : no_value;
       writer.write(row);
     }
     writer.close();
@@ -217,7 +217,7 @@ class Contacts : public testing::Test {
   }
 
   Robot robot_;
-  Scratch scratch_;
+  ScratchFolder scratch_;
 };
 
 TEST_F(Contacts, DropLeavesOutWhatIsNearAChangeOrNotKnown) {

@@ -5,7 +5,6 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/physics/dynamics.hpp"
+#include "shapeid/tests/support/files.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -25,10 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path data_folder() {
-  const char* const folder = std::getenv("SHAPEID_DATA");
-  return folder != nullptr ? fs::path(folder) : fs::path(SHAPEID_SOURCE_DIR "/../shared/data");
-}
+using test::data_folder;
 
 std::vector<fs::path> published_urdfs() {
   std::vector<fs::path> files;

@@ -12,8 +12,8 @@
 #include "shapeid/reference/projection.hpp"
 #include "shapeid/reference/sample_rows.hpp"
 #include "shapeid/reference/triangle.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/recovery/noisy_logs.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
@@ -67,7 +67,7 @@ Eigen::VectorXd friction_torque(const Eigen::VectorXd& friction,
 // torque left unfiltered, as published, there is more friction than noise.
 TEST(QuadrupedFriction, OneFilterOverAllChannelsInventsNone) {
   const Quadruped quadruped = bundled_quadruped();
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   const std::string log = scratch.path("exact.csv");
   test::write_log(log, quadruped, test::trot(quadruped.robot, {4.0, 500.0, 1, {}}), false, 0);
   const double sigma = quadruped.notes.noise_sigma.at("tau");

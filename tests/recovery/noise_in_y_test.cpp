@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "shapeid/tests/motion/scratch.hpp"
 #include "shapeid/tests/recovery/noisy_logs.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
@@ -44,7 +44,7 @@ class Logs {
 
  private:
   Quadruped quadruped_ = bundled_quadruped();
-  test::Scratch scratch_;
+  test::ScratchFolder scratch_;
 };
 
 /// How the errors of one way of filtering come about.

@@ -4,27 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <string>
 #include <vector>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/urdf.hpp"
+#include "shapeid/tests/support/files.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid {
 namespace {
-
-/// SHAPEID_DATA, or ../shared/data beside the repository.
-std::filesystem::path data_folder() {
-  // Tests are one thread, and nothing here changes the environment.
-  const char* named = std::getenv("SHAPEID_DATA");  // NOLINT(concurrency-mt-unsafe)
-  if (named != nullptr) return named;
-  return std::filesystem::path(SHAPEID_SOURCE_DIR) / ".." / "shared" / "data";
-}
 
 struct Foreign {
   const char* file;
@@ -69,9 +60,7 @@ const std::vector<Foreign> robots = {
 
 /// The sum of all mass values outside comments, found as text.
 double mass_in(const std::string& path) {
-  std::ifstream in(path);
-  const std::string whole((std::istreambuf_iterator<char>(in)), {});
-  const std::string text = std::regex_replace(whole, std::regex("<!--[^]*?-->"), "");
+  const std::string text = std::regex_replace(test::text_of(path), std::regex("<!--[^]*?-->"), "");
   const std::regex mass("<mass[^>]*value=\"([^\"]*)\"");
   double sum = 0.0;
   for (std::sregex_iterator i(text.begin(), text.end(), mass), end; i != end; ++i) {
@@ -88,7 +77,7 @@ double total_mass(const Robot& robot) {
 
 TEST(ForeignRobots, AreReadOrRefusedForTheTrueReason) {
   for (const Foreign& robot : robots) {
-    const std::string path = (data_folder() / robot.file).string();
+    const std::string path = (test::data_folder() / robot.file).string();
     if (!std::filesystem::exists(path)) {
       fmt::print("  skipped {}: not found (set SHAPEID_DATA)\n", path);
       continue;

@@ -1,4 +1,5 @@
 // Which bytes a name may hold: UTF-8 as RFC 3629 has it, to the last code point and no further.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -44,7 +45,7 @@ TEST(OneLine, CutsBetweenCharactersOnly) {
     }
   }
   // What looks like the inside of one character without end is cut as well.
-  EXPECT_EQ(one_line(std::string(100, '\x80'), 10), std::string(13, '\x80') + "...");
+  EXPECT_EQ(one_line(std::string(100, '\x80'), 10), fmt::format("{}...", std::string(13, '\x80')));
 }
 
 }  // namespace

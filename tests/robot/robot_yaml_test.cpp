@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "shapeid/models/error.hpp"
-#include "shapeid/tests/robot/scratch_folder.hpp"
 #include "shapeid/tests/robot/two_link_robot.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {
@@ -113,13 +113,13 @@ TEST(RobotYaml, WithoutContactsThoseOfTheRobotStay) {
   EXPECT_TRUE(robot.contacts.empty());
 }
 
-struct Broken {
+struct BrokenYaml {
   const char* text;
   const char* message;
 };
 
 TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
-  const std::vector<Broken> cases = {
+  const std::vector<BrokenYaml> cases = {
       {"", ": robot.yaml is not a map; write lines of key: value"},
       {"- a list\n", ":1: robot.yaml is not a map; write lines of key: value"},
       {"imu: [1\n", ":2: not YAML: end of sequence flow not found; write YAML"},
@@ -196,7 +196,7 @@ TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
        ":3: plate is one rigid body with a link named before; give the mass of the whole once"},
   };
   const test::ScratchFolder folder;
-  for (const Broken& broken : cases) {
+  for (const BrokenYaml& broken : cases) {
     Robot robot = test::two_link_robot();
     const std::string path = folder.write("robot.yaml", broken.text);
     try {

@@ -1,5 +1,6 @@
 #include "shapeid/models/shapes_yaml.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,9 +10,9 @@
 #include <numbers>
 
 #include "shapeid/models/error.hpp"
-#include "shapeid/tests/robot/scratch_folder.hpp"
 #include "shapeid/tests/robot/two_link_robot.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "shapeid/models/urdf.hpp"
-#include "shapeid/tests/robot/scratch_folder.hpp"
 #include "shapeid/tests/robot/urdf_text.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
 namespace {

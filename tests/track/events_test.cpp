@@ -66,7 +66,7 @@ TEST(TrackEvents, AFinerGridMissesNothing) {
     EXPECT_LT(std::abs(tracked_mass(lines.back()) - true_mass), near) << rate;
   }
   scratch_file("trot.csv", joined(log));
-  const CommandRun coarse = shapeid(fmt::format("track {} --rate 100 trot.csv", bundled_robot()));
+  const CommandRun coarse = shapeid(track("--rate 100 trot.csv"));
   EXPECT_EQ(coarse.status, 2);
   EXPECT_NE(coarse.err.find("a grid of 100 Hz for a log of 500 Hz"), std::string::npos)
       << coarse.err;

@@ -12,9 +12,9 @@ namespace {
 using nlohmann::json;
 
 // kg, of the bundled base, and what is put on it.
-constexpr double empty = 5.48, load = 1.5;
+constexpr double empty_mass = 5.48, load_mass = 1.5;
 // s, when it is put on and taken off; and for how long after that an estimate is on its way.
-constexpr double on = 2.5, off = 4.5, settled = 1.0;
+constexpr double comes = 2.5, goes = 4.5, settling = 1.0;
 // Of 95 percent intervals. Errors of lines less than a third of a second apart are not independent:
 // six runs are worth about 60 intervals, of which 95 percent hold the truth to within 2.8 percent
 // (one standard deviation of the binomial distribution). Two of these to either side, and no more
@@ -27,12 +27,12 @@ TEST(TrackInterval, HoldsTheTruthAsOftenAsItSays) {
     const std::vector<json> lines = tracked(
         simulated("interval", fmt::format("--seconds 6.5 --rate 500 --seed {} --load {} 0.02 -0.01 "
                                           "0.078 --load-from {} --load-until {}",
-                                          seed, load, on, off)));
+                                          seed, load_mass, comes, goes)));
     for (const json& line : lines) {
       const double time = line.at("time").get<double>();
-      const bool loaded = time >= on && time < off;
-      if (time - (time >= off ? off : loaded ? on : 0.0) < settled) continue;
-      const double truth = empty + (loaded ? load : 0.0);
+      const bool loaded = time >= comes && time < goes;
+      if (time - (time >= goes ? goes : loaded ? comes : 0.0) < settling) continue;
+      const double truth = empty_mass + (loaded ? load_mass : 0.0);
       const json& interval = line.at("mass").at("interval");
       ++count;
       if (interval[0].get<double>() <= truth && truth <= interval[1].get<double>()) ++held;

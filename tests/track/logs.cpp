@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
 namespace {
@@ -30,7 +31,7 @@ std::size_t place(const Lines& log, const std::string& column) {
 Lines simulated(const std::string& name, const std::string& arguments) {
   const CommandRun run = shapeid(fmt::format("simulate --out {}.csv {}", name, arguments));
   EXPECT_EQ(run.status, 0) << run.err;
-  return split(read_file(fmt::format("{}/{}.csv", scratch(), name)), '\n');
+  return split(text_of(fmt::format("{}/{}.csv", scratch(), name)), '\n');
 }
 
 const Lines& trot_log() {
@@ -73,9 +74,13 @@ std::string bundled_robot() {
   return fmt::format("--robot {0}urdf --robot-yaml {0}robot.yaml --shapes {0}shapes.yaml", path);
 }
 
+std::string track(const std::string& options) {
+  return fmt::format("track {} {}", bundled_robot(), options);
+}
+
 std::vector<nlohmann::json> tracked(const Lines& log, const std::string& options) {
   scratch_file("followed.csv", joined(log));
-  const CommandRun run = shapeid(fmt::format("track {} {} followed.csv", bundled_robot(), options));
+  const CommandRun run = shapeid(track(options + " followed.csv"));
   EXPECT_EQ(run.status, 0) << run.err;
   std::vector<nlohmann::json> lines;
   for (const std::string& line : split(run.out, '\n')) lines.push_back(nlohmann::json::parse(line));

@@ -32,6 +32,9 @@ void change(Lines& log, const std::string& column, std::size_t first, std::size_
 /// Options that name the bundled robot and its shapes.
 [[nodiscard]] std::string bundled_robot();
 
+/// Arguments of `shapeid` that track the bundled robot.
+[[nodiscard]] std::string track(const std::string& options);
+
 /// `shapeid track` over a log that is written to a file first; one document a line. Fails the test
 /// if the command does.
 [[nodiscard]] std::vector<nlohmann::json> tracked(const Lines& log,

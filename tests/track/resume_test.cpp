@@ -14,16 +14,13 @@
 #include <thread>
 
 #include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 #include "shapeid/tests/track/logs.hpp"
 
 namespace shapeid::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string track(const std::string& options) {
-  return fmt::format("track {} {}", bundled_robot(), options);
-}
 
 /// What a run says that is not cut.
 const std::string& whole() {
@@ -79,8 +76,8 @@ TEST(TrackResume, CutAtEveryKindOfPlace) {
 
 /// Starts `shapeid` without waiting; output is appended to a file.
 pid_t start(const std::string& arguments, const std::string& out) {
-  const std::string line = fmt::format("cd '{}' && exec '{}/shapeid' {} >>'{}' 2>/dev/null",
-                                       scratch(), SHAPEID_BUILD_DIR, arguments, out);
+  const std::string line =
+      fmt::format("cd '{}' && exec {} >>'{}' 2>/dev/null", scratch(), command(arguments), out);
   const pid_t child = ::fork();
   if (child == 0) {
     ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
@@ -148,14 +145,14 @@ TEST(TrackResume, KilledAtAnyMomentNothingIsLost) {
   const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
   EXPECT_NE(first_line(last.out), first_line(whole())) << "the last run began anew";
   std::size_t repeated = 0;
-  EXPECT_EQ(difference(merged(read_file(out) + last.out, repeated), whole()), "");
+  EXPECT_EQ(difference(merged(text_of(out) + last.out, repeated), whole()), "");
   fmt::print("killed {} times; {} lines were said again\n", pieces - 1, repeated);
 }
 
 /// Of the checkpoint that is there; zero if there is none.
 std::ptrdiff_t lines_saved(const std::string& state) {
   if (!fs::exists(state)) return 0;
-  return nlohmann::json::parse(read_file(state)).at("lines").get<std::ptrdiff_t>();
+  return nlohmann::json::parse(text_of(state)).at("lines").get<std::ptrdiff_t>();
 }
 
 // A line is said again for each that came behind the last checkpoint.
@@ -172,7 +169,7 @@ TEST(TrackResume, CheckpointsComeAfterSoManyLines) {
     // A checkpoint is written after the line is said; of more lines than there are none comes.
     wait_until([&] {
       const bool is_saved = every > lines || lines_saved(state) > lines - every;
-      return is_saved && read_file(out) == whole();
+      return is_saved && fs::exists(out) && text_of(out) == whole();
     });
     ::kill(child, SIGKILL);
     int status = 0;
@@ -192,10 +189,10 @@ TEST(TrackResume, AWriterMayStopInTheMiddleOfALine) {
   scratch_file("whole.csv", joined(trot_log()));
   const std::string line = fmt::format(
       "cd '{0}' && (head -c 100000 whole.csv; sleep 0.3; tail -c +100001 whole.csv) | "
-      "'{1}/shapeid' {2} >piped.jsonl",
-      scratch(), SHAPEID_BUILD_DIR, track("-"));
+      "{1} >piped.jsonl",
+      scratch(), command(track("-")));
   ASSERT_EQ(std::system(line.c_str()), 0);
-  EXPECT_EQ(difference(read_file(scratch() + "/piped.jsonl"), whole()), "");
+  EXPECT_EQ(difference(text_of(scratch() + "/piped.jsonl"), whole()), "");
 }
 
 // A stream that is resumed may begin with its header again, or simply go on.
@@ -235,7 +232,7 @@ TEST(TrackResume, RefusesWhatDoesNotBelongTogether) {
                  "other options");
   scratch_file("short.csv", joined({trot_log()[0], trot_log()[1]}));
   expect_refused("--checkpoint state.json --resume short.csv", "bytes");
-  scratch_file("broken.json", read_file(scratch() + "/state.json").substr(0, 5000));
+  scratch_file("broken.json", text_of(scratch() + "/state.json").substr(0, 5000));
   expect_refused("--checkpoint broken.json --resume whole.csv", "is not JSON");
   scratch_file("other.json", "{\"format\": \"shapeid-checkpoint-0\"}");
   expect_refused("--checkpoint other.json --resume whole.csv", "format");

@@ -17,16 +17,13 @@
 #include <thread>
 
 #include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 #include "shapeid/tests/track/logs.hpp"
 
 namespace shapeid::test {
 namespace {
 
 using std::chrono::milliseconds;
-
-std::string track(const std::string& options) {
-  return fmt::format("track {} {}", bundled_robot(), options);
-}
 
 const std::string& log_text() {
   static const std::string text = joined(trot_log());
@@ -43,10 +40,10 @@ std::string followed_without_haste() {
 /// `track -` between two pipes whose other ends are ours.
 class Piped {
  public:
-  Piped() {
+  explicit Piped(const std::string& options = "") {
     std::array<int, 2> in{}, out{};
     if (pipe(in.data()) != 0 || pipe(out.data()) != 0) throw std::runtime_error("no pipe");
-    const std::string line = fmt::format("exec '{}/shapeid' {}", SHAPEID_BUILD_DIR, track("-"));
+    const std::string line = "exec " + command(track(options + " -"));
     child_ = fork();
     if (child_ == 0) {
       dup2(in[0], STDIN_FILENO);
@@ -89,6 +86,12 @@ class Piped {
     const ssize_t count = read(from_, bytes.data(), size);
     bytes.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
     return bytes;
+  }
+  /// Everything up to the end.
+  [[nodiscard]] std::string rest() const {
+    std::string all;
+    for (std::string more; !(more = take(65536, milliseconds(10000))).empty();) all += more;
+    return all;
   }
   /// Whether there is something to take.
   [[nodiscard]] bool has_spoken() const {
@@ -148,7 +151,7 @@ TEST(TrackStreams, ASlowReaderLosesNothingAndFillsNoMemory) {
     written += run.offer(log_text().data() + written, log_text().size() - written);
   }
   run.close_input();
-  for (std::string more; !(more = run.take(1000, milliseconds(10000))).empty();) said += more;
+  said += run.rest();
   EXPECT_EQ(run.wait(), 0);
   EXPECT_TRUE(said == followed_without_haste());
 }
@@ -163,22 +166,26 @@ TEST(TrackStreams, ASlowWriterIsWaitedFor) {
     said += run.take(65536, milliseconds(5));
   }
   run.close_input();
-  for (std::string more; !(more = run.take(65536, milliseconds(10000))).empty();) said += more;
+  said += run.rest();
   EXPECT_EQ(run.wait(), 0);
   EXPECT_TRUE(said == followed_without_haste());
 }
 
-/// Exit status 2 and one line that speaks of the output.
-void expect_said(const CommandRun& run) {
-  EXPECT_EQ(run.status, 2) << run.err;
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-  EXPECT_NE(run.err.find("standard output cannot be written"), std::string::npos) << run.err;
+/// The robot's program hangs, and keeps its end of the pipe open.
+TEST(TrackStreams, AWriterThatFallsSilentIsLeftWhenPatienceEnds) {
+  Piped run("--follow --patience 3");
+  std::string said;
+  for (std::size_t written = 0; written < log_text().size();) {
+    said += run.take(65536, milliseconds(5));
+    written += run.offer(log_text().data() + written, log_text().size() - written);
+  }
+  said += run.rest();
+  EXPECT_EQ(run.wait(), 0);
+  EXPECT_TRUE(said == followed_without_haste());
 }
 
-std::string in_bash(const std::string& line) { return fmt::format("bash -c \"{}\"", line); }
-
-std::string command(const std::string& arguments) {
-  return fmt::format("'{}/shapeid' {}", SHAPEID_BUILD_DIR, arguments);
+void expect_said(const CommandRun& run) {
+  expect_one_line(run, 2, "standard output cannot be written");
 }
 
 TEST(TrackStreams, AFullDiskIsSaid) {
@@ -204,7 +211,7 @@ TEST(TrackStreams, ACheckpointThatCannotBeWrittenLeavesTheOldOneWhole) {
   std::filesystem::remove(scratch() + "/kept.json");
   const CommandRun first = shapeid(options);
   ASSERT_EQ(first.status, 0) << first.err;
-  const std::string kept = read_file(scratch() + "/kept.json");
+  const std::string kept = text_of(scratch() + "/kept.json");
 
   scratch_file("growing.csv", log_text());
   const CommandRun failed = program(in_bash("trap '' XFSZ; ulimit -f 4; " + command(options) +
@@ -212,7 +219,7 @@ TEST(TrackStreams, ACheckpointThatCannotBeWrittenLeavesTheOldOneWhole) {
                                             "\\${PIPESTATUS[0]}"));
   EXPECT_EQ(failed.status, 2);
   EXPECT_NE(failed.err.find("kept.json: cannot be written"), std::string::npos) << failed.err;
-  EXPECT_TRUE(read_file(scratch() + "/kept.json") == kept);
+  EXPECT_TRUE(text_of(scratch() + "/kept.json") == kept);
   for (const auto& file : std::filesystem::directory_iterator(scratch())) {
     EXPECT_EQ(file.path().string().find("kept.json.part"), std::string::npos) << file.path();
   }

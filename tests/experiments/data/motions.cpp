@@ -5,7 +5,7 @@
 #include "shapeid/models/log_writer.hpp"
 #include "shapeid/models/motion.hpp"
 #include "shapeid/models/simbody/sensors.hpp"
-#include "shapeid/tests/motion/scratch.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid::experiments {
 namespace {
@@ -65,7 +65,7 @@ std::vector<Sample> exact(const std::vector<SimulatedSample>& motion, double sec
 std::vector<Sample> measured(const test::Quadruped& quadruped,
                              const std::vector<SimulatedSample>& motion, double seconds,
                              const Sensing& sensing) {
-  const test::Scratch scratch;
+  const test::ScratchFolder scratch;
   RobotNotes notes = quadruped.notes;
   for (auto& [channel, sigma] : notes.noise_sigma) sigma *= sensing.noise;
   Sensors sensors(quadruped.robot, notes, {sensing.noise > 0.0, false, sensing.seed});
