@@ -275,14 +275,6 @@ TEST(Diagnose, OtherLogsAreCheckedAsTheLogIs) {
   }
 }
 
-/// Flags say which feet touch, and nothing is made of them where contacts are not asked for.
-TEST(Diagnose, GoesThroughWithoutContacts) {
-  ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
-  const CommandRun run = shapeid(
-      fmt::format("diagnose {} --trust --json --log run.csv --contacts none", quadruped_files));
-  EXPECT_EQ(run.status, 0) << run.err;
-}
-
 TEST(Diagnose, LoggedAndDerivedContactsAreNotMixed) {
   ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out flagged.csv").status, 0);

@@ -105,22 +105,6 @@ TEST(Plan, LoadsWereNotThereBefore) {
   EXPECT_EQ(before[0].kind, "drag");
 }
 
-/// Of this seed the trial with two effects draws a load and then a load that comes later, which
-/// would take its place: another kind is drawn instead.
-TEST(Plan, TwoLoadsAreDrawnAgain) {
-  const test::ScratchFolder scratch;
-  PlanOptions options;
-  options.seed = 1683;
-  options.trials = 5;
-  options.quadruped_every = 0;
-  std::vector<Item> items;
-  generate(options, scratch.path("set"),
-           [&](int number, const Trial& t) { items = number == 4 ? t.items : items; });
-  ASSERT_EQ(items.size(), 2U);
-  EXPECT_EQ(items[0].kind, "payload");
-  EXPECT_FALSE(kind(items[1].kind).load) << items[1].kind;
-}
-
 TEST(Plan, NoKindTwiceAndNoTwoLoads) {
   EXPECT_FALSE(fit_together(kind("payload"), kind("payload_from")));
   EXPECT_FALSE(fit_together(kind("payload_from"), kind("payload")));

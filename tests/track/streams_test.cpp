@@ -173,6 +173,7 @@ TEST(TrackStreams, ASlowWriterIsWaitedFor) {
 
 /// The robot's program hangs, and keeps its end of the pipe open.
 TEST(TrackStreams, AWriterThatFallsSilentIsLeftWhenPatienceEnds) {
+  ASSERT_FALSE(log_text().empty());  // made before anyone waits for it
   Piped run("--follow --patience 3");
   std::string said;
   for (std::size_t written = 0; written < log_text().size();) {
