@@ -21,6 +21,30 @@ Candidate payload_candidate(const Robot& robot, const Effect& effect, int link,
   return c;
 }
 
+/// The block from whose beginning on a load of the link explains most beside the masses. Blocks in
+/// which the load is taken to be there and is not yet, or the other way round, cost more than many
+/// others gain: between fixed moments a load that is plain to see was missed.
+std::size_t likeliest_moment(const Robot& robot, const BlockFits& fits,
+                             const std::vector<int>& free_links, int link) {
+  Term masses;
+  for (const int sought : free_links) {
+    const Term own = payload_candidate(robot, *find_effect("payload"), sought, 0, 0.0).term;
+    masses.columns.insert(masses.columns.end(), own.columns.begin(), own.columns.end());
+  }
+  masses.nonnegative.assign(masses.columns.size(), false);
+  std::vector<Term> loads;
+  const std::size_t first = fits.first_block();
+  const std::size_t end = first + static_cast<std::size_t>(fits.held_blocks());
+  for (std::size_t block = first + 1; block < end; ++block) {
+    loads.push_back(payload_candidate(robot, *find_effect("payload_from"), link, block, 0.0).term);
+  }
+  const auto promises = fits.promises({masses}, loads);
+  const auto best =
+      std::max_element(promises.begin(), promises.end(),
+                       [](const auto& one, const auto& other) { return one.gain < other.gain; });
+  return first + 1 + static_cast<std::size_t>(best - promises.begin());
+}
+
 /// The same effect at every joint together: what every drive has shows in the sum before it shows
 /// in one.
 void add_groups(std::vector<Candidate>& list) {
@@ -143,9 +167,12 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
       add(payload_candidate(robot, always, link, 0, 0.0));
     }
     constexpr std::size_t onsets = 9;
+    std::vector<std::size_t> moments = {likeliest_moment(robot, fits, rule.free_links, link)};
     for (std::size_t i = 1; i < onsets; ++i) {
       const std::size_t block = first + i * blocks / onsets;
-      if (block == first) continue;
+      if (block != first && block != moments.front()) moments.push_back(block);
+    }
+    for (const std::size_t block : moments) {
       add(payload_candidate(robot, later, link, block, tally.blocks[block].from));
     }
   }

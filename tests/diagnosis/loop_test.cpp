@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/consistent.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
@@ -111,6 +112,45 @@ TEST(Loop, LoadThatComesIsFoundOnItsLinkFromItsMoment) {
   const Found& found = result.found[0];
   EXPECT_LT(std::abs(found.effect.shape[0] - 9.0), 0.5) << "a block";
   EXPECT_LT(std::abs(found.effect.value[0] - 0.8), 0.1);
+}
+
+/// At six seconds, between the moments of five and six and a half that are looked at anyway.
+struct ComesBetween {
+  AppliedEffect load =
+      effect("payload_from", 3, {0.8, 0.02, 0.0, 0.2, 0.06, 0.0, -0.004, 0.06, 0.0, 0.002});
+  Recording without = record({{}, 12.0});
+
+  [[nodiscard]] Recording with() {
+    load.shape[0] = 6.0;
+    return record({{load}, 12.0, 0.02, 2});
+  }
+};
+
+/// Taken to be there a second too early or too late it may cost more than it gains.
+TEST(Candidates, HaveTheMomentFromWhichALoadExplainsMost) {
+  ComesBetween log;
+  const Recording with = log.with();
+  const Robot robot = arm();
+  const LoopSettings settings = arm_settings();
+  LoopState state(robot, with, &log.without, settings);
+  const BlockFits fits = state.tallied({});
+  CandidateRule rule;
+  rule.free_links = settings.shapes.free_links;
+  rule.has_reference = true;
+  rule.excluded = [](const AppliedEffect&) { return false; };
+  rule.choices = [](const AppliedEffect&) { return 1.0; };
+  const std::vector<Candidate> list = candidates(robot, fits, rule);
+  EXPECT_TRUE(std::any_of(list.begin(), list.end(), [](const Candidate& c) {
+    return c.effect.begins() && c.effect.site == 3 && std::abs(c.effect.shape[0] - 6.0) < 0.3;
+  }));
+}
+
+TEST(Loop, LoadThatComesIsFoundBesideAReferenceLog) {
+  ComesBetween log;
+  const LoopResult result = close_loop(arm(), log.with(), &log.without, arm_settings());
+  ASSERT_EQ(found_ids(result), Ids{"payload_from@link3"});
+  EXPECT_LT(std::abs(result.found[0].effect.shape[0] - 6.0), 0.5) << "a block";
+  EXPECT_LT(std::abs(result.found[0].effect.value[0] - 0.8), 0.1);
 }
 
 /// What begins at a moment and is no load describes that log alone: it is not a part of the model.
