@@ -105,12 +105,8 @@ Eigen::MatrixXd unfiltered_torque(const Recording& smooth, const diagnosis::Seri
   return tau;
 }
 
-/// NaN where nothing counts: no error is not an error of zero.
-double root_mean(double squares, double count) {
-  return count > 0.0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
-}
-
-/// Over the entries that count and are numbers.
+/// Over the entries that count and are numbers; NaN where there are none, for no error is not an
+/// error of zero.
 Eigen::VectorXd rms_of(
     const Eigen::MatrixXd& rows,
     const Eigen::Ref<const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>>& counted) {
@@ -123,7 +119,7 @@ Eigen::VectorXd rms_of(
       sum += x * x;
       count += 1.0;
     }
-    rms[r] = root_mean(sum, count);
+    rms[r] = count > 0.0 ? std::sqrt(sum / count) : std::numeric_limits<double>::quiet_NaN();
   }
   return rms;
 }

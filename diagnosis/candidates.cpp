@@ -26,19 +26,13 @@ Candidate payload_candidate(const Robot& robot, const Effect& effect, int link,
 /// others gain: between fixed moments a load that is plain to see was missed.
 std::size_t likeliest_moment(const Robot& robot, const BlockFits& fits,
                              const std::vector<int>& free_links, int link) {
-  Term masses;
-  for (const int sought : free_links) {
-    const Term own = payload_candidate(robot, *find_effect("payload"), sought, 0, 0.0).term;
-    masses.columns.insert(masses.columns.end(), own.columns.begin(), own.columns.end());
-  }
-  masses.nonnegative.assign(masses.columns.size(), false);
   std::vector<Term> loads;
   const std::size_t first = fits.first_block();
   const std::size_t end = first + static_cast<std::size_t>(fits.held_blocks());
   for (std::size_t block = first + 1; block < end; ++block) {
     loads.push_back(payload_candidate(robot, *find_effect("payload_from"), link, block, 0.0).term);
   }
-  const auto promises = fits.promises({masses}, loads);
+  const auto promises = fits.promises({term_of_masses(free_links)}, loads);
   const auto best =
       std::max_element(promises.begin(), promises.end(),
                        [](const auto& one, const auto& other) { return one.gain < other.gain; });
@@ -102,9 +96,9 @@ double periods_told_apart(const Recording& log, const AppliedEffect& effect) {
   return std::max(1.0, (N.upper - N.lower) * (most->q[effect.site] - least->q[effect.site]) / pi);
 }
 
-Term term_of_masses(const BodyModel& shapes) {
+Term term_of_masses(const std::vector<int>& links) {
   Term term{"masses", {}, {}, 0};
-  for (const int link : shapes.free_links) {
+  for (const int link : links) {
     for (Eigen::Index p = 0; p < 10; ++p) term.columns.push_back(Eigen::Index{10} * link + p);
   }
   term.nonnegative.assign(term.columns.size(), false);

@@ -6,7 +6,6 @@
 
 #include "shapeid/diagnosis/selection.hpp"
 #include "shapeid/diagnosis/series.hpp"
-#include "shapeid/models/body_model.hpp"
 
 namespace shapeid::diagnosis {
 
@@ -17,8 +16,8 @@ namespace shapeid::diagnosis {
                                                              const Recording& log,
                                                              const Series& left);
 
-/// Ten columns for each link that is sought.
-[[nodiscard]] Term term_of_masses(const BodyModel& shapes);
+/// Ten columns for each of these links.
+[[nodiscard]] Term term_of_masses(const std::vector<int>& links);
 /// The columns of one of the tally's hypotheses.
 [[nodiscard]] Term term_of(const Robot& robot, const Tally& tally, std::size_t hypothesis);
 

@@ -148,7 +148,7 @@ void check_clocks(const Robot& robot, const Recording& recording, const LoopSett
   const BlockFits fits(std::move(tally), given.Phi, settings.size, 4);
   const Term whole{"delay", {column}, {false}, 0};
   const Term later{"drift", {column}, {false}, half};
-  const Fit fit = fits.fit({term_of_masses(settings.shapes), whole, later});
+  const Fit fit = fits.fit({term_of_masses(settings.shapes.free_links), whole, later});
   const Eigen::Index last = fit.value.size() - 1;
   constexpr double least_drift = 5e-3;  // s; less is a delay that depends on the motion
   constexpr double least_z = 6.0;

@@ -7,6 +7,7 @@
 #include <limits>
 
 namespace shapeid::diagnosis {
+
 SumWithError sum_with_error(const Eigen::VectorXd& values) {
   const Eigen::Index n = values.size();
   if (n < 2) return {values.sum(), std::numeric_limits<double>::infinity()};

@@ -39,7 +39,7 @@ LoopState::LoopState(const Robot& robot_, const Recording& log_, const Recording
     constexpr double wanted_blocks = 40.0, shortest = 0.5;
     tally_options.block_seconds = std::max(shortest, log.duration() / wanted_blocks);
   }
-  masses = term_of_masses(settings.shapes);
+  masses = term_of_masses(settings.shapes.free_links);
 }
 
 BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
