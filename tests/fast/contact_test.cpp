@@ -16,7 +16,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-using test::none;
+using test::no_difference;
 
 /// J and J^T f of one robot by both paths.
 class Contacts {
@@ -41,7 +41,7 @@ class Contacts {
     for (const Eigen::Vector3d& f : s.contact_force) scale += reach * f.norm();
     found = test::first_difference(force, before + reference::measured_contact_force(robot_, s),
                                    scale, links(), robot_, s);
-    return found.empty() ? none : "J^T f: " + found;
+    return found.empty() ? no_difference : "J^T f: " + found;
   }
 
  private:
@@ -65,7 +65,7 @@ RC_GTEST_PROP(FastContact, AsTheReference, ()) {
   const Robot robot = test::any_robot(1, 20);
   Contacts contacts(robot);
   for (int k = 0; k < 3; ++k) {  // nothing of an earlier sample stays
-    RC_ASSERT(contacts.difference(test::any_sample(robot)) == none);
+    RC_ASSERT(contacts.difference(test::any_sample(robot)) == no_difference);
   }
 }
 
@@ -73,7 +73,8 @@ TEST(FastContact, CornerCasesAsTheReference) {
   for (const auto& [name, robot] : test::corner_robots()) {
     SCOPED_TRACE(name);
     Contacts contacts(robot);
-    for (const Sample& s : test::corner_samples(robot)) EXPECT_EQ(contacts.difference(s), none);
+    for (const Sample& s : test::corner_samples(robot))
+      EXPECT_EQ(contacts.difference(s), no_difference);
   }
 }
 

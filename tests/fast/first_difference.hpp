@@ -11,7 +11,7 @@
 
 namespace shapeid::test {
 
-inline const std::string none;  ///< no difference
+inline const std::string no_difference;  ///< what is returned where two matrices agree
 
 /// Empty if two matrices agree: every entry's difference is a few hundred roundings of `scale`,
 /// with `size` the length of the sums involved. Otherwise the first entry that differs, row by row,

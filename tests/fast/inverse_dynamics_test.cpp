@@ -14,7 +14,7 @@
 namespace shapeid {
 namespace {
 
-using test::none;
+using test::no_difference;
 
 std::string difference(fast::InverseDynamics& dynamics, fast::Kinematics& kinematics,
                        const Robot& robot, const Eigen::VectorXd& Phi, const Sample& s) {
@@ -42,7 +42,7 @@ RC_GTEST_PROP(FastInverseDynamics, AsTheRegressorTimesTheParameters, ()) {
   fast::Kinematics kinematics(robot);
   fast::InverseDynamics dynamics(robot, Phi);
   for (int k = 0; k < 3; ++k) {  // nothing of an earlier sample stays
-    RC_ASSERT(difference(dynamics, kinematics, robot, Phi, *test::sample(robot)) == none);
+    RC_ASSERT(difference(dynamics, kinematics, robot, Phi, *test::sample(robot)) == no_difference);
   }
 }
 
@@ -53,7 +53,7 @@ TEST(FastInverseDynamics, CornerCasesAsTheReference) {
     fast::Kinematics kinematics(robot);
     fast::InverseDynamics dynamics(robot, Phi);
     for (const Sample& s : test::corner_samples(robot)) {
-      EXPECT_EQ(difference(dynamics, kinematics, robot, Phi, s), none);
+      EXPECT_EQ(difference(dynamics, kinematics, robot, Phi, s), no_difference);
     }
   }
 }

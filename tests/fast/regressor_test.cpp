@@ -21,7 +21,7 @@ using test::first_difference;
 using test::inputs;
 using test::nothing_moves;
 
-using test::none;
+using test::no_difference;
 
 static_assert(std::is_nothrow_invocable_v<fast::Regressor, const Sample&>);
 
@@ -29,14 +29,14 @@ RC_GTEST_PROP(FastRegressor, FloatingRobotsAsTheReference, ()) {
   const Robot robot = *test::robot({1, 20, Root::floating});
   const Sample s = *test::sample(robot);
   fast::Regressor regressor(robot, all_links(robot));
-  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == no_difference);
 }
 
 RC_GTEST_PROP(FastRegressor, FixedRobotsAsTheReference, ()) {
   const Robot robot = *test::robot({1, 20, Root::fixed});
   const Sample s = *test::sample(robot);
   fast::Regressor regressor(robot, all_links(robot));
-  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == no_difference);
 }
 
 // Joints about coordinate axes take ways of their own.
@@ -44,7 +44,7 @@ RC_GTEST_PROP(FastRegressor, JointsAsInUrdfsAsTheReference, ()) {
   const Robot robot = test::any_robot(1, 20);
   const Sample s = *test::sample(robot);
   fast::Regressor regressor(robot, all_links(robot));
-  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == no_difference);
 }
 
 TEST(FastRegressor, CornerCasesAsTheReference) {
@@ -52,7 +52,7 @@ TEST(FastRegressor, CornerCasesAsTheReference) {
     SCOPED_TRACE(name);
     fast::Regressor regressor(robot, all_links(robot));
     for (const Sample& s : test::corner_samples(robot)) {
-      EXPECT_EQ(first_difference(regressor(s), robot, all_links(robot), s), none);
+      EXPECT_EQ(first_difference(regressor(s), robot, all_links(robot), s), no_difference);
     }
   }
 }
@@ -64,7 +64,7 @@ RC_GTEST_PROP(FastRegressor, FixedRobotsOnMovingGround, ()) {
   floating.root = Root::floating;
   const Sample s = *test::sample(floating);
   fast::Regressor regressor(robot, all_links(robot));
-  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+  RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == no_difference);
 }
 
 RC_GTEST_PROP(FastRegressor, AnyLinksInAnyOrder, ()) {
@@ -72,7 +72,7 @@ RC_GTEST_PROP(FastRegressor, AnyLinksInAnyOrder, ()) {
   const Sample s = *test::sample(robot);
   const std::vector<int> links = test::some_links(robot);
   fast::Regressor regressor(robot, links);
-  RC_ASSERT(first_difference(regressor(s), robot, links, s) == none);
+  RC_ASSERT(first_difference(regressor(s), robot, links, s) == no_difference);
 }
 
 // Nothing of an earlier sample stays.
@@ -83,7 +83,7 @@ RC_GTEST_PROP(FastRegressor, SamplesDoNotDisturbEachOther, ()) {
   const std::vector<int> links = test::some_links(robot);
   fast::Regressor regressor(robot, links);
   for (const Sample& s : samples)
-    RC_ASSERT(first_difference(regressor(s), robot, links, s) == none);
+    RC_ASSERT(first_difference(regressor(s), robot, links, s) == no_difference);
   regressor(samples.front());
   const Sample still = nothing_moves(robot);
   RC_ASSERT(regressor(still).isZero(0.0));
@@ -112,7 +112,7 @@ RC_GTEST_PROP(FastRegressor, EachInputAlone, ()) {
   Sample s = nothing_moves(robot);
   for (double* input : inputs(s)) {
     *input = 1.0;
-    RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+    RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == no_difference);
     *input = 0.0;
   }
 }
@@ -127,7 +127,7 @@ RC_GTEST_PROP(FastRegressor, EachPairOfInputs, ()) {
     for (std::size_t j = 0; j < i; ++j) {
       *all[i] = 1.0;
       *all[j] = -0.7;
-      RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == none);
+      RC_ASSERT(first_difference(regressor(s), robot, all_links(robot), s) == no_difference);
       *all[i] = *all[j] = 0.0;
     }
   }

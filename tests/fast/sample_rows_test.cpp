@@ -26,7 +26,7 @@ using fast::SampleRows;
 using fast::Verdict;
 using test::expected_rows;
 
-using test::none;
+using test::no_difference;
 
 constexpr ContactTreatment project = ContactTreatment::project;
 const std::vector<ContactTreatment> treatments = {project, ContactTreatment::measured,
@@ -57,7 +57,7 @@ RC_GTEST_PROP(FastSampleRows, AsTheReference, ()) {
       const Sample s = test::any_sample(robot);
       RC_ASSERT(made.update(s) == Verdict::taken);
       RC_ASSERT(test::first_difference(gram(made), expected_rows(robot, model, contacts, weight, s),
-                                       robot, s) == none);
+                                       robot, s) == no_difference);
     }
   }
 }
@@ -86,7 +86,7 @@ RC_GTEST_PROP(FastSampleRows, QuadrupedsByEitherPathAsTheReference, ()) {
     RC_ASSERT(made.update(s) == Verdict::taken);
     if (contacts == project) RC_TAG(made.by_six_rows() ? "six rows" : "general path");
     RC_ASSERT(test::first_difference(gram(made), expected_rows(robot, model, contacts, weight, s),
-                                     robot, s) == none);
+                                     robot, s) == no_difference);
   }
 }
 
@@ -101,7 +101,7 @@ TEST(FastSampleRows, CornerCasesAsTheReference) {
         ASSERT_EQ(made.update(s), Verdict::taken);
         EXPECT_EQ(test::first_difference(
                       gram(made), expected_rows(robot, model, contacts, weight, s), robot, s),
-                  none);
+                  no_difference);
       }
     }
   }

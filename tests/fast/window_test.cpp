@@ -25,7 +25,7 @@ using fast::Verdict;
 using fast::Window;
 using test::ExpectedRows;
 
-using test::none;
+using test::no_difference;
 
 static_assert(noexcept(std::declval<Window&>().add(std::declval<const Sample&>())));
 static_assert(noexcept(std::declval<Window&>().triangle()));
@@ -81,7 +81,7 @@ RC_GTEST_PROP(FastWindow, AsTheReference, ()) {
   RC_ASSERT(window.samples() == d.samples.size());
   RC_PRE(!d.samples.empty());
   RC_ASSERT(test::first_difference(gram(window), expected_window(d, d.samples), d.robot,
-                                   d.samples.front()) == none);
+                                   d.samples.front()) == no_difference);
 }
 
 // To look at the triangle on the way changes nothing but roundings.
