@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "shapeid/models/simbody/simbody_robot.hpp"
+#include "shapeid/tests/blind/parts/drawn.hpp"
 #include "shapeid/tests/blind/parts/yardstick.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 #include "shapeid/tests/support/scratch_folder.hpp"
@@ -99,6 +100,32 @@ TEST(Generator, SealedNumbersExplainTheSignals) {
     EXPECT_LT(left_by_the_truth(m, item, readings), all_but_second_order);
   }
   EXPECT_GE(kinds_seen, 5);
+}
+
+/// The next drawn arm with a slider at the last of the places where something can be.
+Machine arm_with_slider(const Kind& k, std::uint64_t& seed) {
+  while (true) {
+    Machine m = drawn_arm(seed++);
+    const std::vector<int> places = sites(m, k);
+    if (places.empty()) continue;
+    const int joint = k.place == Place::joint ? places.back() : m.robot.joint_count() - 1;
+    if (m.robot.joint(joint).kind == JointKind::prismatic) return m;
+  }
+}
+
+/// On any arm, at its last joint or link, which slides.
+TEST(Generator, SealedNumbersExplainDrawnArms) {
+  std::uint64_t seed = 1;
+  for (const Kind& k : kinds()) {
+    if (k.foreign || !k.arm || !k.dynamic) continue;
+    const Machine m = arm_with_slider(k, seed);
+    const Item item = some(k.id, sites(m, k).back());
+    SCOPED_TRACE(m.name + " " + k.id);
+    const Readings readings = simulate_trial(m, arm_trial({item}));
+    ASSERT_FALSE(readings.empty());
+    constexpr double all_of_it = 1e-6;  // equations agree to rounding
+    EXPECT_LT(left_by_the_truth(m, item, readings), all_of_it);
+  }
 }
 
 /// An effect of twice the detectable size gains more than one of the size, by what a model of known

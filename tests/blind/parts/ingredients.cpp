@@ -320,8 +320,8 @@ std::string place_name(const Machine& machine, Place place, int site) {
 
 std::vector<int> sites(const Machine& machine, const Kind& kind) {
   std::vector<int> list;
-  if (machine.name == "arm" ? !kind.arm : !kind.quadruped) return list;
   const Robot& robot = machine.robot;
+  if (robot.root == Root::fixed ? !kind.arm : !kind.quadruped) return list;
   const int first_link = robot.root == Root::fixed ? 1 : 0;
   switch (kind.place) {
     case Place::joint:
@@ -330,7 +330,10 @@ std::vector<int> sites(const Machine& machine, const Kind& kind) {
         constexpr double shortest = 0.02;  // m: what is shorter has no length to be wrong
         const bool long_enough =
             link.parent > 0 && link.joint.placement.translation().norm() > shortest;
-        if (kind.id != "link_length" || long_enough) list.push_back(j);
+        if (kind.id == "link_length" && !long_enough) continue;
+        // The drive of a slider is no rotor on its parent.
+        if (kind.id == "rotor_reaction" && link.joint.kind == JointKind::prismatic) continue;
+        list.push_back(j);
       }
       break;
     case Place::link:

@@ -1,19 +1,34 @@
 #include "shapeid/tests/blind/parts/machine.hpp"
 
+#include <charconv>
+
+#include "shapeid/models/error.hpp"
 #include "shapeid/models/simbody/random.hpp"
+#include "shapeid/models/text.hpp"
 #include "shapeid/models/urdf.hpp"
+#include "shapeid/tests/blind/parts/drawn.hpp"
 
 namespace shapeid::blind {
+namespace {
+
+Machine of_files(const std::string& urdf, const std::string& yaml, Root root) {
+  constexpr std::size_t limit = 1U << 20U;
+  Machine m;
+  m.urdf = read_small_file(urdf, limit);
+  m.yaml = read_small_file(yaml, limit);
+  UrdfOptions options;
+  options.root = root;
+  m.robot = read_urdf(urdf, options).robot;
+  m.notes = read_robot_yaml(yaml, m.robot);
+  return m;
+}
+
+}  // namespace
 
 Machine arm() {
-  Machine m;
+  const std::string folder = SHAPEID_SOURCE_DIR "/tests/blind/";
+  Machine m = of_files(folder + "arm.urdf", folder + "arm.robot.yaml", Root::fixed);
   m.name = "arm";
-  m.urdf = SHAPEID_SOURCE_DIR "/tests/blind/arm.urdf";
-  m.yaml = SHAPEID_SOURCE_DIR "/tests/blind/arm.robot.yaml";
-  UrdfOptions fixed;
-  fixed.root = Root::fixed;
-  m.robot = read_urdf(m.urdf, fixed).robot;
-  m.notes = read_robot_yaml(m.yaml, m.robot);
   m.free_links = {1, 2, 3, 4};
   m.rate = 500.0;
   m.cutoff = 15.0;
@@ -21,19 +36,26 @@ Machine arm() {
 }
 
 Machine quadruped() {
-  Machine m;
+  const std::string folder = SHAPEID_SOURCE_DIR "/models/robots/";
+  Machine m = of_files(folder + "quadruped.urdf", folder + "quadruped.robot.yaml", Root::floating);
   m.name = "quadruped";
-  m.urdf = SHAPEID_SOURCE_DIR "/models/robots/quadruped.urdf";
-  m.yaml = SHAPEID_SOURCE_DIR "/models/robots/quadruped.robot.yaml";
-  m.robot = read_urdf(m.urdf).robot;
-  m.notes = read_robot_yaml(m.yaml, m.robot);
   m.free_links = {0};
   m.rate = 500.0;
   m.cutoff = 40.0;
   return m;
 }
 
-Machine machine(const std::string& name) { return name == "arm" ? arm() : quadruped(); }
+Machine machine(const std::string& name) {
+  if (name == "arm") return arm();
+  if (name == "quadruped") return quadruped();
+  if (name.starts_with(drawn_prefix)) {
+    std::uint64_t seed = 0;
+    const char* end = name.data() + name.size();
+    const auto read = std::from_chars(name.data() + drawn_prefix.size(), end, seed);
+    if (read.ec == std::errc() && read.ptr == end) return drawn_arm(seed);
+  }
+  throw InputError("no robot is called " + name, "arm, quadruped, or drawn and a number");
+}
 
 std::vector<InertialParameters> wrong_inertias(const Machine& machine, std::uint64_t seed) {
   Random random(seed);

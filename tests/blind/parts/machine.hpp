@@ -10,17 +10,21 @@
 namespace shapeid::blind {
 
 struct Machine {
-  std::string name;  ///< "arm" or "quadruped"
-  std::string urdf, yaml;
-  Robot robot;  ///< as it is: the files' numbers
+  std::string name;        ///< "arm", "quadruped", or "drawn" and a seed
+  std::string urdf, yaml;  ///< the texts
+  Robot robot;             ///< as it is: the texts' numbers
   RobotNotes notes;
   std::vector<int> free_links;  ///< the diagnosis is told wrong inertias of these
   double rate = 0.0;            ///< Hz, of logs
   double cutoff = 0.0;          ///< Hz, of the filter that the diagnosis is told to use
+  double frequency = 0.2;       ///< Hz, of an arm's slowest swing
 };
+
+inline const std::string drawn_prefix = "drawn";
 
 [[nodiscard]] Machine arm();
 [[nodiscard]] Machine quadruped();
+/// Any of them by its name; throws InputError where there is none.
 [[nodiscard]] Machine machine(const std::string& name);
 
 /// Inertias near the true ones, each of a body that can exist: what the diagnosis is given.

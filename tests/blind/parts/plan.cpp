@@ -35,8 +35,9 @@ class Generator {
   Trial make(int number) {
     // Numbers of one trial do not depend on how many were drawn before.
     Random random(options_.seed * 1000003 + static_cast<std::uint64_t>(number));
-    const int every = options_.quadruped_every;
-    const Machine m = machine(every > 0 && number % every == every - 1 ? "quadruped" : "arm");
+    const Machine m = machine(name_of_machine(number));
+    // No other trial has the motion of a drawn arm.
+    if (options_.drawn_arms) clean_.clear();
     Trial trial;
     trial.machine = m.name;
     trial.motion_seed = 100 * options_.seed + 1 + draw(random, motions);
@@ -57,6 +58,15 @@ class Generator {
   }
 
  private:
+  [[nodiscard]] std::string name_of_machine(int number) const {
+    const int every = options_.quadruped_every;
+    if (every > 0 && number % every == every - 1) return "quadruped";
+    if (!options_.drawn_arms) return "arm";
+    constexpr std::uint64_t apart = 10000;
+    return fmt::format("{}{}", drawn_prefix,
+                       apart * options_.seed + static_cast<std::uint64_t>(number));
+  }
+
   static std::size_t draw(Random& random, std::size_t count) {
     return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
   }

@@ -554,7 +554,10 @@ std::string tables(const std::vector<Scored>& all) {
   text += table(all, "effect", [](const Trial& t) { return is_foreign(t) ? kind_of(t) : ""; });
   text += "By robot:\n\n";
   text += table(all, "robot", [](const Trial& t) {
-    return t.machine + (t.items.empty() ? ", clean" : is_foreign(t) ? ", foreign" : ", catalogue");
+    const bool drawn = t.machine.starts_with(drawn_prefix);
+    return (drawn ? "drawn arm" : t.machine) + (t.items.empty() ? ", clean"
+                                                : is_foreign(t) ? ", foreign"
+                                                                : ", catalogue");
   });
   return text;
 }

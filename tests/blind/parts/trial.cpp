@@ -1,5 +1,7 @@
 #include "shapeid/tests/blind/parts/trial.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "shapeid/models/file_output.hpp"
@@ -7,7 +9,6 @@
 #include "shapeid/models/simbody/sensors.hpp"
 #include "shapeid/models/simbody/simulation.hpp"
 #include "shapeid/models/simbody/tracking.hpp"
-#include "shapeid/models/text.hpp"
 #include "shapeid/models/urdf.hpp"
 
 namespace shapeid::blind {
@@ -30,7 +31,7 @@ Readings simulate(const Machine& machine, const Ingredients& in, std::uint64_t s
     TrackingOptions options;
     options.wanted.duration = duration;
     options.wanted.rate = machine.rate;
-    options.wanted.frequency = 0.2;
+    options.wanted.frequency = machine.frequency;
     options.wanted.seed = seed;
     options.load = in.load;
     options.load_from = in.load_from;
@@ -145,9 +146,12 @@ void write_logs(const Machine& machine, const Trial& trial, const Readings& read
   std::vector<IdentifiedLink> given;
   const auto wrong = wrong_inertias(machine, trial.inertia_seed);
   for (std::size_t i = 0; i < wrong.size(); ++i) given.push_back({machine.free_links[i], wrong[i]});
-  write_file(folder + "/given.urdf", write_urdf(machine.urdf, machine.robot, given));
-  constexpr std::size_t limit = 1U << 20U;
-  write_file(folder + "/given.robot.yaml", read_small_file(machine.yaml, limit));
+  // Replaced at once: what is rewritten must be a file.
+  const std::string urdf = folder + "/given.urdf";
+  write_file(urdf, machine.urdf);
+  write_file(urdf, write_urdf(urdf, machine.robot, given));
+  write_file(folder + "/given.robot.yaml", machine.yaml);
+  write_file(folder + "/cutoff", fmt::format("{:g}\n", machine.cutoff));
 }
 
 }  // namespace shapeid::blind

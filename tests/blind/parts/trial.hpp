@@ -49,8 +49,8 @@ void change_signals(const Machine& machine, const std::vector<Item>& items, Read
 /// Whether anything in the trial must be simulated.
 [[nodiscard]] bool is_dynamic(const Trial& trial);
 
-/// Writes log.csv and test.csv (with noise), given.urdf and given.robot.yaml into the folder, which
-/// exists.
+/// Writes log.csv and test.csv (with noise), given.urdf, given.robot.yaml and cutoff, the filter's
+/// in Hz, into the folder, which exists.
 void write_logs(const Machine& machine, const Trial& trial, const Readings& readings,
                 const std::string& folder);
 
