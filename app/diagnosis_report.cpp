@@ -20,7 +20,7 @@ namespace {
 
 using Table = std::vector<std::vector<std::string>>;
 
-std::string short_number(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : "-"; }
+std::string short_number(double x) { return number_or_dash(x, 3); }
 
 Table errors_table(const DiagnosisRun& run, const Robot& robot) {
   const TestErrors& e = run.errors;

@@ -160,11 +160,6 @@ std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
   return text;
 }
 
-/// A dash for an error that does not exist.
-std::string cell(double x, int digits = 4) {
-  return std::isnan(x) ? "-" : fmt::format("{:.{}g}", x, digits);
-}
-
 std::string errors_text(const DiagnosisRun& run, const Robot& robot) {
   const TestErrors& e = run.errors;
   std::string text = fmt::format(
@@ -174,12 +169,12 @@ std::string errors_text(const DiagnosisRun& run, const Robot& robot) {
   const auto names = row_names(robot);
   const int base = robot.base_dof();
   for (Eigen::Index row = 0; row < e.zero.size(); ++row) {
-    text +=
-        fmt::format("  {:<20}{:>10}{:>10}{:>10}{:>10}", names[static_cast<std::size_t>(row)],
-                    cell(e.zero[row]), cell(e.given[row]), cell(e.usual[row]), cell(e.found[row]));
+    text += fmt::format("  {:<20}{:>10}{:>10}{:>10}{:>10}", names[static_cast<std::size_t>(row)],
+                        number_or_dash(e.zero[row], 4), number_or_dash(e.given[row], 4),
+                        number_or_dash(e.usual[row], 4), number_or_dash(e.found[row], 4));
     if (row >= base) {
-      text += fmt::format("{:>14}{:>12}", cell(e.noise_floor[row - base], 3),
-                          cell(e.unfiltered_found[row - base]));
+      text += fmt::format("{:>14}{:>12}", number_or_dash(e.noise_floor[row - base], 3),
+                          number_or_dash(e.unfiltered_found[row - base], 4));
     }
     text += "\n";
   }

@@ -105,29 +105,6 @@ Eigen::MatrixXd unfiltered_torque(const Recording& smooth, const diagnosis::Seri
   return tau;
 }
 
-/// Over the entries that count and are numbers; NaN where there are none, for no error is not an
-/// error of zero.
-Eigen::VectorXd rms_of(
-    const Eigen::MatrixXd& rows,
-    const Eigen::Ref<const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>>& counted) {
-  Eigen::VectorXd rms(rows.rows());
-  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-    double sum = 0.0, count = 0.0;
-    for (Eigen::Index i = 0; i < rows.cols(); ++i) {
-      const double x = rows(r, i);
-      if (!counted(r, i) || std::isnan(x)) continue;
-      sum += x * x;
-      count += 1.0;
-    }
-    rms[r] = count > 0.0 ? std::sqrt(sum / count) : std::numeric_limits<double>::quiet_NaN();
-  }
-  return rms;
-}
-
-Eigen::VectorXd rms_of(const diagnosis::Series& series) {
-  return rms_of(series.residual, series.counted);
-}
-
 TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
                        const DiagnosisRun& run, const Recording& raw) {
   const auto& settings = run.settings;
@@ -141,9 +118,9 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
                                       : fmt::format("{}", fmt::join(options.test, ", "));
   errors.samples = run.after.index.size();
   errors.at_rest = 1.0 - zero.counted.cast<double>().rowwise().mean();
-  errors.zero = rms_of(zero);
-  errors.given = rms_of(run.before);
-  errors.found = rms_of(run.after);
+  errors.zero = zero.rms();
+  errors.given = run.before.rms();
+  errors.found = run.after.rms();
   const Eigen::MatrixXd tau = unfiltered_torque(run.test, zero, raw);
   Eigen::MatrixXd smooth(n, tau.cols());
   for (Eigen::Index i = 0; i < tau.cols(); ++i) {
@@ -152,10 +129,10 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
   // The part that contact forces explain is the smooth signals' own: only the torque is exchanged.
   const Eigen::MatrixXd rough = tau - smooth;
   const auto counted = zero.counted.bottomRows(n);
-  errors.unfiltered_zero = rms_of(zero.residual.bottomRows(n) - rough, counted);
-  errors.unfiltered_given = rms_of(run.before.residual.bottomRows(n) - rough, counted);
-  errors.unfiltered_found = rms_of(run.after.residual.bottomRows(n) - rough, counted);
-  errors.noise_floor = rms_of(rough, counted);
+  errors.unfiltered_zero = diagnosis::row_rms(zero.residual.bottomRows(n) - rough, counted);
+  errors.unfiltered_given = diagnosis::row_rms(run.before.residual.bottomRows(n) - rough, counted);
+  errors.unfiltered_found = diagnosis::row_rms(run.after.residual.bottomRows(n) - rough, counted);
+  errors.noise_floor = diagnosis::row_rms(rough, counted);
   if (options.inputs.cutoff > 0.0 && !options.inputs.exact) {
     errors.noise_floor *= noise_left_over_taken(options.inputs.cutoff, run.test.rate());
   }
@@ -395,10 +372,11 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   run.after = diagnosis::series(robot.robot, run.settings.rows, run.consistent.model, run.test,
                                 run.test_stride);
   run.errors = test_errors(robot, options, run, raw.recording);
-  run.errors.usual = rms_of(
+  run.errors.usual =
       diagnosis::series(robot.robot, run.settings.rows,
                         diagnosis::usual_model(robot.robot, log.recording, run.settings, run.loop),
-                        run.test, run.test_stride));
+                        run.test, run.test_stride)
+          .rms();
   // On the log itself, which is longer and has no error of the filter in it; curves are judged on
   // blocks that they were not fitted to.
   const diagnosis::Series remaining = diagnosis::series(
@@ -410,8 +388,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
       diagnosis::curves_for(robot.robot, run.settings.rows, run.consistent.model, run.loop,
                             log.recording, run.settings.stride);
   if (!run.curves.empty()) {
-    run.errors.with_curves = rms_of(
-        diagnosis::series(robot.robot, run.settings.rows, richest, run.test, run.test_stride));
+    run.errors.with_curves =
+        diagnosis::series(robot.robot, run.settings.rows, richest, run.test, run.test_stride).rms();
   }
   const auto unnamed_effects = unnamed(robot.robot, log.recording, run);
   for (const diagnosis::Stranger& s : run.loop.strangers) {

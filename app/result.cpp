@@ -141,8 +141,9 @@ std::string comparison_text(const Comparison& c, const Robot& robot) {
   const auto names = row_names(robot), units = row_units(robot);
   for (Eigen::Index row = 0; row < c.zero.size(); ++row) {
     const auto at = static_cast<std::size_t>(row);
-    text += fmt::format("  {:<20}{:>12.4g}{:>12.4g}{:>12.4g}  {}\n", names[at], c.zero[row],
-                        c.given[row], c.found[row], units[at]);
+    text +=
+        fmt::format("  {:<20}{:>12}{:>12}{:>12}  {}\n", names[at], number_or_dash(c.zero[row], 4),
+                    number_or_dash(c.given[row], 4), number_or_dash(c.found[row], 4), units[at]);
   }
   text +=
       fmt::format("  {:<20}{:>12.4g}{:>12.4g}{:>12.4g}  {}\n", "all joints", overall(c.zero, robot),
@@ -175,6 +176,10 @@ std::string joints_unit(const Robot& robot) {
     (robot.joint(j).kind == JointKind::prismatic ? slides : turns) = true;
   }
   return !slides ? "N m" : turns ? "N m and N" : "N";
+}
+
+std::string number_or_dash(double x, int digits) {
+  return std::isfinite(x) ? fmt::format("{:.{}g}", x, digits) : "-";
 }
 
 double overall(const Eigen::VectorXd& rms, const Robot& robot) {

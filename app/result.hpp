@@ -57,6 +57,9 @@ void choose_written_links(Result& result, const Robot& robot, double least_mass)
 /// Their units: N or N m.
 [[nodiscard]] std::vector<std::string> row_units(const Robot& robot);
 
+/// Of so many digits; a dash for what does not exist, as the error of a joint that never counts.
+[[nodiscard]] std::string number_or_dash(double x, int digits);
+
 /// sqrt of the sum of squares over the joint rows, in joints_unit(): one number for a whole robot.
 /// Rows without an error (NaN) are left out.
 [[nodiscard]] double overall(const Eigen::VectorXd& rms, const Robot& robot);

@@ -11,6 +11,7 @@
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/chance.hpp"
+#include "shapeid/diagnosis/credibility.hpp"
 #include "shapeid/diagnosis/fits.hpp"
 #include "shapeid/diagnosis/shape_masses.hpp"
 #include "shapeid/reference/identify.hpp"
@@ -26,7 +27,8 @@ class Sums {
   Sums(const BodyModel& shapes, Tally tally, const std::vector<bool>& since)
       : tally_(std::move(tally)),
         target_(tally_.columns()),
-        effects_(tally_.columns() - tally_.inertial) {
+        effects_(tally_.columns() - tally_.inertial),
+        precision_(wide_sizes(tally_).cwiseAbs2().cwiseInverse()) {
     for (const int link : shapes.free_links) {
       for (Eigen::Index p = 0; p < 10; ++p) kept_.push_back(Eigen::Index{10} * link + p);
     }
@@ -66,6 +68,8 @@ class Sums {
   }
 
   [[nodiscard]] Eigen::Index effects() const { return effects_; }
+  /// One over the variance of each effect's number before any data.
+  [[nodiscard]] const Eigen::VectorXd& precision() const { return precision_; }
   [[nodiscard]] Eigen::Index masses() const { return std::ssize(kept_) - effects_ - 1; }
 
   /// Of all blocks but a tenth of each log; -1: of all. Were the two logs one, a tenth of a long
@@ -120,6 +124,7 @@ class Sums {
   std::size_t reference_blocks_ = 0;  ///< which come first
   Eigen::Index target_;               ///< column of F before anything is left out
   Eigen::Index effects_;
+  Eigen::VectorXd precision_;
   std::vector<Eigen::Index> kept_;
   Eigen::VectorXd known_;
 };
@@ -130,7 +135,10 @@ struct Eliminated {
   Eigen::MatrixXd gain;  ///< theta = gain (Phi_free, -1) with the sign turned: see effects_of
 };
 
-Eliminated eliminate(const Eigen::MatrixXd& G, Eigen::Index masses, Eigen::Index effects) {
+/// `precision`: of the effects' numbers before any data.
+Eliminated eliminate(const Eigen::MatrixXd& G, Eigen::Index masses,
+                     const Eigen::VectorXd& precision) {
+  const Eigen::Index effects = precision.size();
   Eigen::MatrixXd outer(masses + 1, masses + 1);
   outer.topLeftCorner(masses, masses) = G.topLeftCorner(masses, masses);
   outer.topRightCorner(masses, 1) = G.topRightCorner(masses, 1);
@@ -141,7 +149,7 @@ Eliminated eliminate(const Eigen::MatrixXd& G, Eigen::Index masses, Eigen::Index
   Eliminated result{{}, Eigen::MatrixXd::Zero(effects, masses + 1)};
   if (effects > 0) {
     Eigen::MatrixXd E = G.block(masses, masses, effects, effects);
-    E.diagonal() *= 1.0 + regularity;
+    E.diagonal() = (1.0 + regularity) * E.diagonal() + precision;
     result.gain = E.ldlt().solve(cross);
     outer -= cross.transpose() * result.gain;
   }
@@ -175,7 +183,7 @@ class Solver {
   }
 
   [[nodiscard]] Eliminated rows(int tenth) const {
-    return eliminate(sums_.without(tenth), sums_.masses(), sums_.effects());
+    return eliminate(sums_.without(tenth), sums_.masses(), sums_.precision());
   }
 
   /// Y and F of the mass problem, W of ones.
@@ -258,9 +266,11 @@ std::size_t impossible(const std::vector<AppliedEffect>& effects, const std::vec
   return worst;
 }
 
-/// Delete-a-tenth jackknife of Phi_free and theta. `masses`: none if no link is free.
-Eigen::VectorXd jackknife(const Solver& solver, const ShapeMasses* masses, Eigen::Index effects) {
-  Eigen::MatrixXd answers((masses != nullptr ? masses->Phi().size() : 0) + effects, tenths);
+/// Delete-a-tenth jackknife of `answer`, which is Phi_free and theta: about it, and not about the
+/// mean of the tenths, which may stay at a bound together. `masses`: none if no link is free.
+Eigen::VectorXd jackknife(const Solver& solver, const ShapeMasses* masses,
+                          const Eigen::VectorXd& answer) {
+  Eigen::MatrixXd answers(answer.size(), tenths);
   for (int tenth = 0; tenth < tenths; ++tenth) {
     const Eliminated eliminated = solver.rows(tenth);
     Eigen::VectorXd Phi;
@@ -270,9 +280,8 @@ Eigen::VectorXd jackknife(const Solver& solver, const ShapeMasses* masses, Eigen
     }
     answers.col(tenth) << Phi, effects_of(eliminated, Phi);
   }
-  const Eigen::VectorXd mean = answers.rowwise().mean();
   constexpr double factor = (tenths - 1.0) / tenths;
-  return (factor * (answers.colwise() - mean).rowwise().squaredNorm()).cwiseSqrt();
+  return (factor * (answers.colwise() - answer).rowwise().squaredNorm()).cwiseSqrt();
 }
 
 /// The jackknife's errors of effects; where too few tenths have a column, those that it has by the
@@ -330,7 +339,8 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     std::unique_ptr<ShapeMasses> masses;
     if (sums.masses() > 0) masses = solver.divide(eliminated);
     const Eigen::VectorXd Phi = masses ? masses->Phi() : Eigen::VectorXd();
-    put_back(effects_of(eliminated, Phi), linear, effects);
+    const Eigen::VectorXd theta = effects_of(eliminated, Phi);
+    put_back(theta, linear, effects);
     if (const std::size_t bad = impossible(effects, loop.found); bad < effects.size()) {
       const auto at = static_cast<std::ptrdiff_t>(bad);
       result.dropped.push_back(effects[bad]);
@@ -339,7 +349,9 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     }
     result.model.Phi = all_parameters(shapes, Phi);
     if (sums.masses() > 0) result.data = solver.determination();
-    const Eigen::VectorXd errors = jackknife(solver, masses.get(), sums.effects());
+    Eigen::VectorXd answer(Phi.size() + theta.size());
+    answer << Phi, theta;
+    const Eigen::VectorXd errors = jackknife(solver, masses.get(), answer);
     result.Phi_error = Eigen::VectorXd::Zero(result.model.Phi.size());
     for (std::size_t i = 0; i < shapes.free_links.size(); ++i) {
       result.Phi_error.segment<10>(Eigen::Index{10} * shapes.free_links[i]) =
@@ -363,8 +375,9 @@ void mark_faded(const Recording& log, const LoopSettings& settings, const Consis
   for (std::size_t k = 0; k < consistent.model.effects.size(); ++k) {
     const AppliedEffect& a = consistent.model.effects[k];
     if (a.effect->transform.any()) continue;  // kept as screened
-    const double z = (a.value.array() / consistent.effect_error[k].array()).abs().maxCoeff();
-    const double tried = static_cast<double>(loop.hypotheses) * periods_told_apart(log, a);
+    const double choices = periods_told_apart(log, a);
+    const double z = differs_from_zero(*a.effect, a.value, consistent.effect_error[k], choices);
+    const double tried = static_cast<double>(loop.hypotheses) * choices;
     for (Found& f : loop.found) {
       if (same_place(f.effect, a)) f.faded = !(z > least_z(settings.rule.false_alarms, tried));
     }

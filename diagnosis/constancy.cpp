@@ -126,7 +126,7 @@ std::vector<std::optional<Variation>> variations(const BlockFits& fits,
     richer.push_back(term);
     const Fit fit = fits.fit(richer);
     const double z =
-        (fit.value.tail(n).array() / fit.standard_error.tail(n).array()).abs().maxCoeff();
+        errors_from_zero(fit.value.tail(n), fit.standard_error.tail(n)).abs().maxCoeff();
     if (!(z > least)) continue;
     std::optional<Variation>& best = result[m.hypothesis];
     if (!best || share > best->share) best = Variation{m.signal, m.joint, share, z};

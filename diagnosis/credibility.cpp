@@ -16,6 +16,13 @@ constexpr double least_of_both = 1.1;
 
 }  // namespace
 
+double differs_from_zero(const Effect& effect, const Eigen::VectorXd& value,
+                         const Eigen::VectorXd& error, double choices) {
+  if (choices > 1.0) return value.norm() / error.maxCoeff();
+  const Eigen::ArrayXd each = errors_from_zero(value, error);
+  return effect.is_payload ? each.head<4>().abs().maxCoeff() : each.abs().maxCoeff();
+}
+
 Credibility::Credibility(const BlockFits& fits, const Contenders& contenders,
                          const SelectionRule& rule)
     : fits_(fits),
@@ -82,22 +89,16 @@ Gain Credibility::gain_by(std::size_t k, const Eigen::VectorXd& before,
 double Credibility::squares_over_chance(std::size_t k, const Fit& without, const Fit& with,
                                         double tried) const {
   return std::max(0.0, squares_sum(without, with)) /
-         least_squares_sum(rule_.false_alarms / tried, std::ssize(contenders_[k].term.columns));
+         least_squares_sum(rule_.false_alarms / tried, fits_.numbers_shown(contenders_[k].term));
 }
 
 double Credibility::over_chance(std::size_t k, const Fit& without, const Fit& with, const Fit& own,
                                 double tried) const {
   const double limit = limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks());
-  return both(differs(k, own) / limit, squares_over_chance(k, without, with, tried));
-}
-
-/// Standard errors by which some parameter differs from zero. A load has mass. A sine and a cosine
-/// of a period that was sought have one error, which is known badly from so few blocks: of two
-/// estimates, among many periods, the smaller one would be small by chance.
-double Credibility::differs(std::size_t k, const Fit& own) const {
-  if (contenders_[k].choices > 1.0) return own.value.norm() / own.between_blocks.maxCoeff();
-  const Eigen::ArrayXd each = own.value.array() / own.between_blocks.array();
-  return contenders_[k].effect.effect->is_payload ? each[0] : each.abs().maxCoeff();
+  const Candidate& candidate = contenders_[k];
+  const double differs =
+      differs_from_zero(*candidate.effect.effect, own.value, own.between_blocks, candidate.choices);
+  return both(differs / limit, squares_over_chance(k, without, with, tried));
 }
 
 }  // namespace shapeid::diagnosis

@@ -5,6 +5,13 @@
 
 namespace shapeid::diagnosis {
 
+/// Standard errors by which some parameter of an effect differs from zero. A load has mass, or at
+/// least a moment: of a link that turns about one axis alone no torque shows the mass. A sine and a
+/// cosine whose period was sought among `choices` have one error, which is known badly from few
+/// blocks: of two estimates, among many periods, the smaller one would be small by chance.
+[[nodiscard]] double differs_from_zero(const Effect& effect, const Eigen::VectorXd& value,
+                                       const Eigen::VectorXd& error, double choices);
+
 /// All arguments of the constructor must outlive this.
 class Credibility {
  public:
@@ -38,7 +45,6 @@ class Credibility {
                                            double tried) const;
   [[nodiscard]] double over_chance(std::size_t k, const Fit& without, const Fit& with,
                                    const Fit& own, double tried) const;
-  [[nodiscard]] double differs(std::size_t k, const Fit& own) const;
 
   const BlockFits& fits_;
   const Contenders& contenders_;

@@ -1,6 +1,7 @@
 #include "shapeid/diagnosis/fits.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,21 @@ Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
           std::max(sum_with_error(difference).t(), sum_with_error(relative).t())};
 }
 
+Eigen::VectorXd wide_sizes(const Tally& tally) {
+  constexpr double wide = 30.0;  // of a usual size
+  std::vector<double> sizes;
+  for (const AppliedEffect& hypothesis : tally.hypotheses) {
+    for (const Parameter& parameter : hypothesis.effect->parameters) {
+      sizes.push_back(wide * parameter.size);
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXd>(sizes.data(), std::ssize(sizes));
+}
+
+Eigen::ArrayXd errors_from_zero(const Eigen::VectorXd& value, const Eigen::VectorXd& error) {
+  return (value.array() == 0.0).select(0.0, value.array() / error.array());
+}
+
 double squares_sum(const Fit& before, const Fit& after) {
   return after.left > 0.0 ? (before.left - after.left) / (after.left / after.freedom)
                           : std::numeric_limits<double>::infinity();
@@ -61,16 +77,10 @@ BlockFits::BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::Vec
     block.sums.topRows(p).array().colwise() /= scale_.array();
     block.sums.leftCols(p).array().rowwise() /= scale_.transpose().array();
   }
-  // Effects have a prior too, so wide that it only matters where data say nothing.
-  constexpr double wide = 30.0;
   Eigen::VectorXd sizes = Eigen::VectorXd::Constant(p, std::numeric_limits<double>::infinity());
+  const Eigen::VectorXd wide = wide_sizes(tally_);
   sizes.head(tally_.inertial) = size;
-  for (std::size_t k = 0; k < tally_.hypotheses.size(); ++k) {
-    Eigen::Index column = tally_.first[k];
-    for (const Parameter& parameter : tally_.hypotheses[k].effect->parameters) {
-      sizes[column++] = wide * parameter.size;
-    }
-  }
+  sizes.segment(tally_.inertial, wide.size()) = wide;
   precision_ = sizes.cwiseProduct(scale_).cwiseAbs2().cwiseInverse();
   assign_folds(folds);
 }
@@ -292,6 +302,21 @@ std::vector<Eigen::MatrixXd> BlockFits::moves(const std::vector<Term>& terms,
                     scale_(c.index).asDiagonal());
   }
   return moves;
+}
+
+Eigen::Index BlockFits::numbers_shown(const Term& term) const {
+  const Columns c = listed({term});
+  Eigen::MatrixXd N = normal(c, c, -1);
+  const Eigen::VectorXd length = N.diagonal().cwiseMax(0.0).cwiseSqrt();
+  for (Eigen::Index i = 0; i < N.rows(); ++i) {
+    for (Eigen::Index j = 0; j < N.cols(); ++j) {
+      const double both = length[i] * length[j];
+      N(i, j) = both > 0.0 ? N(i, j) / both : 0.0;
+    }
+  }
+  const Eigen::VectorXd squares = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(N).eigenvalues();
+  const double rounding = regularity * static_cast<double>(N.rows());
+  return std::max<Eigen::Index>(1, (squares.array() > rounding).count());
 }
 
 double BlockFits::contained(const std::vector<Term>& terms, const Term& inner,

@@ -18,6 +18,10 @@ namespace shapeid::diagnosis {
 /// is far below what any noise leaves open.
 inline constexpr double regularity = 1e-10;
 
+/// Effects have a prior, too, so wide that it only matters where data say nothing: the standard
+/// deviation of each number, all hypotheses one after the other.
+[[nodiscard]] Eigen::VectorXd wide_sizes(const Tally& tally);
+
 /// Columns that enter a fit together, from a block on (a payload that comes late, a change since
 /// the reference log).
 struct Term {
@@ -37,6 +41,11 @@ struct Fit {
   double left = 0.0;               ///< squared error of all blocks
   double freedom = 0.0;            ///< how many numbers the noise in that has
 };
+
+/// Standard errors by which each number differs from zero; none of one that is zero because no data
+/// show it, whose error is zero, too.
+[[nodiscard]] Eigen::ArrayXd errors_from_zero(const Eigen::VectorXd& value,
+                                              const Eigen::VectorXd& error);
 
 /// What a term took away of the squared error, `before` without and `after` with it, in squares of
 /// independent noise: of nothing the sum of the squares of its numbers, normal ones.
@@ -81,6 +90,10 @@ class BlockFits {
   [[nodiscard]] Eigen::VectorXd held_out(const std::vector<Term>& terms) const;
   /// The same without fitting: the given model.
   [[nodiscard]] Eigen::VectorXd given_error() const;
+
+  /// How many of a term's numbers the log can show at all: its independent columns, at least 1. Of
+  /// a load on a link that turns about one fixed axis these are three of ten.
+  [[nodiscard]] Eigen::Index numbers_shown(const Term& term) const;
 
   /// How much one more term would lower the squared error of the fit of all blocks, roughly, and
   /// what share of the term's columns the others leave free: 0 for one that they already contain.

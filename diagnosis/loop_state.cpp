@@ -104,7 +104,8 @@ void LoopState::use_correction(const std::vector<Eigen::VectorXd>& of_log,
 }
 
 void LoopState::reweigh() {
-  const Eigen::VectorXd rms = left_by(result.model).rms();
+  Eigen::VectorXd rms = left_by(result.model).rms();
+  rms = rms.array().isNaN().select(0.0, rms);  // a joint that never counts has no rows to weigh
   // A row that fits far better than the others would otherwise be fitted to its last digit.
   constexpr double least_share = 0.02;
   const double floor = std::max(least_share * rms.mean(), 1e-12);

@@ -3,13 +3,26 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace shapeid::diagnosis {
 
-Eigen::VectorXd Series::rms() const {
-  const Eigen::ArrayXXd weight = counted.cast<double>();
-  const Eigen::ArrayXd count = weight.rowwise().sum().cwiseMax(1.0);
-  return ((residual.array().square() * weight).rowwise().sum() / count).sqrt();
+Eigen::VectorXd row_rms(
+    const Eigen::MatrixXd& rows,
+    const Eigen::Ref<const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>>& counted) {
+  Eigen::VectorXd rms(rows.rows());
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    double sum = 0.0, count = 0.0;
+    for (Eigen::Index i = 0; i < rows.cols(); ++i) {
+      const double x = rows(r, i);
+      if (!counted(r, i) || std::isnan(x)) continue;
+      sum += x * x;
+      count += 1.0;
+    }
+    rms[r] = count > 0.0 ? std::sqrt(sum / count) : std::numeric_limits<double>::quiet_NaN();
+  }
+  return rms;
 }
 
 Series series(const Robot& robot, RowSource source, const RichModel& model,

@@ -10,14 +10,20 @@
 
 namespace shapeid::diagnosis {
 
+/// Root mean square of each row over its entries that count and are numbers; NaN where there are
+/// none, for no error is not an error of zero.
+[[nodiscard]] Eigen::VectorXd row_rms(
+    const Eigen::MatrixXd& rows,
+    const Eigen::Ref<const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>>& counted);
+
 struct Series {
   std::vector<std::size_t> index;  ///< samples of the recording
   Eigen::MatrixXd residual;        ///< dof x samples: the yardstick, predicted minus logged
   Eigen::MatrixXd predicted;       ///< dof x samples: logged plus residual
   /// dof x samples: counted_rows(). The others are in no error.
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> counted;
-  /// Root mean square of each generalised row, over what counts.
-  [[nodiscard]] Eigen::VectorXd rms() const;
+  /// row_rms() of the residual.
+  [[nodiscard]] Eigen::VectorXd rms() const { return row_rms(residual, counted); }
 };
 
 [[nodiscard]] Series series(const Robot& robot, RowSource source, const RichModel& model,

@@ -82,8 +82,7 @@ std::optional<Eigen::VectorXd> StrangerLaws::significant(std::size_t s,
   const Fit fit = fits_.fit(with);
   const Eigen::Index n = std::ssize(terms_[s].columns);
   if (terms_[s].nonnegative[0] && fit.value.tail(n)[0] < 0.0) return std::nullopt;
-  const double z =
-      (fit.value.tail(n).array() / fit.between_blocks.tail(n).array()).abs().maxCoeff();
+  const double z = errors_from_zero(fit.value.tail(n), fit.between_blocks.tail(n)).abs().maxCoeff();
   const double squares = squares_sum(fits_.fit(beside.terms()), fit);
   const double sure = both(z / least_z_[s], squares / least_squares_[s]);
   return sure > least_of_both ? std::optional(error) : std::nullopt;

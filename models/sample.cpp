@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace shapeid {
 
@@ -20,12 +21,12 @@ Violation why_malformed(const Sample& s, const Robot& robot) {
     return fmt::format("{} contact forces for {} contacts", s.contact_force.size(),
                        robot.contacts.size());
   }
-  const bool finite = s.q.allFinite() && s.dq.allFinite() && s.ddq.allFinite() &&
-                      s.tau.allFinite() && s.base_angular_velocity.allFinite() &&
-                      s.base_angular_acceleration.allFinite() &&
-                      s.base_specific_force.allFinite() &&
-                      std::all_of(s.contact_force.begin(), s.contact_force.end(),
-                                  [](const Eigen::Vector3d& f) { return f.allFinite(); });
+  const bool finite =
+      std::isfinite(s.time) && s.q.allFinite() && s.dq.allFinite() && s.ddq.allFinite() &&
+      s.tau.allFinite() && s.base_angular_velocity.allFinite() &&
+      s.base_angular_acceleration.allFinite() && s.base_specific_force.allFinite() &&
+      std::all_of(s.contact_force.begin(), s.contact_force.end(),
+                  [](const Eigen::Vector3d& f) { return f.allFinite(); });
   if (!finite) return "a number of the sample is not finite";
   return std::nullopt;
 }
