@@ -58,13 +58,16 @@ class Search {
     const auto best = std::find_if(order.begin(), order.end(), is_open);
     if (best == order.end()) return false;
 
-    // Of those that cannot be told from the best the simplest is taken.
+    // Of those that cannot be told from the best the simplest is taken: of as many numbers what
+    // always acts, rather than what came since the reference log.
+    const auto extent = [&](std::size_t i) {
+      const std::size_t k = ranking[i].candidate;
+      return std::pair(contenders_.cost(k), contenders_[k].effect.since_reference);
+    };
     std::size_t chosen = *best;
     for (const std::size_t i : order) {
       if (!is_open(i) || gain_of(errors[i], errors[*best]).t > simpler_t) continue;
-      if (contenders_.cost(ranking[i].candidate) < contenders_.cost(ranking[chosen].candidate)) {
-        chosen = i;
-      }
+      if (extent(i) < extent(chosen)) chosen = i;
     }
     SelectionStep step;
     step.accepted = ranking[chosen];

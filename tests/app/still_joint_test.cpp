@@ -54,10 +54,10 @@ TEST(StillJoint, HasNoErrorBesideKnownEffects) {
   EXPECT_EQ(row(text.out, "braked"),
             fmt::format("  {:<20}{:>12}{:>12}{:>12}  N m", "braked", "-", "-", "-"))
       << text.out;
-  EXPECT_EQ(row(text.out, "swing").find('-'), std::string::npos) << text.out;
+  EXPECT_EQ(row(text.out, "swing").find(" -"), std::string::npos) << text.out;
   EXPECT_EQ(row(text.out, "all joints").find("nan"), std::string::npos) << text.out;
-  const CommandRun json = shapeid(command + " --json");
-  const auto heldout = nlohmann::json::parse(json.out).at("heldout");
+  const CommandRun printed = shapeid(command + " --json");
+  const auto heldout = nlohmann::json::parse(printed.out).at("heldout");
   for (const char* model : {"rms_zero", "rms_before", "rms_after"}) {
     EXPECT_TRUE(heldout.at(model).at(0).is_number()) << heldout;
     EXPECT_TRUE(heldout.at(model).at(1).is_null()) << heldout;

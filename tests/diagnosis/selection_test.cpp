@@ -111,6 +111,22 @@ TEST(Selection, StepsAndRankingAreAsTheyWent) {
   }
 }
 
+/// What came since a reference log is a change; what looks no better and always was there is none.
+TEST(Selection, WhatAlwaysActsComesBeforeAChange) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    for (const double apart : {0.0, 2.0}) {
+      Planted log(seed);
+      const Eigen::MatrixXd column = log.normal(1);
+      const std::size_t came = log.add(law("law"), column);
+      log.candidates()[came].effect.since_reference = true;
+      const std::size_t always = log.add(law("law"), column + apart * log.normal(1));
+      log.plant(came, number(Planted::size_of(40.0)));
+      log.add_noise();
+      EXPECT_EQ(accepted(log.selection()), Numbers{apart < 1.0 ? always : came}) << seed;
+    }
+  }
+}
+
 TEST(Selection, WhatMassesContainIsHidden) {
   Planted log(2);
   const std::size_t open = log.add(law("open"), log.normal(1));

@@ -1,9 +1,12 @@
-// Which blocks are left out together.
+// Which blocks are left out together, and what counts as evidence in a fit of them.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "shapeid/diagnosis/credibility.hpp"
+#include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/fits.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
@@ -53,6 +56,55 @@ TEST(Folds, AreStretchesOfOneLogOrTwo) {
   for (Eigen::Index b = 0; b < 4; ++b) {
     EXPECT_NEAR(one[b], expected[static_cast<std::size_t>(b)], of_the_prior) << b;
   }
+}
+
+/// Four columns over three samples, the second twice the first and the third of zeros.
+TEST(Fits, OnlyNumbersThatShowAreCounted) {
+  Tally tally;
+  tally.inertial = 4;
+  tally.width = 5;
+  Eigen::Matrix<double, 3, 5> rows;
+  rows << 1.0, 2.0, 0.0, 0.5, 1.0,  //
+      -1.0, -2.0, 0.0, 0.25, 0.0,   //
+      3.0, 6.0, 0.0, -1.0, 2.0;
+  for (int b = 0; b < 2; ++b) {
+    Block block;
+    block.samples = 3;
+    block.sums = rows.transpose() * rows;
+    tally.blocks.push_back(block);
+  }
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(4);
+  const BlockFits fits(tally, zero, Eigen::VectorXd::Constant(4, 1e6), 2);
+  const auto shown = [&](std::vector<Eigen::Index> columns) {
+    const std::vector<bool> any(columns.size(), false);
+    return fits.numbers_shown({"some", std::move(columns), any, 0});
+  };
+  EXPECT_EQ(shown({0, 1, 2, 3}), 2);
+  EXPECT_EQ(shown({0, 1}), 1);
+  EXPECT_EQ(shown({0, 3}), 2);
+  EXPECT_EQ(shown({2}), 1) << "nothing that is tried is less than one chance";
+}
+
+TEST(Fits, ZeroOverAnErrorOfZeroIsNoEvidence) {
+  const Eigen::ArrayXd errors =
+      errors_from_zero(Eigen::Vector4d(0.0, -3.0, 0.0, 2.0), Eigen::Vector4d(0.0, 1.5, 1.0, 0.0));
+  EXPECT_EQ(errors[0], 0.0);
+  EXPECT_EQ(errors[1], -2.0);
+  EXPECT_EQ(errors[2], 0.0);
+  EXPECT_TRUE(std::isinf(errors[3]));
+}
+
+/// Of a load mass and moments, whichever shows; its moments of inertia alone make none.
+TEST(Fits, ALoadWeighsOrHangs) {
+  const Effect& load = *find_effect("payload");
+  const auto differs = [&](Eigen::Index p) {
+    Eigen::VectorXd value = Eigen::VectorXd::Zero(10), error = Eigen::VectorXd::Ones(10);
+    error[0] = 0.0;  // no torque shows the mass
+    value[p] = -7.0;
+    return differs_from_zero(load, value, error, 1.0);
+  };
+  for (const Eigen::Index moment : {1, 2, 3}) EXPECT_EQ(differs(moment), 7.0);
+  for (const Eigen::Index inertia : {4, 9}) EXPECT_EQ(differs(inertia), 0.0);
 }
 
 TEST(Folds, NoBlockHasTwoLogs) {
