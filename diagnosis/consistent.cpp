@@ -28,7 +28,7 @@ class Sums {
       : tally_(std::move(tally)),
         target_(tally_.columns()),
         effects_(tally_.columns() - tally_.inertial),
-        precision_(wide_sizes(tally_).cwiseAbs2().cwiseInverse()) {
+        precision_((wider * wide_sizes(tally_)).cwiseAbs2().cwiseInverse()) {
     for (const int link : shapes.free_links) {
       for (Eigen::Index p = 0; p < 10; ++p) kept_.push_back(Eigen::Index{10} * link + p);
     }
@@ -68,7 +68,9 @@ class Sums {
   }
 
   [[nodiscard]] Eigen::Index effects() const { return effects_; }
-  /// One over the variance of each effect's number before any data.
+  /// One over the variance of each effect's number before any data: enough to leave a number that
+  /// no data show at zero, and nothing to any other (rotors of a hundred usual sizes are found
+  /// here).
   [[nodiscard]] const Eigen::VectorXd& precision() const { return precision_; }
   [[nodiscard]] Eigen::Index masses() const { return std::ssize(kept_) - effects_ - 1; }
 
@@ -95,6 +97,8 @@ class Sums {
   }
 
  private:
+  static constexpr double wider = 1e4;
+
   [[nodiscard]] int tenth_of(std::size_t b) const {
     const std::size_t first = tally_.blocks[b].reference ? 0 : reference_blocks_;
     const std::size_t count =

@@ -14,13 +14,30 @@ namespace {
 // and less. Of 162 single effects of two and four times the detectable size two had less than 1.1.)
 constexpr double least_of_both = 1.1;
 
+/// Its centre, within its errors, is no further than a load can be from the origin of its link:
+/// moments without mass are none of a load's. Where no data show the mass nothing is known of that.
+bool is_near(const Effect& effect, const Fit& load) {
+  constexpr double furthest = 1.0;  // m
+  constexpr double errors = 2.5;    // standard ones
+  constexpr double rounding = 1e-9;
+  const double mass = load.value[0], error = load.standard_error[0];
+  if (std::abs(mass) + error < rounding * effect.parameters[0].size) return true;
+  const Eigen::Index moments = std::min<Eigen::Index>(3, load.value.size() - 1);
+  return load.value.segment(1, moments).norm() <=
+         furthest * std::max(mass + errors * error, 0.0) +
+             errors * load.standard_error.segment(1, moments).norm();
+}
+
 }  // namespace
 
 double differs_from_zero(const Effect& effect, const Eigen::VectorXd& value,
                          const Eigen::VectorXd& error, double choices) {
   if (choices > 1.0) return value.norm() / error.maxCoeff();
   const Eigen::ArrayXd each = errors_from_zero(value, error);
-  return effect.is_payload ? each.head<4>().abs().maxCoeff() : each.abs().maxCoeff();
+  constexpr Eigen::Index mass_and_moments = 4;
+  const Eigen::Index asked =
+      effect.is_payload ? std::min(mass_and_moments, each.size()) : each.size();
+  return each.head(asked).abs().maxCoeff();
 }
 
 Credibility::Credibility(const BlockFits& fits, const Contenders& contenders,
@@ -50,7 +67,7 @@ bool Credibility::within_limits(std::size_t k, const Fit& own) const {
     const double limit = parameter.unit == "N" ? rule_.most_force : parameter.limit;
     if (std::abs(start + own.value[at]) > limit) return false;
   }
-  return true;
+  return !effect.is_payload || is_near(effect, own);
 }
 
 bool Credibility::credible(std::size_t k, const Fit& without, const Fit& with) const {

@@ -20,7 +20,7 @@ class Credibility {
   /// True if a number of candidate k that cannot be negative is, by more than so many standard
   /// errors. `own`: its part of a fit.
   [[nodiscard]] bool wrong_sign(std::size_t k, const Fit& own, double least_t) const;
-  /// None of its numbers leaves the range in which it is believed.
+  /// None of its numbers leaves the range in which it is believed; a load is near its link.
   [[nodiscard]] bool within_limits(std::size_t k, const Fit& own) const;
   /// Candidate k, last in `with` and not in `without`, is more than chance makes of nothing, and
   /// leaves the range in which it is believed with no number. Of a group that is asked of all its

@@ -22,6 +22,17 @@ constexpr double nested_share = 0.9999;
 
 bool gains_something(const Gain& own) { return own.t > rival_t && own.share > 0.0; }
 
+/// Whether its numbers are the parts of a vector: any direction of it is what it says, so that one
+/// that is exactly another effect (the tilt about the axis of the first joint, its encoder's
+/// offset) is no reason to keep silent about it. A spring without stiffness is no spring.
+bool any_direction_is_one(const Effect& effect) {
+  const auto& parameters = effect.parameters;
+  return parameters.size() > 1 &&
+         std::all_of(parameters.begin(), parameters.end(), [&](const Parameter& p) {
+           return !p.nonnegative && p.unit == parameters.front().unit;
+         });
+}
+
 /// `error` is not lower than this by more than what cannot be told apart.
 bool as_good_as(const Eigen::VectorXd& error, const Eigen::VectorXd& instead) {
   return !(gain_of(instead, error).t > told_apart_t);
@@ -57,7 +68,8 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
       return fits_.contained(contenders_.terms(others), contenders_[inner].term,
                              contenders_[outer].term) > nested_share;
     };
-    const bool nested = within(k, rival) && !within(rival, k);
+    const bool nested = within(k, rival) && !within(rival, k) &&
+                        !any_direction_is_one(*contenders_[rival].effect.effect);
     if (!nested || does_without(k, rival, others, error)) verdict.ambiguous.push_back(rival);
   }
   return verdict;

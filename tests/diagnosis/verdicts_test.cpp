@@ -60,6 +60,27 @@ TEST(Verdicts, DoNotNameWhatWouldHaveTheWrongSign) {
   }
 }
 
+/// Torque at rest and stiffness.
+Effect spring_law() {
+  Effect spring = law("spring", 2);
+  spring.parameters[1].unit = "N m/rad";
+  return spring;
+}
+
+/// A tilt about one axis may be what an encoder's offset is: a tilt about any other it might be as
+/// well, and it is no less of a tilt.
+TEST(Verdicts, NameAVectorThatContainsAFinding) {
+  Planted log(38);
+  const Eigen::MatrixXd offset = log.normal(1);
+  Eigen::MatrixXd tilt(Planted::rows, 2);
+  tilt << offset, log.normal(1);
+  const std::size_t one = log.add(law("offset"), offset);
+  const std::size_t rival = log.add(law("tilt", 2, "rad"), tilt);
+  log.plant(one, number(Planted::size_of(25.0)));
+  log.add_noise();
+  EXPECT_EQ(verdicts(log, {one})[0].ambiguous, Chosen{rival});
+}
+
 /// A spring contains an offset. Where only the offset is there it is not named; where its stiffness
 /// alone looks like the offset it is a cause of its own.
 TEST(Verdicts, NameWhatContainsAFindingOnlyIfItDoesWithout) {
@@ -69,7 +90,7 @@ TEST(Verdicts, NameWhatContainsAFindingOnlyIfItDoesWithout) {
     Eigen::MatrixXd spring(Planted::rows, 2);
     spring << offset, (looks_like_it ? 1.0 : 0.0) * offset + 0.05 * log.normal(1);
     const std::size_t one = log.add(law("offset"), offset);
-    const std::size_t rival = log.add(law("spring", 2), spring);
+    const std::size_t rival = log.add(spring_law(), spring);
     log.plant(one, number(Planted::size_of(25.0)));
     log.add_noise();
     EXPECT_EQ(verdicts(log, {one})[0].ambiguous, looks_like_it ? Chosen{rival} : Chosen{});
@@ -85,7 +106,7 @@ TEST(Verdicts, DoNotNameWhatContainsAFindingAsACommonCause) {
   spring << offset, log.normal(1);
   const std::size_t one = log.add(law("offset"), offset);
   const std::size_t apart = log.add(law("apart"), log.normal(1));
-  log.add(law("spring", 2), spring);
+  log.add(spring_law(), spring);
   for (const std::size_t k : {one, apart}) log.plant(k, number(Planted::size_of(25.0)));
   log.add_noise();
   for (const Verdict& v : verdicts(log, {one, apart})) EXPECT_EQ(v.ambiguous, Chosen{});
