@@ -36,7 +36,10 @@ class StandIn {
     t.machine = "arm";
     t.error = error;
     (void)scratch_.write(trial + "sealed.json", to_json(t).dump());
-    if (error.empty()) (void)scratch_.write(trial + "log.csv", "time\n");
+    if (error.empty()) {
+      (void)scratch_.write(trial + "log.csv", "time\n");
+      (void)scratch_.write(trial + "cutoff", "12.5\n");
+    }
     (void)scratch_.write(trial + "how", how);
     (void)scratch_.write("set/arguments", "\n");
   }
@@ -99,6 +102,7 @@ TEST(Folders, TheScriptGoesOnAfterACrash) {
   EXPECT_EQ(set.text(2, "crashed"), "no such file");
   EXPECT_EQ(set.text(2, "result.json"), "");
   EXPECT_NE(set.text(3, "result.json").find("--reference"), std::string::npos);
+  EXPECT_NE(set.text(3, "result.json").find("--cutoff 12.5 "), std::string::npos);
   EXPECT_EQ(how_many(find_trials({set.set()})), "2 of 4 trials diagnosed, 2 more crashed.");
   // Gone on with: what crashed is tried again.
   set.write(0, "how", "0");
