@@ -36,7 +36,7 @@ class Generator {
     // Numbers of one trial do not depend on how many were drawn before.
     Random random(options_.seed * 1000003 + static_cast<std::uint64_t>(number));
     const Machine m = machine(name_of_machine(number));
-    // No other trial has the motion of a drawn arm.
+    // No other trial has the robot, whose simulations would only be kept.
     if (options_.drawn_arms) clean_.clear();
     Trial trial;
     trial.machine = m.name;

@@ -14,7 +14,7 @@ struct PlanOptions {
   std::uint64_t seed = 1;
   int trials = 20;
   int quadruped_every = 4;  ///< every how many trials; 0: arms alone
-  bool drawn_arms = false;  ///< each arm is another one (drawn.hpp), with a motion of its own
+  bool drawn_arms = false;  ///< each arm is another one (drawn.hpp); phases are of five motions
   double ratio = 0.0;       ///< times the detectable size, of every effect; 0: drawn
   std::string only;         ///< trials of this kind alone ("clean" for none); empty: all kinds
 };
