@@ -306,15 +306,12 @@ std::vector<Eigen::MatrixXd> BlockFits::moves(const std::vector<Term>& terms,
 
 Eigen::Index BlockFits::numbers_shown(const Term& term) const {
   const Columns c = listed({term});
-  Eigen::MatrixXd N = normal(c, c, -1);
-  const Eigen::VectorXd length = N.diagonal().cwiseMax(0.0).cwiseSqrt();
-  for (Eigen::Index i = 0; i < N.rows(); ++i) {
-    for (Eigen::Index j = 0; j < N.cols(); ++j) {
-      const double both = length[i] * length[j];
-      N(i, j) = both > 0.0 ? N(i, j) / both : 0.0;
-    }
-  }
-  const Eigen::VectorXd squares = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(N).eigenvalues();
+  const Eigen::MatrixXd N = normal(c, c, -1);
+  const Eigen::ArrayXd length = N.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::VectorXd unit = (length > 0.0).select(length.inverse(), 0.0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit.asDiagonal() * N *
+                                                             unit.asDiagonal());
+  const Eigen::VectorXd& squares = eigen.eigenvalues();
   const double rounding = regularity * static_cast<double>(N.rows());
   return std::max<Eigen::Index>(1, (squares.array() > rounding).count());
 }
