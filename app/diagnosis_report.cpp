@@ -11,6 +11,7 @@
 #include "shapeid/app/diagnosis_result.hpp"
 #include "shapeid/app/html.hpp"
 #include "shapeid/app/result.hpp"
+#include "shapeid/diagnosis/body_sums.hpp"
 #include "shapeid/diagnosis/hypotheses.hpp"
 #include "shapeid/diagnosis/slowness.hpp"
 #include "shapeid/models/student.hpp"
@@ -77,8 +78,7 @@ Table parameters_table(const DiagnosisRun& run, const Robot& robot, std::size_t 
   constexpr std::array<const char*, 10> names = {
       "m (kg)",       "m rx (kg m)",  "m ry (kg m)",  "m rz (kg m)",  "Ixx (kg m^2)",
       "Ixy (kg m^2)", "Ixz (kg m^2)", "Iyy (kg m^2)", "Iyz (kg m^2)", "Izz (kg m^2)"};
-  constexpr Eigen::Index tenths = 10;  // of the log, that were left out for the errors
-  const double of_95_percent = limit_for(1.96, tenths);
+  const double of_95_percent = limit_for(1.96, diagnosis::tenths);
   const int link = run.settings.shapes.free_links[sought];
   Table table = {{"parameter", "given", "found", "95 % interval", "with what was not noticed",
                   "determined by"}};

@@ -130,6 +130,21 @@ std::string values_text(const Robot& robot, const AppliedEffect& a, const Eigen:
   return text;
 }
 
+/// Where a load is, of whose mass that much is known; errors as if mass and moments had independent
+/// ones.
+std::string centre_text(const Robot& robot, const AppliedEffect& a, const Eigen::VectorXd& error) {
+  constexpr double known = 2.0;  // standard errors
+  if (!(a.value[0] > known * error[0])) {
+    return "where it is cannot be told: its mass is zero within two standard errors";
+  }
+  const Eigen::Array3d centre = a.value.segment<3>(1) / a.value[0];
+  const Eigen::Array3d e =
+      (error.segment<3>(1).array().square() + (centre * error[0]).square()).sqrt() / a.value[0];
+  return fmt::format("its centre at ({:.2g} +- {:.1g}, {:.2g} +- {:.1g}, {:.2g} +- {:.1g}) m of {}",
+                     centre[0], e[0], centre[1], e[1], centre[2], e[2],
+                     site_name(robot, a.effect->site, a.site));
+}
+
 std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
   const auto& effects = run.consistent.model.effects;
   if (effects.empty())
@@ -141,6 +156,10 @@ std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
     const diagnosis::Found* f = found_for(run, effects[k]);
     text += fmt::format("  {:<38}{}\n", hypothesis_id(robot, effects[k]),
                         values_text(robot, effects[k], run.consistent.effect_error[k]));
+    if (effects[k].effect->is_payload) {
+      text += fmt::format("  {:<38}{}\n", "",
+                          centre_text(robot, effects[k], run.consistent.effect_error[k]));
+    }
     if (f != nullptr && !f->name_stands()) {
       text += fmt::format("  {:<38}a description, not the cause: {}\n", "", doubt(run, *f, robot));
     }

@@ -1,181 +1,45 @@
 #include "shapeid/diagnosis/consistent.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
 
+#include "shapeid/diagnosis/body_sums.hpp"
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/chance.hpp"
 #include "shapeid/diagnosis/credibility.hpp"
 #include "shapeid/diagnosis/fits.hpp"
+#include "shapeid/diagnosis/load_places.hpp"
 #include "shapeid/diagnosis/shape_masses.hpp"
 #include "shapeid/reference/identify.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
 
-constexpr int tenths = 10;
-
-/// Sums over [Y_free, E, F], with known links moved to F.
-class Sums {
- public:
-  Sums(const BodyModel& shapes, Tally tally, const std::vector<bool>& since)
-      : tally_(std::move(tally)),
-        target_(tally_.columns()),
-        effects_(tally_.columns() - tally_.inertial),
-        precision_((wider * wide_sizes(tally_)).cwiseAbs2().cwiseInverse()) {
-    for (const int link : shapes.free_links) {
-      for (Eigen::Index p = 0; p < 10; ++p) kept_.push_back(Eigen::Index{10} * link + p);
-    }
-    for (Eigen::Index e = 0; e <= effects_; ++e) kept_.push_back(tally_.inertial + e);
-    known_ = Eigen::VectorXd::Zero(target_ + 1);
-    known_.head(tally_.inertial) = shapes.known;
-    for (Block& block : tally_.blocks) {
-      reduce(block, since);
-      if (block.reference) ++reference_blocks_;
-    }
-  }
-
-  /// Rows of [Y_free, E, F] with each block's squares. `size`: of Y's and E's numbers. What is
-  /// smaller than the sums' own rounding counts as nothing.
-  [[nodiscard]] std::vector<reference::RowBlock> blocks(const Eigen::VectorXd& size) const {
-    Eigen::VectorXd scale(std::ssize(kept_));
-    scale << size, 1.0;
-    std::vector<reference::RowBlock> list;
-    for (const Block& block : tally_.blocks) {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * block.sums *
-                                                                 scale.asDiagonal());
-      const Eigen::VectorXd& squares = eigen.eigenvalues();
-      const double rounding = static_cast<double>(squares.size()) *
-                              std::numeric_limits<double>::epsilon() * squares.maxCoeff();
-      const Eigen::VectorXd length = (squares.array() > rounding).select(squares, 0.0).cwiseSqrt();
-      list.push_back({length.asDiagonal() * eigen.eigenvectors().transpose() *
-                      scale.cwiseInverse().asDiagonal()});
-    }
-    return list;
-  }
-
-  /// Of each effect's column the number with which it alone would be as large as F.
-  [[nodiscard]] Eigen::VectorXd effect_sizes() const {
-    const Eigen::MatrixXd G = without(-1);
-    const double F = G(G.rows() - 1, G.cols() - 1);
-    return (F / G.diagonal().segment(masses(), effects_).array().max(1e-30 * F)).sqrt();
-  }
-
-  [[nodiscard]] Eigen::Index effects() const { return effects_; }
-  /// One over the variance of each effect's number before any data: enough to leave a number that
-  /// no data show at zero, and nothing to any other (rotors of a hundred usual sizes are found
-  /// here).
-  [[nodiscard]] const Eigen::VectorXd& precision() const { return precision_; }
-  [[nodiscard]] Eigen::Index masses() const { return std::ssize(kept_) - effects_ - 1; }
-
-  /// Of all blocks but a tenth of each log; -1: of all. Were the two logs one, a tenth of a long
-  /// reference and a short log would hold all that came since.
-  [[nodiscard]] Eigen::MatrixXd without(int tenth) const {
-    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(std::ssize(kept_), std::ssize(kept_));
-    for (std::size_t b = 0; b < tally_.blocks.size(); ++b) {
-      if (tenth_of(b) != tenth) sum += tally_.blocks[b].sums;
-    }
-    return sum;
-  }
-
-  /// In how many tenths each effect's column is anything at all.
-  [[nodiscard]] Eigen::ArrayXi tenths_with_effects() const {
-    Eigen::ArrayXXd squares = Eigen::ArrayXXd::Zero(effects_, tenths);
-    for (std::size_t b = 0; b < tally_.blocks.size(); ++b) {
-      squares.col(tenth_of(b)) +=
-          tally_.blocks[b].sums.diagonal().segment(masses(), effects_).array();
-    }
-    constexpr double hardly_any = 1e-6;  // of all
-    const Eigen::ArrayXd least = hardly_any * squares.rowwise().sum();
-    return (squares > least.replicate(1, tenths)).cast<int>().rowwise().sum();
-  }
-
- private:
-  static constexpr double wider = 1e4;
-
-  [[nodiscard]] int tenth_of(std::size_t b) const {
-    const std::size_t first = tally_.blocks[b].reference ? 0 : reference_blocks_;
-    const std::size_t count =
-        tally_.blocks[b].reference ? reference_blocks_ : tally_.blocks.size() - reference_blocks_;
-    return static_cast<int>(tenths * (b - first) / count);
-  }
-
-  void reduce(Block& block, const std::vector<bool>& since) const {
-    Eigen::MatrixXd G = block.sums;
-    const Eigen::Index F = target_;
-    const Eigen::VectorXd Gx = G * known_;
-    G(F, F) += known_.dot(Gx) - 2.0 * Gx[F];
-    G.col(F).head(F) -= Gx.head(F);
-    G.row(F).head(F) = G.col(F).head(F).transpose();
-    block.sums = G(kept_, kept_);
-    if (!block.reference) return;
-    for (std::size_t k = 0; k < since.size(); ++k) {
-      if (!since[k]) continue;
-      const Eigen::Index from = masses() + tally_.first[k] - tally_.inertial;
-      const Eigen::Index n = tally_.hypotheses[k].value.size();
-      block.sums.middleRows(from, n).setZero();
-      block.sums.middleCols(from, n).setZero();
-    }
-  }
-
-  Tally tally_;
-  std::size_t reference_blocks_ = 0;  ///< which come first
-  Eigen::Index target_;               ///< column of F before anything is left out
-  Eigen::Index effects_;
-  Eigen::VectorXd precision_;
-  std::vector<Eigen::Index> kept_;
-  Eigen::VectorXd known_;
-};
-
-/// Rows with the sums' squares, after the effects have taken what they can.
-struct Eliminated {
-  Eigen::MatrixXd rows;  ///< [Y_free, F]
-  Eigen::MatrixXd gain;  ///< theta = gain (Phi_free, -1) with the sign turned: see effects_of
-};
-
-/// `precision`: of the effects' numbers before any data.
-Eliminated eliminate(const Eigen::MatrixXd& G, Eigen::Index masses,
-                     const Eigen::VectorXd& precision) {
-  const Eigen::Index effects = precision.size();
-  Eigen::MatrixXd outer(masses + 1, masses + 1);
-  outer.topLeftCorner(masses, masses) = G.topLeftCorner(masses, masses);
-  outer.topRightCorner(masses, 1) = G.topRightCorner(masses, 1);
-  outer.bottomLeftCorner(1, masses) = G.bottomLeftCorner(1, masses);
-  outer(masses, masses) = G(G.rows() - 1, G.cols() - 1);
-  Eigen::MatrixXd cross(effects, masses + 1);
-  cross << G.block(masses, 0, effects, masses), G.block(masses, G.cols() - 1, effects, 1);
-  Eliminated result{{}, Eigen::MatrixXd::Zero(effects, masses + 1)};
-  if (effects > 0) {
-    Eigen::MatrixXd E = G.block(masses, masses, effects, effects);
-    E.diagonal() = (1.0 + regularity) * E.diagonal() + precision;
-    result.gain = E.ldlt().solve(cross);
-    outer -= cross.transpose() * result.gain;
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(outer);
-  result.rows =
-      eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
-  return result;
-}
-
-Eigen::VectorXd effects_of(const Eliminated& eliminated, const Eigen::VectorXd& Phi_free) {
-  Eigen::VectorXd x(Phi_free.size() + 1);
-  x << -Phi_free, 1.0;
-  return eliminated.gain * x;
-}
-
 class Solver {
  public:
-  Solver(const Robot& robot, const Sums& sums, const LoopSettings& settings, const LoopResult& loop)
-      : sums_(sums), settings_(settings) {
+  /// `loads`: the links that carry them, in the order of the sums.
+  Solver(const Robot& robot, const BodySums& sums, const std::vector<int>& loads,
+         const LoopSettings& settings, const LoopResult& loop)
+      : sums_(sums),
+        settings_(settings),
+        expected_mass_(settings.expected_mass > 0.0 ? settings.expected_mass : 1.0),
+        volume_of_point_(settings.shapes.shapes.empty() ? 1.0
+                                                        : shape_volumes(settings.shapes).mean()),
+        shapes_(settings.shapes) {
     const BodyModel& shapes = settings.shapes;
+    // Every load is a link of its own behind the robot's.
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      rooms_.push_back(room_for_load(robot, shapes.shapes, loads[i]));
+      shapes_.free_links.push_back(robot.link_count() + static_cast<int>(i));
+    }
+    for (std::size_t i = 0; i < rooms_.size(); ++i) {
+      for (const Eigen::Vector3d& place : first_places(rooms_[i])) add_point(shapes_, i, place);
+    }
     const Eigen::VectorXd given = stacked_parameters(robot);
-    prior_ = Eigen::VectorXd::Zero(sums.masses());
+    prior_ = Eigen::VectorXd::Zero(sums.bodies());
     given_ = prior_;
     for (std::size_t i = 0; i < shapes.free_links.size(); ++i) {
       const Eigen::Index from = Eigen::Index{10} * shapes.free_links[i];
@@ -186,13 +50,9 @@ class Solver {
     }
   }
 
-  [[nodiscard]] Eliminated rows(int tenth) const {
-    return eliminate(sums_.without(tenth), sums_.masses(), sums_.precision());
-  }
-
   /// Y and F of the mass problem, W of ones.
   [[nodiscard]] MassProblem problem_of(const Eliminated& eliminated) const {
-    const Eigen::Index n = sums_.masses();
+    const Eigen::Index n = sums_.bodies();
     MassProblem problem;
     problem.Y.resize(eliminated.rows.rows() + n, n);
     problem.Y << eliminated.rows.leftCols(n), Eigen::MatrixXd(prior_.asDiagonal());
@@ -203,37 +63,90 @@ class Solver {
   }
 
   [[nodiscard]] std::unique_ptr<ShapeMasses> divide(const Eliminated& eliminated) const {
-    const BodyModel& shapes = settings_.shapes;
-    MassProblem problem = problem_of(eliminated);
-    problem.U = shape_columns(shapes);
-    problem.V = shape_volumes(shapes);
-    problem.lambda = default_lambda(problem, settings_.expected_mass);
-    problem.mass_bound = 10.0 * settings_.expected_mass;
-    DivisionOptions division;
-    division.most_divisions = settings_.divisions;
-    division.expected_mass = settings_.expected_mass;
-    return std::make_unique<ShapeMasses>(shapes, std::move(problem), division, settings_.rows.path);
+    BodyModel shapes = shapes_;
+    while (add_places(eliminated, shapes)) continue;
+    return masses_of(shapes, eliminated, settings_.divisions);
   }
 
   /// What the data say by themselves, without given inertias and bodies, effects fitted along.
   [[nodiscard]] reference::Determination determination() const {
-    Eigen::VectorXd size(sums_.masses() + sums_.effects());
+    Eigen::VectorXd size(sums_.links() + sums_.linear());
     size << reference::natural_sizes(settings_.shapes, settings_.expected_mass),
-        sums_.effect_sizes();
+        sums_.linear_sizes();
     reference::Determination all = reference::determine(sums_.blocks(size), size);
-    all.value.conservativeResize(sums_.masses());
-    all.standard_error.conservativeResize(sums_.masses());
-    all.determined.resize(static_cast<std::size_t>(sums_.masses()));
+    all.value.conservativeResize(sums_.links());
+    all.standard_error.conservativeResize(sums_.links());
+    all.determined.resize(static_cast<std::size_t>(sums_.links()));
     return all;
   }
 
  private:
-  const Sums& sums_;
+  [[nodiscard]] std::unique_ptr<ShapeMasses> masses_of(const BodyModel& shapes,
+                                                       const Eliminated& eliminated,
+                                                       int divisions) const {
+    MassProblem problem = problem_of(eliminated);
+    problem.U = shape_columns(shapes);
+    problem.V = shape_volumes(shapes);
+    problem.lambda = default_lambda(problem, expected_mass_);
+    problem.mass_bound = 10.0 * expected_mass_;
+    DivisionOptions division;
+    division.most_divisions = divisions;
+    division.expected_mass = expected_mass_;
+    return std::make_unique<ShapeMasses>(shapes, std::move(problem), division, settings_.rows.path);
+  }
+
+  void add_point(BodyModel& shapes, std::size_t load, const Eigen::Vector3d& place) const {
+    const int body = shapes_.free_links[shapes_.free_links.size() - rooms_.size() + load];
+    shapes.shapes.push_back(
+        {body, make_point(place, volume_of_point_), std::to_string(shapes.shapes.size())});
+  }
+
+  /// For each load the point at which its mass would lower the error most. False, and none, where
+  /// all that further points could gain is nothing beside the error (the objective is convex: no
+  /// more than the slope at the best point times the mass that goes there).
+  [[nodiscard]] bool add_places(const Eliminated& eliminated, BodyModel& shapes) const {
+    constexpr double nothing = 1e-4;
+    constexpr std::size_t most = 40;  // points a load
+    if (shapes.shapes.size() >= shapes_.shapes.size() + most * rooms_.size()) return false;
+    const Eigen::VectorXd Phi = masses_of(shapes, eliminated, 0)->Phi();
+    const MassProblem rows = problem_of(eliminated);
+    const Eigen::VectorXd left = rows.Y * Phi - rows.F;
+    const Eigen::VectorXd gradient = 2.0 * rows.Y.transpose() * left;
+    double gain = 0.0;
+    BodyModel more = shapes;
+    for (std::size_t i = 0; i < rooms_.size(); ++i) {
+      const Eigen::Index own = sums_.links() + 10 * static_cast<Eigen::Index>(i);
+      const SteepestPlace best = steepest_place(gradient.segment<10>(own), rooms_[i]);
+      gain -= best.slope * (Phi[own] > 0.0 ? Phi[own] : expected_mass_);
+      add_point(more, i, best.place);
+    }
+    if (!(gain > nothing * left.squaredNorm())) return false;
+    shapes = std::move(more);
+    return true;
+  }
+
+  const BodySums& sums_;
   const LoopSettings& settings_;
+  double expected_mass_;    ///< where no link is free a load is all that is sought
+  double volume_of_point_;  ///< as a link's shapes have, so that points count no other way
+  BodyModel shapes_;        ///< with the points at which loads are sought first
+  std::vector<Box> rooms_;  ///< one a load
   Eigen::VectorXd prior_, given_;
 };
 
-/// Values of all effects, one after the other, back to their places. Transformations keep theirs.
+/// Which effects have columns, those that are bodies first.
+std::vector<std::size_t> loads_first(const std::vector<AppliedEffect>& effects) {
+  std::vector<std::size_t> list;
+  for (const bool load : {true, false}) {
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+      const Effect& effect = *effects[k].effect;
+      if (!effect.transform.any() && effect.is_payload == load) list.push_back(k);
+    }
+  }
+  return list;
+}
+
+/// Values of these effects, one after the other, back to their places.
 void put_back(const Eigen::VectorXd& theta, const std::vector<std::size_t>& linear,
               std::vector<AppliedEffect>& effects) {
   Eigen::Index column = 0;
@@ -250,7 +163,7 @@ const Found* found_for(const AppliedEffect& effect, const std::vector<Found>& fo
 }
 
 /// The effect with the parameter that cannot be negative and is by most of its errors: another,
-/// that is by less, may be none any more without it.
+/// that is by less, may be none any more without it. A load without mass is none.
 std::size_t impossible(const std::vector<AppliedEffect>& effects, const std::vector<Found>& found) {
   std::size_t worst = effects.size();
   double lowest = 0.0;
@@ -259,7 +172,8 @@ std::size_t impossible(const std::vector<AppliedEffect>& effects, const std::vec
     for (std::size_t p = 0; p < effects[k].effect->parameters.size(); ++p) {
       const auto at = static_cast<Eigen::Index>(p);
       const double value = effects[k].value[at];
-      if (!effects[k].effect->parameters[p].nonnegative || !(value < 0.0)) continue;
+      const bool is_none = effects[k].effect->is_payload ? !(value > 0.0) : value < 0.0;
+      if (!effects[k].effect->parameters[p].nonnegative || !is_none) continue;
       const double error = known != nullptr ? known->standard_error[at] : 0.0;
       const double errors = error > 0.0 ? value / error : -std::numeric_limits<double>::infinity();
       if (worst < effects.size() && errors >= lowest) continue;
@@ -270,19 +184,19 @@ std::size_t impossible(const std::vector<AppliedEffect>& effects, const std::vec
   return worst;
 }
 
-/// Delete-a-tenth jackknife of `answer`, which is Phi_free and theta: about it, and not about the
-/// mean of the tenths, which may stay at a bound together. `masses`: none if no link is free.
-Eigen::VectorXd jackknife(const Solver& solver, const ShapeMasses* masses,
+/// Delete-a-tenth jackknife of `answer`, which is Phi and theta: about it, and not about the
+/// mean of the tenths, which may stay at a bound together. `masses`: none if there are no bodies.
+Eigen::VectorXd jackknife(const BodySums& sums, const Solver& solver, const ShapeMasses* masses,
                           const Eigen::VectorXd& answer) {
   Eigen::MatrixXd answers(answer.size(), tenths);
   for (int tenth = 0; tenth < tenths; ++tenth) {
-    const Eliminated eliminated = solver.rows(tenth);
+    const Eliminated eliminated = sums.rows_without(tenth);
     Eigen::VectorXd Phi;
     if (masses != nullptr) {
       const MassProblem problem = solver.problem_of(eliminated);
       Phi = masses->Phi_of(problem.Y, problem.F);
     }
-    answers.col(tenth) << Phi, effects_of(eliminated, Phi);
+    answers.col(tenth) << Phi, eliminated.effects(Phi);
   }
   constexpr double factor = (tenths - 1.0) / tenths;
   return (factor * (answers.colwise() - answer).rowwise().squaredNorm()).cwiseSqrt();
@@ -290,11 +204,11 @@ Eigen::VectorXd jackknife(const Solver& solver, const ShapeMasses* masses,
 
 /// The jackknife's errors of effects; where too few tenths have a column, those that it has by the
 /// scatter between blocks (`between_blocks`, as values).
-Eigen::VectorXd trusted(Eigen::VectorXd errors, const Sums& sums,
+Eigen::VectorXd trusted(Eigen::VectorXd errors, const BodySums& sums,
                         const std::vector<std::size_t>& linear,
                         const std::vector<AppliedEffect>& between_blocks) {
   constexpr int fewest = 5;
-  const Eigen::ArrayXi held = sums.tenths_with_effects();
+  const Eigen::ArrayXi held = sums.tenths_with_columns();
   Eigen::Index column = 0;
   for (const std::size_t k : linear) {
     for (const double error : between_blocks[k].value) {
@@ -314,14 +228,14 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
   result.model = loop.model;
   while (true) {
     std::vector<AppliedEffect>& effects = result.model.effects;
-    std::vector<std::size_t> linear;
+    const std::vector<std::size_t> linear = loads_first(effects);
     std::vector<AppliedEffect> columns;
     std::vector<bool> since;
-    for (std::size_t k = 0; k < effects.size(); ++k) {
-      if (effects[k].effect->transform.any()) continue;
-      linear.push_back(k);
+    std::vector<int> loads;
+    for (const std::size_t k : linear) {
       columns.push_back(effects[k]);
       since.push_back(effects[k].is_of_the_log_alone());
+      if (effects[k].effect->is_payload) loads.push_back(effects[k].site);
     }
     TallyOptions options;
     options.stride = settings.stride;
@@ -336,26 +250,25 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       add_to_tally(tally, robot, settings.rows, earlier, *reference, options, true);
     }
     add_to_tally(tally, robot, settings.rows, result.model, log, options, false);
-    const Sums sums(shapes, std::move(tally), since);
-    const Solver solver(robot, sums, settings, loop);
-    const Eliminated eliminated = solver.rows(-1);
-    // With every link trusted there is no mass to solve for.
+    const BodySums sums(shapes, std::move(tally), since);
+    const Solver solver(robot, sums, loads, settings, loop);
+    const Eliminated eliminated = sums.rows_without(-1);
+    // With every link trusted and no load there is no mass to solve for.
     std::unique_ptr<ShapeMasses> masses;
-    if (sums.masses() > 0) masses = solver.divide(eliminated);
+    if (sums.bodies() > 0) masses = solver.divide(eliminated);
     const Eigen::VectorXd Phi = masses ? masses->Phi() : Eigen::VectorXd();
-    const Eigen::VectorXd theta = effects_of(eliminated, Phi);
-    put_back(theta, linear, effects);
+    Eigen::VectorXd answer(sums.links() + sums.linear());
+    answer << Phi, eliminated.effects(Phi);
+    put_back(answer.tail(sums.linear()), linear, effects);
     if (const std::size_t bad = impossible(effects, loop.found); bad < effects.size()) {
       const auto at = static_cast<std::ptrdiff_t>(bad);
       result.dropped.push_back(effects[bad]);
       effects.erase(effects.begin() + at);
       continue;
     }
-    result.model.Phi = all_parameters(shapes, Phi);
-    if (sums.masses() > 0) result.data = solver.determination();
-    Eigen::VectorXd answer(Phi.size() + theta.size());
-    answer << Phi, theta;
-    const Eigen::VectorXd errors = jackknife(solver, masses.get(), answer);
+    result.model.Phi = all_parameters(shapes, answer.head(sums.links()));
+    if (sums.links() > 0) result.data = solver.determination();
+    const Eigen::VectorXd errors = jackknife(sums, solver, masses.get(), answer);
     result.Phi_error = Eigen::VectorXd::Zero(result.model.Phi.size());
     for (std::size_t i = 0; i < shapes.free_links.size(); ++i) {
       result.Phi_error.segment<10>(Eigen::Index{10} * shapes.free_links[i]) =
@@ -367,8 +280,7 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       const Found* known = found_for(effects[k], loop.found);
       if (known != nullptr) error_places[k].value = known->standard_error;
     }
-    put_back(trusted(errors.tail(sums.effects()), sums, linear, error_places), linear,
-             error_places);
+    put_back(trusted(errors.tail(sums.linear()), sums, linear, error_places), linear, error_places);
     for (const AppliedEffect& a : error_places) result.effect_error.push_back(a.value);
     return result;
   }

@@ -1,5 +1,5 @@
-// The last step: masses of shapes instead of free parameters, so that every link is a body that can
-// exist, with the effects that were found.
+// The last step: masses of shapes and points instead of free parameters, so that every link and
+// every load is a body that can exist, with the other effects that were found.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,8 +18,8 @@ struct Consistent {
   /// inertias. Empty if no link is free.
   reference::Determination data;
   std::vector<Eigen::VectorXd> effect_error;  ///< one vector an effect of the model
-  /// Effects whose sign became impossible when the masses had to be bodies, and which were left
-  /// out.
+  /// Effects whose sign became impossible when the masses had to be bodies, and loads without mass,
+  /// which were left out.
   std::vector<AppliedEffect> dropped;
 };
 
@@ -29,8 +29,8 @@ struct Consistent {
 void mark_faded(const Recording& log, const LoopSettings& settings, const Consistent& consistent,
                 LoopResult& loop);
 
-/// The effects' linear numbers are eliminated exactly (they are free columns), the masses of the
-/// settings' shapes solved and divided by the settings' path, and the effects put back. Given
+/// The effects' linear numbers, but for loads', are eliminated exactly (they are free columns), the
+/// masses of the settings' shapes and of the loads' points solved and divided by the settings' path, and the effects put back. Given
 /// inertias pull as strongly as screening found useful. Errors by leaving out tenths of the log
 /// (jackknife).
 [[nodiscard]] Consistent make_consistent(const Robot& robot, const Recording& log,

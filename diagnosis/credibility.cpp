@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "shapeid/diagnosis/chance.hpp"
+#include "shapeid/diagnosis/load_places.hpp"
 #include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
@@ -17,14 +18,13 @@ constexpr double least_of_both = 1.1;
 /// Its centre, within its errors, is no further than a load can be from the origin of its link:
 /// moments without mass are none of a load's. Where no data show the mass nothing is known of that.
 bool is_near(const Effect& effect, const Fit& load) {
-  constexpr double furthest = 1.0;  // m
-  constexpr double errors = 2.5;    // standard ones
+  constexpr double errors = 2.5;  // standard ones
   constexpr double rounding = 1e-9;
   const double mass = load.value[0], error = load.standard_error[0];
   if (std::abs(mass) + error < rounding * effect.parameters[0].size) return true;
   const Eigen::Index moments = std::min<Eigen::Index>(3, load.value.size() - 1);
   return load.value.segment(1, moments).norm() <=
-         furthest * std::max(mass + errors * error, 0.0) +
+         furthest_load * std::max(mass + errors * error, 0.0) +
              errors * load.standard_error.segment(1, moments).norm();
 }
 

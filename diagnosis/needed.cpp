@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "shapeid/diagnosis/body_sums.hpp"
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/chance.hpp"
 #include "shapeid/diagnosis/effects.hpp"
@@ -78,7 +79,6 @@ void take_number(const Consistent& consistent, Found& rotor) {
 
 void add_needed_rotors(const Robot& robot, const Recording& log, const Recording* reference,
                        const LoopSettings& settings, LoopResult& loop, Consistent& consistent) {
-  constexpr Eigen::Index tenths = 10;  // of the jackknife
   const double least =
       limit_for(least_z(settings.rule.false_alarms, static_cast<double>(loop.hypotheses)), tenths);
   const std::vector<int> far = far_from_given(robot, settings, consistent);

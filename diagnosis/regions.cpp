@@ -8,6 +8,24 @@
 
 namespace shapeid::diagnosis {
 
+Box box_around(const Robot& robot, const std::vector<SoughtShape>& given, int link) {
+  Box box;
+  const auto include = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    box.lower = box.lower.cwiseMin(a);
+    box.upper = box.upper.cwiseMax(b);
+  };
+  for (const SoughtShape& s : given) {
+    if (s.link != link) continue;
+    const auto [a, b] = bounds(s.shape);
+    include(a, b);
+  }
+  for (const Link& child : robot.links) {
+    const Eigen::Vector3d place = child.joint.placement.translation();
+    if (child.parent == link) include(place, place);
+  }
+  return box;
+}
+
 BodyModel generous_regions(const Robot& robot, const std::vector<int>& free_links) {
   constexpr double wider = 0.25;  // of the longest side, on every side
   // Along each side of the inner part. One box cannot shift its centre of mass, and the criterion
@@ -18,20 +36,7 @@ BodyModel generous_regions(const Robot& robot, const std::vector<int>& free_link
   const std::vector<SoughtShape> given = std::move(model.shapes);
   model.shapes.clear();
   for (const int link : model.free_links) {
-    Eigen::Vector3d lower = Eigen::Vector3d::Zero(), upper = Eigen::Vector3d::Zero();
-    const auto include = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-      lower = lower.cwiseMin(a);
-      upper = upper.cwiseMax(b);
-    };
-    for (const SoughtShape& s : given) {
-      if (s.link != link) continue;
-      const auto [a, b] = bounds(s.shape);
-      include(a, b);
-    }
-    for (const Link& child : robot.links) {
-      const Eigen::Vector3d place = child.joint.placement.translation();
-      if (child.parent == link) include(place, place);
-    }
+    const auto [lower, upper] = box_around(robot, given, link);
     const double margin = wider * (upper - lower).maxCoeff();
     const Eigen::Vector3d outermost = Eigen::Vector3d::Constant(margin);
     const Eigen::Vector3d cell = (upper - lower) / inner;

@@ -193,6 +193,15 @@ TEST(Diagnose, ALoadActsFromItsMomentAlsoInWhatIsHeldOut) {
     return f["effect"] == "payload_from" && f["site"] == "base";
   });
   ASSERT_NE(load, findings.end()) << findings.dump(2);
+  const auto value = [&](const char* name) {
+    return (*load)["values"][name]["value"].get<double>();
+  };
+  EXPECT_NEAR(value("m"), 2.0, 0.1);
+  EXPECT_NEAR(value("mrx") / value("m"), 0.1, 0.02);
+  EXPECT_NEAR(value("mry") / value("m"), 0.02, 0.02);
+  const CommandRun words =
+      shapeid(fmt::format("diagnose {} --trust --log load.csv --quiet", quadruped_files));
+  EXPECT_NE(words.out.find("its centre at (0.1"), std::string::npos) << words.out;
   const auto squares = [&](const char* of) {
     double sum = 0.0;
     for (const auto& rms : result["heldout"][of]) sum += std::pow(rms.get<double>(), 2);

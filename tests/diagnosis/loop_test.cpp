@@ -353,6 +353,59 @@ TEST(Consistent, ALoadThatCameIsNotInTheReference) {
   EXPECT_NEAR(told.model.model.Phi[30], given, 0.1 * given);
 }
 
+/// The load as it was carried is none that can be: its inertia is that of nothing half a metre from
+/// its own centre. The ten numbers alone would repeat it.
+TEST(Consistent, ALoadIsABody) {
+  AppliedEffect load =
+      effect("payload_from", 3, {0.8, 0.02, 0.0, 0.4, -0.06, 0.0, 0.004, -0.06, 0.0, -0.002});
+  load.shape[0] = 9.0;
+  const Told told(record({{load}, 20.0, 0.02, 2}), record({{}, 20.0}), load);
+  ASSERT_EQ(told.model.model.effects.size(), 1U);
+  EXPECT_TRUE(why_impossible(InertialParameters{load.value}));
+  const Eigen::VectorXd& body = told.model.model.effects[0].value;
+  EXPECT_FALSE(why_impossible(InertialParameters{body}));
+  EXPECT_NEAR(body[0], 0.8, 0.2);
+}
+
+/// What was taken away is no load. Free links take most of it, and a body on the other side some.
+TEST(Consistent, WhatWasTakenAwayIsNoLoad) {
+  AppliedEffect less =
+      effect("payload_from", 3, {-0.3, 0.0, 0.0, -0.05, -0.01, 0.0, 0.0, -0.01, 0.0, -0.001});
+  less.shape[0] = 9.0;
+  const Told told(record({{less}, 20.0, 0.02, 2}), record({{}, 20.0}), less);
+  EXPECT_TRUE(told.loop.found[0].faded || !told.model.dropped.empty());
+}
+
+/// Every link is trusted: a load is all that has a mass.
+Consistent of_load_alone(const AppliedEffect& load) {
+  LoopSettings settings = arm_settings();
+  settings.shapes = {stacked_parameters(arm()), {}, {}};
+  settings.expected_mass = 0.0;
+  LoopResult loop;
+  loop.weight = Eigen::VectorXd::Ones(3);
+  loop.model = {stacked_parameters(arm()), {load}};
+  loop.found = {{load, "told", Eigen::VectorXd::Zero(10)}};
+  return make_consistent(arm(), record({{load}}), nullptr, settings, loop);
+}
+
+/// On a link that turns about one axis a negative inertia has no other side.
+TEST(Consistent, ALoadWithoutMassIsLeftOut) {
+  const Consistent result = of_load_alone(
+      effect("payload", 1, {-0.3, 0.0, 0.0, 0.0, -0.05, 0.0, 0.0, -0.05, 0.0, -0.05}));
+  EXPECT_TRUE(result.model.effects.empty());
+  ASSERT_EQ(result.dropped.size(), 1U);
+  EXPECT_EQ(result.dropped[0].effect->id, "payload");
+}
+
+TEST(Consistent, ALoadOfTrustedLinksComesBack) {
+  const Consistent result =
+      of_load_alone(effect("payload", 3, {0.8, 0.0, 0.0, 0.2, 0.06, 0.0, 0.0, 0.06, 0.0, 0.002}));
+  EXPECT_EQ(result.model.Phi, stacked_parameters(arm()));
+  ASSERT_EQ(result.model.effects.size(), 1U);
+  EXPECT_NEAR(result.model.effects[0].value[0], 0.8, 0.001);
+  EXPECT_NEAR(result.model.effects[0].value[3], 0.2, 0.001);
+}
+
 /// With two links known the third comes back as it is (a wrong column of known forces once gave it
 /// the mass of all three).
 TEST(Consistent, KnownLinksAreMovedOver) {
