@@ -22,6 +22,9 @@ inline constexpr double regularity = 1e-10;
 /// deviation of each number, all hypotheses one after the other.
 [[nodiscard]] Eigen::VectorXd wide_sizes(const Tally& tally);
 
+/// One hypothesis contains another if this share of its columns is in the other's span.
+inline constexpr double nested_share = 0.9999;
+
 /// Columns that enter a fit together, from a block on (a payload that comes late, a change since
 /// the reference log).
 struct Term {

@@ -7,6 +7,7 @@
 #include "shapeid/diagnosis/best_round.hpp"
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/exchange.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/prior.hpp"
@@ -37,6 +38,12 @@ class Loop {
       } while (!all_transformations_stay());
       question_names(state_);
     } while (ban_mere_moments());
+    for (Found& f : result_.found) {
+      std::vector<std::string>& names = f.ambiguous_with;
+      names.insert(names.end(), f.exchangeable.begin(), f.exchangeable.end());
+      std::sort(names.begin(), names.end());
+      names.erase(std::unique(names.begin(), names.end()), names.end());
+    }
     compare();
     return std::move(result_);
   }
@@ -125,6 +132,7 @@ class Loop {
     note_large_transformation(fits, fixed, list, selection);
     result_.prior = choose_prior(fits, chosen_terms(fixed, list, selection));
     take_selection(fits, fixed, list, selection, state_);
+    note_exchangeable(fits, fixed, list, selection, state_);
     if (round_ == 0) note_first_ranking(list, selection, result_);
   }
 

@@ -41,6 +41,8 @@ struct Found {
   Eigen::VectorXd standard_error;
   double gain = 0.0, t = 0.0;  ///< of having it, all others in
   std::vector<std::string> ambiguous_with = {};
+  /// Of an applied transformation, what beside all that was found last says exactly the same.
+  std::vector<std::string> exchangeable = {};
   /// A law without a name that predicts better in its place, though not by more than chance.
   std::optional<Stranger> rival = {};
   /// Its number follows a signal: something is there, but not what the name says.

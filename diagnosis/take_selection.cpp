@@ -44,14 +44,8 @@ void take_selection(const BlockFits& fits, const Term& fixed, const std::vector<
   for (const Verdict& verdict : selection.accepted) {
     const Candidate& candidate = list[verdict.candidate];
     const Eigen::Index n = std::ssize(candidate.term.columns);
-    Found found{candidate.effect,
-                candidate.term.id,
-                selection.fit.standard_error.segment(column, n),
-                verdict.gain,
-                verdict.t,
-                {},
-                {},
-                {}};
+    Found found{candidate.effect, candidate.term.id,
+                selection.fit.standard_error.segment(column, n), verdict.gain, verdict.t};
     found.effect.value = selection.fit.value.segment(column, n);
     found.only_with_others = !verdict.by_itself;
     column += n;

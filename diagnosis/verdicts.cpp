@@ -17,8 +17,6 @@ constexpr double rival_sign_t = 2.0;
 // Standard errors by which a rival must gain to be named in an accepted one's place. (Near the
 // limit of acceptance chance decides which of two passes: a rival need only gain something.)
 constexpr double rival_t = 1.0;
-// One hypothesis contains another if this share of its columns is in the other's span.
-constexpr double nested_share = 0.9999;
 
 bool gains_something(const Gain& own) { return own.t > rival_t && own.share > 0.0; }
 

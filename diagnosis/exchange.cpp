@@ -1,0 +1,55 @@
+#include "shapeid/diagnosis/exchange.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "shapeid/diagnosis/candidates.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+Term without(Term term, const Term& part) {
+  std::erase_if(term.columns, [&](Eigen::Index column) {
+    return std::count(part.columns.begin(), part.columns.end(), column) > 0;
+  });
+  term.nonnegative.assign(term.columns.size(), false);
+  return term;
+}
+
+bool is_believed(const Effect& effect, const Eigen::VectorXd& value) {
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+    if (std::abs(value[static_cast<Eigen::Index>(p)]) > effect.parameters[p].limit) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void note_exchangeable(const BlockFits& fits, const Term& fixed, const std::vector<Candidate>& list,
+                       const Selection& selection, LoopState& state) {
+  const Tally& tally = fits.tally();
+  for (Found& f : state.result.found) {
+    f.exchangeable.clear();
+    const auto place =
+        std::find_if(tally.hypotheses.begin(), tally.hypotheses.end(),
+                     [&](const AppliedEffect& h) { return same_place(h, f.effect); });
+    if (place == tally.hypotheses.end() || !state.is_applied_transformation(*place)) continue;
+    const Term own =
+        term_of(state.robot, tally, static_cast<std::size_t>(place - tally.hypotheses.begin()));
+    std::vector<Term> others = {without(fixed, own)};
+    for (const Verdict& v : selection.accepted) others.push_back(list[v.candidate].term);
+    for (const std::size_t k : selection.hidden) {
+      const Candidate& hidden = list[k];
+      if (!hidden.members.empty()) continue;
+      if (!(fits.contained(others, own, hidden.term) > nested_share)) continue;
+      std::vector<Term> with = others;
+      with.push_back(hidden.term);
+      const Eigen::MatrixXd moves = fits.moves(with, {own}).front();
+      const Eigen::VectorXd instead =
+          moves.bottomRows(std::ssize(hidden.term.columns)) * f.effect.value;
+      if (is_believed(*hidden.effect.effect, instead)) f.exchangeable.push_back(hidden.term.id);
+    }
+  }
+}
+
+}  // namespace shapeid::diagnosis
