@@ -39,12 +39,12 @@ Box room_for_load(const Robot& robot, const std::vector<SoughtShape>& shapes, in
 std::vector<Eigen::Vector3d> first_places(const Box& room) {
   // The link itself takes up the room but for what lies beyond it.
   constexpr std::array<double, 4> beyond = {0.0, 0.8, 0.95, 1.0};
-  std::array<std::array<double, 8>, 3> along;
+  std::array<std::vector<double>, 3> along;
   for (int axis = 0; axis < 3; ++axis) {
-    auto place = along[static_cast<std::size_t>(axis)].begin();
     for (const double share : beyond) {
-      *place++ = room.lower[axis] + share * furthest_load;
-      *place++ = room.upper[axis] - share * furthest_load;
+      auto& places = along[static_cast<std::size_t>(axis)];
+      places.push_back(room.lower[axis] + share * furthest_load);
+      places.push_back(room.upper[axis] - share * furthest_load);
     }
   }
   std::vector<Eigen::Vector3d> places;

@@ -36,7 +36,8 @@ BodyModel generous_regions(const Robot& robot, const std::vector<int>& free_link
   const std::vector<SoughtShape> given = std::move(model.shapes);
   model.shapes.clear();
   for (const int link : model.free_links) {
-    const auto [lower, upper] = box_around(robot, given, link);
+    const Box box = box_around(robot, given, link);
+    const Eigen::Vector3d &lower = box.lower, &upper = box.upper;
     const double margin = wider * (upper - lower).maxCoeff();
     const Eigen::Vector3d outermost = Eigen::Vector3d::Constant(margin);
     const Eigen::Vector3d cell = (upper - lower) / inner;
