@@ -13,6 +13,14 @@ namespace {
 // Of a parameter's usual size: small enough for the third derivative, large against rounding.
 constexpr double part_of_size = 0.01;
 
+/// Small; but the derivative by a delay is a rate, whose noise the load's own span keeps down. (Of
+/// neighbouring samples, noise made it twice as long as it is: two lags then took more than the
+/// delay that they were.)
+double step_of(const Robot& robot, const Effect& effect, const Parameter& parameter) {
+  const bool is_delay = effect.transform.sample != nullptr && parameter.unit == "s";
+  return is_delay ? neighbour_step(robot) : part_of_size * parameter.size;
+}
+
 /// The model's effects with the hypothesis among them, its parameter changed by `step`.
 std::vector<AppliedEffect> stepped(std::vector<AppliedEffect> effects,
                                    const AppliedEffect& hypothesis, Eigen::Index parameter,
@@ -59,7 +67,8 @@ HypothesisColumns::HypothesisColumns(const Robot& robot, RowSource source, const
     auto& differences = differences_.emplace_back();
     if (!h.effect->transform.any()) continue;
     for (Eigen::Index p = 0; p < h.value.size(); ++p) {
-      const double h_step = part_of_size * h.effect->parameters[static_cast<std::size_t>(p)].size;
+      const double h_step =
+          step_of(robot, *h.effect, h.effect->parameters[static_cast<std::size_t>(p)]);
       differences.push_back({Viewer(robot, source, stepped(model.effects, h, p, h_step)),
                              Viewer(robot, source, stepped(model.effects, h, p, -h_step)),
                              2.0 * h_step});

@@ -104,7 +104,7 @@ class Loop {
       const std::size_t taken = take_best_of(rounds, state_);
       if (taken + 1 < rounds.size()) large_.reset();  // it is the last round's
     }
-    try_large_transformation();
+    try_large_transformations();
     try_noise_for_weight();
   }
 
@@ -136,8 +136,18 @@ class Loop {
     if (round_ == 0) note_first_ranking(list, selection, result_);
   }
 
-  /// The transformation that, as its derivative, takes away most of what all that was accepted
-  /// does, alone or beside the strongest of these, if there is one.
+  /// Fewer numbers, unless they predict worse; of as many, what predicts better.
+  [[nodiscard]] static bool is_preferred(const Candidate& one, const Eigen::VectorXd& error,
+                                         const Candidate& other,
+                                         const Eigen::VectorXd& other_error) {
+    const std::size_t numbers = one.term.columns.size(), others = other.term.columns.size();
+    if (numbers < others) return !(gain_of(error, other_error).t > not_worse_t);
+    if (numbers > others) return gain_of(other_error, error).t > not_worse_t;
+    return error.sum() < other_error.sum();
+  }
+
+  /// The transformation that, as its derivative, takes away most, and much, of what all that was
+  /// accepted does, alone or beside the strongest of these, if there is one.
   void note_large_transformation(const BlockFits& fits, const Term& fixed,
                                  const std::vector<Candidate>& list, const Selection& selection) {
     large_.reset();
@@ -148,9 +158,12 @@ class Loop {
     for (const std::vector<Term>& beside :
          {std::vector<Term>{fixed}, std::vector<Term>{fixed, list[strongest->candidate].term}}) {
       if (large_) return;
-      constexpr double most = 0.5;
+      // Half of it was asked until a delay of 10 ms, as its derivative, took 46 % of what two lags
+      // did, and all when it was applied.
+      constexpr double much = 0.3;
       const double before = fits.held_out(beside).sum();
-      double least = before - most * (before - selection.error_end.sum());
+      const double enough = before - much * (before - selection.error_end.sum());
+      Eigen::VectorXd least;  // of large_
       for (std::size_t k = 0; k < list.size(); ++k) {
         const Candidate& c = list[k];
         const bool accepted = std::any_of(selection.accepted.begin(), selection.accepted.end(),
@@ -158,8 +171,9 @@ class Loop {
         if (!c.effect.effect->transform.any() || c.effect.since_reference || accepted) continue;
         std::vector<Term> with = beside;
         with.push_back(c.term);
-        const double error = fits.held_out(with).sum();
-        if (error >= least) continue;
+        const Eigen::VectorXd error = fits.held_out(with);
+        if (!(error.sum() < enough)) continue;
+        if (large_ && !is_preferred(c, error, *large_, least)) continue;
         least = error;
         large_ = c;
       }
@@ -167,23 +181,30 @@ class Loop {
   }
 
   /// What a large transformation leaves of its derivative looks like further effects. So one that
-  /// would explain most by itself is applied alone, exactly, and the others are sought beside it.
-  /// That stays if it needs fewer effects and predicts no worse.
-  void try_large_transformation() {
+  /// would explain much by itself is applied alone, exactly, and the others are sought beside it;
+  /// once more, if then another would. That stays if it needs fewer effects and predicts no worse.
+  void try_large_transformations() {
     if (!large_ || result_.found.size() < 2) return;
     const LoopResult several = result_;
     const std::vector<AppliedEffect> banned = banned_;
     const Eigen::VectorXd error = state_.held_out_of_model();
     const auto start = std::chrono::steady_clock::now();
-    result_.found = {
-        Found{large_->effect, large_->term.id, Eigen::VectorXd::Zero(large_->effect.value.size())}};
-    state_.collect_effects();
-    refit(state_);
-    screen();
-    refit(state_);
-    prune_transformations();
-    const bool simpler = result_.found.size() < several.found.size() &&
-                         !(gain_of(state_.held_out_of_model(), error).t > not_worse_t);
+    std::vector<Found> applied;
+    bool simpler = false;
+    constexpr std::size_t most = 2;
+    while (large_ && !simpler && applied.size() < most) {
+      applied.push_back(
+          {large_->effect, large_->term.id, Eigen::VectorXd::Zero(large_->effect.value.size())});
+      result_.found = applied;
+      state_.collect_effects();
+      refit(state_);
+      applied = result_.found;
+      screen();
+      refit(state_);
+      prune_transformations();
+      simpler = result_.found.size() < several.found.size() &&
+                !(gain_of(state_.held_out_of_model(), error).t > not_worse_t);
+    }
     if (!simpler) {
       result_ = several;
       banned_ = banned;

@@ -7,26 +7,14 @@
 #include <cmath>
 #include <vector>
 
-#include "shapeid/models/simbody/random.hpp"
 #include "shapeid/models/urdf.hpp"
+#include "shapeid/tests/blind/parts/draws.hpp"
 
 namespace shapeid::blind {
 namespace {
 
 constexpr double pi = 3.141592653589793;
 constexpr double gravity = 9.81;
-
-std::size_t draw(Random& random, std::size_t count) {
-  return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
-}
-
-bool chance(Random& random, double share) { return random.uniform() < share; }
-
-Eigen::Vector3d direction(Random& random) {
-  Eigen::Vector3d d;
-  for (double& x : d) x = random.normal();
-  return d.normalized();
-}
 
 std::string text(const Eigen::Vector3d& v) {
   return fmt::format("{:.4f} {:.4f} {:.4f}", v.x(), v.y(), v.z());

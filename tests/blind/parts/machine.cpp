@@ -1,12 +1,14 @@
 #include "shapeid/tests/blind/parts/machine.hpp"
 
 #include <charconv>
+#include <optional>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/simbody/random.hpp"
 #include "shapeid/models/text.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/tests/blind/parts/drawn.hpp"
+#include "shapeid/tests/blind/parts/drawn_quadruped.hpp"
 
 namespace shapeid::blind {
 namespace {
@@ -21,6 +23,15 @@ Machine of_files(const std::string& urdf, const std::string& yaml, Root root) {
   m.robot = read_urdf(urdf, options).robot;
   m.notes = read_robot_yaml(yaml, m.robot);
   return m;
+}
+
+std::optional<std::uint64_t> seed_behind(const std::string& prefix, const std::string& name) {
+  std::uint64_t seed = 0;
+  if (!name.starts_with(prefix)) return std::nullopt;
+  const char* end = name.data() + name.size();
+  const auto read = std::from_chars(name.data() + prefix.size(), end, seed);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  return seed;
 }
 
 }  // namespace
@@ -48,13 +59,10 @@ Machine quadruped() {
 Machine machine(const std::string& name) {
   if (name == "arm") return arm();
   if (name == "quadruped") return quadruped();
-  if (name.starts_with(drawn_prefix)) {
-    std::uint64_t seed = 0;
-    const char* end = name.data() + name.size();
-    const auto read = std::from_chars(name.data() + drawn_prefix.size(), end, seed);
-    if (read.ec == std::errc() && read.ptr == end) return drawn_arm(seed);
-  }
-  throw InputError("no robot is called " + name, "arm, quadruped, or drawn and a number");
+  if (const auto seed = seed_behind(drawn_prefix, name)) return drawn_arm(*seed);
+  if (const auto seed = seed_behind(quadruped_prefix, name)) return drawn_quadruped(*seed);
+  throw InputError("no robot is called " + name,
+                   "arm, quadruped, or drawn or trotter and a number");
 }
 
 std::vector<InertialParameters> wrong_inertias(const Machine& machine, std::uint64_t seed) {

@@ -6,11 +6,12 @@
 
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/robot_yaml.hpp"
+#include "shapeid/models/simbody/trot_controller.hpp"
 
 namespace shapeid::blind {
 
 struct Machine {
-  std::string name;        ///< "arm", "quadruped", or "drawn" and a seed
+  std::string name;        ///< "arm", "quadruped", or "drawn", "trotter" and a seed
   std::string urdf, yaml;  ///< the texts
   Robot robot;             ///< as it is: the texts' numbers
   RobotNotes notes;
@@ -18,9 +19,10 @@ struct Machine {
   double rate = 0.0;            ///< Hz, of logs
   double cutoff = 0.0;          ///< Hz, of the filter that the diagnosis is told to use
   double frequency = 0.2;       ///< Hz, of an arm's slowest swing
+  TrotOptions trot;             ///< of a quadruped
 };
 
-inline const std::string drawn_prefix = "drawn";
+inline const std::string drawn_prefix = "drawn", quadruped_prefix = "trotter";
 
 [[nodiscard]] Machine arm();
 [[nodiscard]] Machine quadruped();

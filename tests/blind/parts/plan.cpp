@@ -12,6 +12,7 @@
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
+#include "shapeid/tests/blind/parts/draws.hpp"
 #include "shapeid/tests/blind/parts/yardstick.hpp"
 
 namespace shapeid::blind {
@@ -21,6 +22,11 @@ namespace fs = std::filesystem;
 
 constexpr std::array<double, 5> ratios = {0.5, 1.0, 2.0, 4.0, 8.0};
 constexpr std::uint64_t motions = 5;  // of each robot; clean ones are simulated once
+
+/// Without anything in it a robot should walk; of those that are drawn not every one can.
+struct CleanFall : std::runtime_error {
+  CleanFall() : std::runtime_error("a clean robot fell: choose another seed") {}
+};
 
 class Generator {
  public:
@@ -37,19 +43,24 @@ class Generator {
     Random random(options_.seed * 1000003 + static_cast<std::uint64_t>(number));
     const Machine m = machine(name_of_machine(number));
     // No other trial has the robot, whose simulations would only be kept.
-    if (options_.drawn_arms) clean_.clear();
+    if (options_.drawn_arms || options_.drawn_quadrupeds) clean_.clear();
     Trial trial;
     trial.machine = m.name;
     trial.motion_seed = 100 * options_.seed + 1 + draw(random, motions);
     trial.noise_seed = options_.seed * 10007 + static_cast<std::uint64_t>(number);
     trial.inertia_seed = trial.noise_seed + 5;
     logs_.clear();
-    put_items(m, number, random, trial);
-
     const std::string own = fmt::format("{}/trial{:04}", folder_, number);
     fs::create_directories(own);
-    trial.reference = needs_reference(trial) || has_spare_reference(trial.noise_seed);
-    if (!write_trial(m, trial, own)) {
+    bool walked = false;
+    try {
+      put_items(m, number, random, trial);
+      trial.reference = needs_reference(trial) || has_spare_reference(trial.noise_seed);
+      walked = write_trial(m, trial, own);
+    } catch (const CleanFall&) {
+      if (!options_.drawn_quadrupeds) throw;
+    }
+    if (!walked) {
       trial.error = "the robot fell";
       trial.reference = false;
     }
@@ -60,15 +71,12 @@ class Generator {
  private:
   [[nodiscard]] std::string name_of_machine(int number) const {
     const int every = options_.quadruped_every;
-    if (every > 0 && number % every == every - 1) return "quadruped";
-    if (!options_.drawn_arms) return "arm";
     constexpr std::uint64_t apart = 10000;
-    return fmt::format("{}{}", drawn_prefix,
-                       apart * options_.seed + static_cast<std::uint64_t>(number));
-  }
-
-  static std::size_t draw(Random& random, std::size_t count) {
-    return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
+    const std::uint64_t own = apart * options_.seed + static_cast<std::uint64_t>(number);
+    if (every > 0 && number % every == every - 1) {
+      return options_.drawn_quadrupeds ? fmt::format("{}{}", quadruped_prefix, own) : "quadruped";
+    }
+    return options_.drawn_arms ? fmt::format("{}{}", drawn_prefix, own) : "arm";
   }
 
   /// A motion with nothing in it.
@@ -77,7 +85,7 @@ class Generator {
     const auto known = clean_.find(key);
     if (known != clean_.end()) return known->second;
     Readings readings = simulate_clean(m, seed);
-    if (readings.empty()) throw std::runtime_error("a clean robot fell: choose another seed");
+    if (readings.empty()) throw CleanFall();
     return clean_.emplace(key, std::move(readings)).first->second;
   }
 

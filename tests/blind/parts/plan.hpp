@@ -15,8 +15,9 @@ struct PlanOptions {
   int trials = 20;
   int quadruped_every = 4;  ///< every how many trials; 0: arms alone
   bool drawn_arms = false;  ///< each arm is another one (drawn.hpp); phases are of five motions
-  double ratio = 0.0;       ///< times the detectable size, of every effect; 0: drawn
-  std::string only;         ///< trials of this kind alone ("clean" for none); empty: all kinds
+  bool drawn_quadrupeds = false;  ///< likewise (drawn_quadruped.hpp)
+  double ratio = 0.0;             ///< times the detectable size, of every effect; 0: drawn
+  std::string only;  ///< trials of this kind alone ("clean" for none); empty: all kinds
 };
 
 /// Whether a trial with this noise has a reference log that it does not need: a third do, whatever

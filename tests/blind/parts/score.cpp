@@ -554,10 +554,10 @@ std::string tables(const std::vector<Scored>& all) {
   text += table(all, "effect", [](const Trial& t) { return is_foreign(t) ? kind_of(t) : ""; });
   text += "By robot:\n\n";
   text += table(all, "robot", [](const Trial& t) {
-    const bool drawn = t.machine.starts_with(drawn_prefix);
-    return (drawn ? "drawn arm" : t.machine) + (t.items.empty() ? ", clean"
-                                                : is_foreign(t) ? ", foreign"
-                                                                : ", catalogue");
+    const std::string robot = t.machine.starts_with(drawn_prefix)       ? "drawn arm"
+                              : t.machine.starts_with(quadruped_prefix) ? "drawn quadruped"
+                                                                        : t.machine;
+    return robot + (t.items.empty() ? ", clean" : is_foreign(t) ? ", foreign" : ", catalogue");
   });
   return text;
 }

@@ -45,6 +45,7 @@ Readings simulate(const Machine& machine, const Ingredients& in, std::uint64_t s
   SimulationOptions options;
   options.duration = duration;
   options.rate = machine.rate;
+  options.trot = machine.trot;
   options.seed = seed;
   options.ground = in.ground;
   options.load = in.load;

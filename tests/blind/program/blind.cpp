@@ -55,6 +55,8 @@ int main(int argc, char** argv) {
   generating->add_option("--seed", options.seed)->capture_default_str();
   generating->add_option("--quadruped-every", options.quadruped_every)->capture_default_str();
   generating->add_flag("--drawn-arms", options.drawn_arms, "each arm is another one");
+  generating->add_flag("--drawn-quadrupeds", options.drawn_quadrupeds,
+                       "each quadruped is another one");
   generating->add_option("--ratio", options.ratio, "times the detectable size (default: drawn)");
   generating->add_option("--only", options.only, "this kind alone, or clean");
   CLI::App* scoring = app.add_subcommand("score", "opens the seals and prints the tables");
