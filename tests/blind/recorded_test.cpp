@@ -81,6 +81,20 @@ TEST(Blind, ALoadOnALinkThatShowsNoMass) {
   EXPECT_EQ(judged.said, "payload_from@link1");
 }
 
+/// An arm of two joints with noise that is large beside its motion: at 27f1125 the derivative by a
+/// delay was that of neighbouring samples, twice as long by noise as it is, and two lags took more.
+TEST(Blind, ADelayIsNotALagOfEveryJoint) {
+  PlanOptions options;
+  options.seed = 32;
+  options.quadruped_every = 0;
+  options.drawn_arms = true;
+  options.only = "torque_delay";
+  options.ratio = 8.0;
+  const Judgement judged = judgement_of(options, 3);
+  EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
+  EXPECT_EQ(judged.said, "torque_delay@all");
+}
+
 /// What the filter makes of a trot comes back in every stride, and once was called by ten names.
 TEST(Blind, ATrotWithoutAnyEffectGetsNoName) {
   PlanOptions options;
