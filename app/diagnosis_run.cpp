@@ -11,6 +11,7 @@
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/diagnosis/checks.hpp"
 #include "shapeid/diagnosis/contact_flags.hpp"
+#include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/needed.hpp"
 #include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/diagnosis/slowness.hpp"
@@ -350,10 +351,13 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   run.settings.rough_reference = pointer(rough_earlier);
   run.settings.cutoff = options.inputs.cutoff;
   Recording* reference = pointer(earlier);
-  const std::vector<diagnosis::Found> flags = diagnosis::correct_contact_flags(
+  std::vector<diagnosis::Found> flags = diagnosis::correct_contact_flags(
       robot.robot, log.recording, reference, {pointer(rough), pointer(rough_earlier), &run.test},
       run.settings);
   run.loop = diagnosis::close_loop(robot.robot, log.recording, reference, run.settings);
+  for (diagnosis::Found& f : flags) {
+    f.beside_unknown = diagnosis::is_beside_unknown(robot.robot, run.loop, f);
+  }
   log.recording.set_correction(run.loop.correction);
   if (reference != nullptr) reference->set_correction(run.loop.reference_correction);
   run.consistent =

@@ -17,6 +17,10 @@ constexpr double better_t = 2.0;
 
 bool is_ripple(const AppliedEffect& a) { return a.effect->id == "cogging"; }
 
+/// The squared error that comes back without it, in those of what is left: `share` is of the error
+/// without it.
+double worth(double share) { return share / (1.0 - share); }
+
 class Names {
  public:
   explicit Names(LoopState& state) : state_(state), found_(state.result.found) {}
@@ -46,7 +50,9 @@ class Names {
                         !pushes(state_.log, found_[k].effect.value);
       if (!asked.own_term[k] && !found_[k].displaced) contest_transformation(k, errors, own);
     }
-    mark_beside_unknown();
+    for (Found& f : found_) {
+      f.beside_unknown = is_beside_unknown(state_.robot, state_.result, f);
+    }
   }
 
  private:
@@ -128,30 +134,6 @@ class Names {
     if (instead->error.sum() < named.sum()) found_[k].rival = instead->stranger;
   }
 
-  /// The squared error that comes back without it, in those of what is left: `share` is of the
-  /// error without it.
-  [[nodiscard]] static double worth(double share) { return share / (1.0 - share); }
-
-  /// What is worth less than all that is unknown on the same joints may be a part of it: laws
-  /// without a name, and effects whose number follows a signal.
-  void mark_beside_unknown() {
-    for (Found& f : found_) {
-      const std::vector<bool> reach = reach_of(state_.robot, f.effect);
-      double unknown = 0.0;
-      for (const Stranger& s : state_.result.strangers) {
-        if (reach[static_cast<std::size_t>(s.law.joint)]) unknown += worth(s.gain);
-      }
-      for (const Found& other : found_) {
-        if (!other.varies || other.displaced || &other == &f) continue;
-        const std::vector<bool> its = reach_of(state_.robot, other.effect);
-        const bool same = std::inner_product(its.begin(), its.end(), reach.begin(), false,
-                                             std::logical_or<>(), std::logical_and<>());
-        if (same) unknown += worth(other.gain);
-      }
-      f.beside_unknown = worth(f.gain) < unknown;
-    }
-  }
-
   /// Whether a ripple is worth no more, within chance, than the best over another joint's position,
   /// sought likewise. A period that was sought on all blocks fits each of them: what that is worth
   /// held-out errors do not tell.
@@ -173,6 +155,22 @@ class Names {
 };
 
 }  // namespace
+
+bool is_beside_unknown(const Robot& robot, const LoopResult& loop, const Found& f) {
+  const std::vector<bool> reach = reach_of(robot, f.effect);
+  double unknown = 0.0;
+  for (const Stranger& s : loop.strangers) {
+    if (reach[static_cast<std::size_t>(s.law.joint)]) unknown += worth(s.gain);
+  }
+  for (const Found& other : loop.found) {
+    if (!other.varies || other.displaced || &other == &f) continue;
+    const std::vector<bool> its = reach_of(robot, other.effect);
+    const bool same = std::inner_product(its.begin(), its.end(), reach.begin(), false,
+                                         std::logical_or<>(), std::logical_and<>());
+    if (same) unknown += worth(other.gain);
+  }
+  return worth(f.gain) < unknown;
+}
 
 void question_names(LoopState& state) { Names(state).question(); }
 

@@ -8,8 +8,11 @@
 
 #include "shapeid/diagnosis/hypotheses.hpp"
 #include "shapeid/diagnosis/loop.hpp"
+#include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/placebo.hpp"
 #include "shapeid/diagnosis/unexplained.hpp"
+#include "shapeid/models/robot_yaml.hpp"
+#include "shapeid/models/urdf.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
 namespace shapeid::diagnosis {
@@ -33,6 +36,30 @@ const Found* found(const LoopResult& result, const std::string& id) {
     if (f.id == id) return &f;
   }
   return nullptr;
+}
+
+/// Trial 4 of seed 9531, whose torque lags at one hip, had that foot touch down late by name.
+TEST(Names, AreAPartOfWhatIsUnknownOnTheSameJoints) {
+  const std::string folder = SHAPEID_SOURCE_DIR "/models/robots/";
+  Robot robot = read_urdf(folder + "quadruped.urdf").robot;
+  (void)read_robot_yaml(folder + "quadruped.robot.yaml", robot);
+  constexpr int foot = 2;
+  ASSERT_EQ(robot.contacts[foot].name, "RR_foot");
+  Found late{effect("contact_late", foot, {0.12}), "contact_late@RR_foot", Eigen::VectorXd::Ones(1),
+             0.03};
+  const auto beside = [&](const char* joint, double gain) {
+    LoopResult loop;
+    Stranger unknown;
+    unknown.law.joint = robot.find_joint(joint).value();
+    unknown.gain = gain;
+    loop.strangers = {unknown};
+    return is_beside_unknown(robot, loop, late);
+  };
+  for (const char* own : {"RR_abad", "RR_hip", "RR_knee"}) {
+    EXPECT_TRUE(beside(own, 0.04)) << own;
+    EXPECT_FALSE(beside(own, 0.02)) << own;
+  }
+  EXPECT_FALSE(beside("FR_hip", 0.04));
 }
 
 TEST(Names, StandWhereTheLawIsTrue) {
