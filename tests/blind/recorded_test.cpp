@@ -47,7 +47,7 @@ TEST(Blind, AFixedSetIsScoredAsRecorded) {
   for (const Recorded& r : recorded) {
     SCOPED_TRACE(r.only);
     PlanOptions options;
-    options.seed = 31;
+    options.seed = 41;
     options.quadruped_every = 0;
     options.only = r.only;
     options.ratio = 8.0;
