@@ -30,9 +30,9 @@ void mark_faded(const Recording& log, const LoopSettings& settings, const Consis
                 LoopResult& loop);
 
 /// The effects' linear numbers, but for loads', are eliminated exactly (they are free columns), the
-/// masses of the settings' shapes and of the loads' points solved and divided by the settings' path, and the effects put back. Given
-/// inertias pull as strongly as screening found useful. Errors by leaving out tenths of the log
-/// (jackknife).
+/// masses of the settings' shapes and of the loads' points solved and divided by the settings'
+/// path, and the effects put back. Given inertias pull as strongly as screening found useful.
+/// Errors by leaving out tenths of the log (jackknife).
 [[nodiscard]] Consistent make_consistent(const Robot& robot, const Recording& log,
                                          const Recording* reference, const LoopSettings& settings,
                                          const LoopResult& loop);

@@ -124,8 +124,8 @@ TEST(DrawnQuadrupeds, AreMirroredBodies) {
     EXPECT_GT(feet[0].x(), 0.0);
     EXPECT_LT(feet[2].x(), 0.0);
     EXPECT_LT(m.trot.height, -feet[0].z());
-    for (int j = 0; j < 3; ++j) {
-      const auto own = static_cast<std::size_t>(1 + j), other = own + 3;
+    for (const std::size_t own : {1U, 2U, 3U}) {
+      const std::size_t other = own + 3;
       EXPECT_DOUBLE_EQ(m.robot.links[own].inertia.mass(), m.robot.links[other].inertia.mass());
     }
     if (m.robot.joint(1).placement.linear().trace() < 2.9) ++turned;
