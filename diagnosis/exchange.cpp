@@ -1,6 +1,7 @@
 #include "shapeid/diagnosis/exchange.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "shapeid/diagnosis/candidates.hpp"

@@ -9,7 +9,8 @@
 
 namespace shapeid::diagnosis {
 
-/// No load has its centre further from the origin of its link, m.
+/// m: how far beyond its link a load is sought, and how far from the link's origin a name's load
+/// may have its centre.
 inline constexpr double furthest_load = 1.0;
 
 /// `furthest_load` beyond the link on every side. `shapes`: of links, among them those of this one,

@@ -66,17 +66,22 @@ TEST(Blind, AnOffsetBringsNoOtherWithIt) {
   EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
 }
 
+/// A drawn arm with one effect of eight times the detectable size.
+PlanOptions drawn_arm_with(const std::string& effect, std::uint64_t seed) {
+  PlanOptions options;
+  options.seed = seed;
+  options.quadruped_every = 0;
+  options.drawn_arms = true;
+  options.only = effect;
+  options.ratio = 8.0;
+  return options;
+}
+
 /// A load on the first link of an arm, which turns about one axis alone, so that its mass shows
 /// nowhere: at 19f711f its name was believed of no such load, since zero over an error of zero is
 /// no number.
 TEST(Blind, ALoadOnALinkThatShowsNoMass) {
-  PlanOptions options;
-  options.seed = 31;
-  options.quadruped_every = 0;
-  options.drawn_arms = true;
-  options.only = "payload_from";
-  options.ratio = 8.0;
-  const Judgement judged = judgement_of(options);
+  const Judgement judged = judgement_of(drawn_arm_with("payload_from", 31));
   EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
   EXPECT_EQ(judged.said, "payload_from@link1");
 }
@@ -84,13 +89,7 @@ TEST(Blind, ALoadOnALinkThatShowsNoMass) {
 /// An arm of two joints with noise that is large beside its motion: at 27f1125 the derivative by a
 /// delay was that of neighbouring samples, twice as long by noise as it is, and two lags took more.
 TEST(Blind, ADelayIsNotALagOfEveryJoint) {
-  PlanOptions options;
-  options.seed = 32;
-  options.quadruped_every = 0;
-  options.drawn_arms = true;
-  options.only = "torque_delay";
-  options.ratio = 8.0;
-  const Judgement judged = judgement_of(options, 3);
+  const Judgement judged = judgement_of(drawn_arm_with("torque_delay", 32), 3);
   EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
   EXPECT_EQ(judged.said, "torque_delay@all");
 }
