@@ -223,7 +223,7 @@ std::string structures_text(const DiagnosisRun& run) {
   for (std::size_t i = 0; i < std::min(shown, run.structures.size()); ++i) {
     const diagnosis::Structure& s = run.structures[i];
     if (!s.under_name.empty()) {
-      text += fmt::format("  {:<24}over {:<28}what {} describes in part\n", s.joint, s.variable,
+      text += fmt::format("  {:<23} over {:<27} what {} describes in part\n", s.joint, s.variable,
                           s.under_name);
       continue;
     }
@@ -233,7 +233,7 @@ std::string structures_text(const DiagnosisRun& run) {
       continue;
     }
     const std::string what = s.law.empty() ? s.joint : "as " + s.law;
-    text += fmt::format("  {:<24}over {:<28}{:>5.1f} %  ({:.1f} standard errors)\n", what,
+    text += fmt::format("  {:<23} over {:<27} {:>5.1f} %  ({:.1f} standard errors)\n", what,
                         s.variable, 100.0 * s.share, s.t);
   }
   return text;

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "shapeid/app/option_checks.hpp"
-#include "shapeid/app/recordings.hpp"
+#include "shapeid/app/diagnosis_logs.hpp"
+#include "shapeid/app/motion_noise.hpp"
 #include "shapeid/diagnosis/checks.hpp"
 #include "shapeid/diagnosis/contact_flags.hpp"
 #include "shapeid/diagnosis/names.hpp"
@@ -52,13 +52,6 @@ double expected_mass(const DiagnoseOptions& options, const RobotInputs& inputs,
   return mass;
 }
 
-/// Five samples a period of the filter's cutoff say all that is left in the signals.
-std::size_t stride_of(const MotionInputs& inputs, double rate) {
-  constexpr double samples_a_period = 5.0;
-  const double cutoff = inputs.cutoff > 0.0 ? inputs.cutoff : rate;
-  return static_cast<std::size_t>(std::max(1.0, rate / (samples_a_period * cutoff)));
-}
-
 diagnosis::LoopSettings settings_for(const RobotInputs& inputs, const DiagnoseOptions& options,
                                      const RecordedLog& log) {
   const Robot& robot = inputs.robot;
@@ -82,9 +75,7 @@ diagnosis::LoopSettings settings_for(const RobotInputs& inputs, const DiagnoseOp
     }
   }
   settings.stride = stride_of(options.inputs, log.motion.rate);
-  const double cutoff = options.inputs.cutoff > 0.0 ? options.inputs.cutoff : log.motion.rate;
-  constexpr double longest_margin = 0.1;  // s
-  settings.margin = std::min(0.5 / cutoff, longest_margin);
+  settings.margin = margin_of(options.inputs, log.motion.rate);
   return settings;
 }
 
@@ -138,40 +129,6 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
     errors.noise_floor *= noise_left_over_taken(options.inputs.cutoff, run.test.rate());
   }
   return errors;
-}
-
-std::vector<std::string> fitted_logs(const DiagnoseOptions& options) {
-  std::vector<std::string> paths = {options.inputs.log};
-  paths.insert(paths.end(), options.also.begin(), options.also.end());
-  return paths;
-}
-
-/// Held-out errors are of data that were used for nothing else.
-void refuse_same_logs(const DiagnoseOptions& options) {
-  std::vector<std::string> paths = fitted_logs(options);
-  if (!options.reference.empty()) paths.push_back(options.reference);
-  const std::size_t fitted = paths.size();
-  paths.insert(paths.end(), options.test.begin(), options.test.end());
-  const auto twice = same_file(paths);
-  if (!twice) return;
-  const auto& [first, second] = *twice;
-  if (first < fitted && second >= fitted) {
-    throw InputError({paths[second]}, "is fitted, too",
-                     "a test on data that are used for nothing else");
-  }
-  throw InputError({paths[second]}, "is given twice", "each log once");
-}
-
-/// The log at three times the cutoff, from which the filter's own error is computed; none if there
-/// is no filter, or one that works forward only.
-std::optional<RecordedLog> less_smooth(const RobotInputs& robot, const DiagnoseOptions& options,
-                                       const std::vector<std::string>& paths,
-                                       const RecordedLog& log, std::optional<Part> part) {
-  constexpr double times = 3.0, highest = 0.4;  // of the rate
-  MotionInputs inputs = options.inputs;
-  inputs.cutoff = std::min(times * inputs.cutoff, highest * log.motion.rate);
-  if (inputs.exact || inputs.causal || !(inputs.cutoff > options.inputs.cutoff)) return {};
-  return read_recordings(paths, robot, inputs, part, log.shifts);
 }
 
 /// What was accepted under a name that does not stand, with the curve that it leaves when it is
@@ -340,12 +297,20 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
       diagnosis::check_clocks(robot.robot, run.test, run.settings);
     });
   }
-  std::optional<RecordedLog> rough =
-      less_smooth(robot, options, fitted_logs(options), log, fitted_part);
-  std::optional<RecordedLog> rough_earlier;
+  const SameLogs same{robot,       options.inputs,  fitted_logs(options),
+                      fitted_part, log.motion.rate, log.shifts};
+  std::optional<SameLogs> same_earlier;
   if (earlier) {
-    rough_earlier = less_smooth(robot, options, {options.reference}, *earlier, std::nullopt);
+    same_earlier.emplace(SameLogs{robot,
+                                  options.inputs,
+                                  {options.reference},
+                                  std::nullopt,
+                                  earlier->motion.rate,
+                                  earlier->shifts});
   }
+  std::optional<RecordedLog> rough = same.less_smooth();
+  std::optional<RecordedLog> rough_earlier;
+  if (same_earlier) rough_earlier = same_earlier->less_smooth();
   const auto pointer = [](std::optional<RecordedLog>& of) { return of ? &of->recording : nullptr; };
   run.settings.rough = pointer(rough);
   run.settings.rough_reference = pointer(rough_earlier);
@@ -355,10 +320,12 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
       robot.robot, log.recording, reference, {pointer(rough), pointer(rough_earlier), &run.test},
       run.settings);
   run.loop = diagnosis::close_loop(robot.robot, log.recording, reference, run.settings);
+  log.recording.set_correction(run.loop.correction);
+  NoiseOfMotion noise(same, same_earlier, flags);
+  noise.question_laws(log.recording, run);
   for (diagnosis::Found& f : flags) {
     f.beside_unknown = diagnosis::is_beside_unknown(robot.robot, run.loop, f);
   }
-  log.recording.set_correction(run.loop.correction);
   if (reference != nullptr) reference->set_correction(run.loop.reference_correction);
   run.consistent =
       diagnosis::make_consistent(robot.robot, log.recording, reference, run.settings, run.loop);
@@ -387,10 +354,11 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
       robot.robot, run.settings.rows, run.consistent.model, log.recording, run.settings.stride);
   run.structures =
       diagnosis::unexplained(robot.robot, log.recording, remaining, run.settings.stride);
+  noise.question_curves(log.recording, remaining, run);
   diagnosis::RichModel richest = run.consistent.model;
   richest.curves = run.curves =
       diagnosis::curves_for(robot.robot, run.settings.rows, run.consistent.model, run.loop,
-                            log.recording, run.settings.stride);
+                            log.recording, run.settings.stride, noise.silent());
   if (!run.curves.empty()) {
     run.errors.with_curves =
         diagnosis::series(robot.robot, run.settings.rows, richest, run.test, run.test_stride).rms();
@@ -411,6 +379,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
     if (!known) run.structures.push_back(slow);
   }
   add_flags(flags, run);
+  noise.note(run);
   note_rests(robot.robot, run);
   note_worse_joints(robot.robot, run);
   note_unsettled_links(robot.robot, run);

@@ -59,14 +59,10 @@ bool Credibility::wrong_sign(std::size_t k, const Fit& own, double least_t) cons
 
 bool Credibility::within_limits(std::size_t k, const Fit& own) const {
   const Effect& effect = *contenders_[k].effect.effect;
-  for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
-    const auto at = static_cast<Eigen::Index>(p);
-    // The column of a transformation is that of a change.
-    const double start = effect.transform.any() ? contenders_[k].effect.value[at] : 0.0;
-    const Parameter& parameter = effect.parameters[p];
-    const double limit = parameter.unit == "N" ? rule_.most_force : parameter.limit;
-    if (std::abs(start + own.value[at]) > limit) return false;
-  }
+  Eigen::VectorXd value = own.value;
+  // The column of a transformation is that of a change.
+  if (effect.transform.any()) value += contenders_[k].effect.value;
+  if (over_limit(effect, value, rule_.most_force) > 1.0) return false;
   return !effect.is_payload || is_near(effect, own);
 }
 

@@ -169,7 +169,7 @@ class Fitter {
 
 std::vector<Curve> curves_for(const Robot& robot, RowSource source, RichModel model,
                               const LoopResult& loop, const Recording& recording,
-                              std::size_t stride) {
+                              std::size_t stride, const std::vector<std::string>& silent) {
   Fitter fitter(robot, source, std::move(model), recording, stride);
   const auto add = [&](const std::optional<Curve>& curve) {
     if (curve) fitter.add(*curve);
@@ -188,6 +188,7 @@ std::vector<Curve> curves_for(const Robot& robot, RowSource source, RichModel mo
     std::vector<int> done;
     for (const Structure& s : fitter.structures()) {
       const std::optional<Curve> curve = blank(s, robot);
+      if (std::count(silent.begin(), silent.end(), s.joint) > 0) continue;
       if (!curve || std::count(done.begin(), done.end(), curve->law.site) > 0) continue;
       done.push_back(curve->law.site);
       fitter.add(*curve);

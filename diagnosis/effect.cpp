@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -16,6 +17,16 @@ bool same_place(const AppliedEffect& a, const AppliedEffect& b) {
 bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a) {
   return std::any_of(effects.begin(), effects.end(),
                      [&](const AppliedEffect& b) { return same_place(a, b); });
+}
+
+double over_limit(const Effect& effect, const Eigen::VectorXd& value, double most_force) {
+  double most = 0.0;
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+    const Parameter& parameter = effect.parameters[p];
+    const double limit = parameter.unit == "N" ? most_force : parameter.limit;
+    most = std::max(most, std::abs(value[static_cast<Eigen::Index>(p)]) / limit);
+  }
+  return most;
 }
 
 namespace {

@@ -160,6 +160,11 @@ struct AppliedEffect {
 /// Whether one of them is the same effect at the same place.
 [[nodiscard]] bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a);
 
+/// The largest of an effect's numbers over the limit up to which it is believed; of forces that is
+/// `most_force` (N).
+[[nodiscard]] double over_limit(const Effect& effect, const Eigen::VectorXd& value,
+                                double most_force);
+
 /// Names of places: a joint, a link, a contact, "base.accel" or "all". Of several contacts on one
 /// link the second is "LINK #2".
 [[nodiscard]] std::string site_name(const Robot& robot, SiteKind kind, int site);

@@ -1,7 +1,6 @@
 #include "shapeid/diagnosis/exchange.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "shapeid/diagnosis/candidates.hpp"
@@ -17,18 +16,12 @@ Term without(Term term, const Term& part) {
   return term;
 }
 
-bool is_believed(const Effect& effect, const Eigen::VectorXd& value) {
-  for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
-    if (std::abs(value[static_cast<Eigen::Index>(p)]) > effect.parameters[p].limit) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 void note_exchangeable(const BlockFits& fits, const Term& fixed, const std::vector<Candidate>& list,
                        const Selection& selection, LoopState& state) {
   const Tally& tally = fits.tally();
+  const double most_force = state.rule().most_force;
   for (Found& f : state.result.found) {
     f.exchangeable.clear();
     const auto place =
@@ -48,7 +41,8 @@ void note_exchangeable(const BlockFits& fits, const Term& fixed, const std::vect
       const Eigen::MatrixXd moves = fits.moves(with, {own}).front();
       const Eigen::VectorXd instead =
           moves.bottomRows(std::ssize(hidden.term.columns)) * f.effect.value;
-      if (is_believed(*hidden.effect.effect, instead)) f.exchangeable.push_back(hidden.term.id);
+      if (over_limit(*hidden.effect.effect, instead, most_force) > 1.0) continue;
+      f.exchangeable.push_back(hidden.term.id);
     }
   }
 }

@@ -285,13 +285,8 @@ class Loop {
   }
 
   /// A refit that ends at the limit found no value that is believed.
-  [[nodiscard]] static bool at_limit(const AppliedEffect& a) {
-    for (Eigen::Index p = 0; p < a.value.size(); ++p) {
-      if (std::abs(a.value[p]) >= a.effect->parameters[static_cast<std::size_t>(p)].limit) {
-        return true;
-      }
-    }
-    return false;
+  [[nodiscard]] bool at_limit(const AppliedEffect& a) const {
+    return over_limit(*a.effect, a.value, state_.rule().most_force) >= 1.0;
   }
 
   /// Applied transformations that no longer lower the held-out error, or are of no credible size,

@@ -8,8 +8,10 @@ double choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
   double chosen = fits.prior();
   std::vector<double> priors;
   std::vector<Eigen::VectorXd> errors;
-  constexpr double strongest = 1000.0;  // a thirtieth of its natural size, for each parameter
-  double prior = 1e-4;
+  // Of its natural size, one as standard deviation of each parameter, and a thirtieth. (A hundred
+  // times its size was allowed, too: masses of 28 kg, for 8, then stood for an offset of torque.)
+  constexpr double weakest = 1.0, strongest = 1000.0;
+  double prior = weakest;
   while (prior <= 1.5 * strongest) {
     fits.set_prior(prior);
     priors.push_back(prior);
@@ -19,10 +21,12 @@ double choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
   const auto best = std::min_element(
       errors.begin(), errors.end(), [](const auto& a, const auto& b) { return a.sum() < b.sum(); });
   constexpr double told_apart = 1.0;  // standard errors, as usual in cross-validation
+  // What differs by less than the square of one number's noise is no evidence, be it so in every
+  // block.
+  const double noise = best->sum() / std::max(1.0, fits.tally().freedom);
   for (std::size_t i = 0; i < priors.size(); ++i) {
-    if (errors[i].sum() == best->sum() || gain_of(errors[i], *best).t < told_apart) {
-      chosen = priors[i];
-    }
+    const double worse = errors[i].sum() - best->sum();
+    if (!(worse > noise) || gain_of(errors[i], *best).t < told_apart) chosen = priors[i];
   }
   fits.set_prior(chosen);
   return chosen;

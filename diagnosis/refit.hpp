@@ -8,4 +8,7 @@ namespace shapeid::diagnosis {
 /// Shape numbers by zooming grids, transformations by Gauss-Newton, masses along with both.
 void refit(LoopState& state);
 
+/// Masses and the numbers of all that was found, linearised where it stands.
+void refit_numbers(LoopState& state);
+
 }  // namespace shapeid::diagnosis

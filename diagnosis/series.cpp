@@ -43,6 +43,12 @@ Series series(const Robot& robot, RowSource source, const RichModel& model,
   return result;
 }
 
+Eigen::VectorXd centred(const Series& series, const Eigen::MatrixXd& of, Eigen::Index row) {
+  const Eigen::ArrayXd counts = series.counted.row(row).cast<double>().transpose();
+  const Eigen::ArrayXd y = of.row(row).transpose();
+  return (y - (y * counts).sum() / std::max(counts.sum(), 1.0)) * counts;
+}
+
 double strongest_ripple(const Robot& robot, const Recording& recording, const Series& left,
                         int joint, int over, RippleOf of, double lower, double upper) {
   const Eigen::Index row = robot.base_dof() + joint;

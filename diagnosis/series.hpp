@@ -29,6 +29,10 @@ struct Series {
 [[nodiscard]] Series series(const Robot& robot, RowSource source, const RichModel& model,
                             const Recording& recording, std::size_t stride);
 
+/// A row of `of`, the residual or what is predicted, less its mean; zero where it does not count.
+[[nodiscard]] Eigen::VectorXd centred(const Series& series, const Eigen::MatrixXd& of,
+                                      Eigen::Index row);
+
 /// What a ripple's size is in proportion to: nothing, or the predicted force of its joint.
 enum class RippleOf { torque, load };
 /// The frequency N (1/rad) from lower to upper of the ripple over the position of joint `over` that

@@ -356,10 +356,7 @@ Structure lawless(const Robot& robot, RowSource source, const RichModel& model,
 Autocorrelation autocorrelation(const Recording& recording, const Series& series, Eigen::Index row,
                                 int lags) {
   Autocorrelation result;
-  const Eigen::ArrayXd counts = series.counted.row(row).cast<double>().transpose();
-  const Eigen::ArrayXd y = series.residual.row(row).transpose();
-  const double mean = (y * counts).sum() / std::max(counts.sum(), 1.0);
-  const Eigen::VectorXd d = (y - mean) * counts;
+  const Eigen::VectorXd d = centred(series, series.residual, row);
   const Eigen::Index n = d.size();
   const double variance = d.squaredNorm();
   for (int lag = 0; lag <= lags && lag < n; ++lag) {

@@ -87,6 +87,19 @@ Recording record(const ArmLog& log, const std::function<void(std::vector<Sample>
   return {std::move(samples), clean.rate()};
 }
 
+Recording before_a_gear(double (*lead)(double torque)) {
+  const std::vector<Sample> quiet = record({{}, 20.0, 0.0}).samples();
+  return record({}, [&](std::vector<Sample>& samples) {
+    const auto at = [&](std::size_t i) { return lead(quiet[i].tau[1]); };
+    for (std::size_t i = 2; i + 2 < samples.size(); ++i) {  // as a filter would leave it
+      const double h = 0.5 * (samples[i + 2].time - samples[i - 2].time);
+      samples[i].q[1] += at(i);
+      samples[i].dq[1] += (at(i + 2) - at(i - 2)) / (2.0 * h);
+      samples[i].ddq[1] += (at(i + 2) - 2.0 * at(i) + at(i - 2)) / (h * h);
+    }
+  });
+}
+
 diagnosis::LoopSettings arm_settings() {
   const Robot robot = arm();
   diagnosis::LoopSettings settings;

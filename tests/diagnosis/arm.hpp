@@ -27,6 +27,10 @@ struct ArmLog {
 [[nodiscard]] diagnosis::Recording record(const ArmLog& log,
                                           const std::function<void(std::vector<Sample>&)>& change);
 
+/// A log whose encoder of joint 2 sits on the motor, ahead of the joint by `lead` of the drive's
+/// torque, in position, speed and acceleration.
+[[nodiscard]] diagnosis::Recording before_a_gear(double (*lead)(double torque));
+
 /// All links but the root sought, as `shapeid diagnose` would.
 [[nodiscard]] diagnosis::LoopSettings arm_settings();
 

@@ -18,6 +18,7 @@ namespace shapeid::diagnosis {
 namespace {
 
 using test::arm;
+using test::before_a_gear;
 using test::effect;
 using test::loop_of;
 using test::record;
@@ -26,21 +27,6 @@ using Joints = std::vector<bool>;
 
 void change_each(std::vector<Sample>& samples, void (*change)(Sample&)) {
   for (Sample& s : samples) change(s);
-}
-
-/// A log whose encoder of joint 2 sits on the motor, ahead of the joint by `lead` of the drive's
-/// torque, in position, speed and acceleration.
-Recording before_a_gear(double (*lead)(double torque)) {
-  const std::vector<Sample> quiet = record({{}, 20.0, 0.0}).samples();
-  return record({}, [&](std::vector<Sample>& samples) {
-    const auto at = [&](std::size_t i) { return lead(quiet[i].tau[1]); };
-    for (std::size_t i = 2; i + 2 < samples.size(); ++i) {  // as a filter would leave it
-      const double h = 0.5 * (samples[i + 2].time - samples[i - 2].time);
-      samples[i].q[1] += at(i);
-      samples[i].dq[1] += (at(i + 2) - at(i - 2)) / (2.0 * h);
-      samples[i].ddq[1] += (at(i + 2) - 2.0 * at(i) + at(i - 2)) / (h * h);
-    }
-  });
 }
 
 void expect_one_gear(const LoopResult& result, Signal signal) {

@@ -1,0 +1,101 @@
+#include "shapeid/app/motion_noise.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "shapeid/diagnosis/contact_flags.hpp"
+
+namespace shapeid::app {
+
+NoiseOfMotion::NoiseOfMotion(SameLogs log, std::optional<SameLogs> reference,
+                             const std::vector<diagnosis::Found>& flags)
+    : log_inputs_(std::move(log)), reference_inputs_(std::move(reference)), flags_(flags) {}
+
+diagnosis::SmootherLogs NoiseOfMotion::smoother(const DiagnosisRun& run) {
+  if (!log_) {
+    log_ = log_inputs_.smoother();
+    if (reference_inputs_) reference_ = reference_inputs_->smoother();
+    for (std::optional<RecordedLog>* of : {&log_, &reference_}) {
+      if (*of) diagnosis::correct_contact_flags((*of)->recording, flags_);
+    }
+    MotionInputs inputs = log_inputs_.inputs;
+    inputs.cutoff *= diagnosis::slower_by;
+    settings_ = run.settings;
+    settings_.cutoff = inputs.cutoff;
+    settings_.stride = stride_of(inputs, log_inputs_.rate);
+    settings_.margin = margin_of(inputs, log_inputs_.rate);
+    settings_.log_starts = log_->starts;
+  }
+  return {log_->recording, reference_ ? &reference_->recording : nullptr, settings_};
+}
+
+void NoiseOfMotion::question_laws(const diagnosis::Recording& log, DiagnosisRun& run) {
+  const Robot& robot = log_inputs_.robot.robot;
+  if (log_inputs_.inputs.exact || !(log_inputs_.inputs.cutoff > 0.0)) return;
+  fast_shares_ = diagnosis::fast_shares(
+      robot, log,
+      diagnosis::series(robot, run.settings.rows, run.loop.model, log, run.settings.stride),
+      run.settings.cutoff);
+  const auto& laws = run.loop.strangers;
+  if (std::none_of(laws.begin(), laws.end(), [&](const diagnosis::Stranger& s) {
+        return is_noisy(robot.joint(s.law.joint).name);
+      })) {
+    return;
+  }
+  for (const diagnosis::Stranger& s :
+       diagnosis::take_back_noise(robot, smoother(run), fast_shares_, run.loop)) {
+    taken_back_.push_back(diagnosis::law_text(s, robot));
+  }
+}
+
+void NoiseOfMotion::question_curves(const diagnosis::Recording& log,
+                                    const diagnosis::Series& remaining, DiagnosisRun& run) {
+  const Robot& robot = log_inputs_.robot.robot;
+  if (fast_shares_.empty()) return;
+  fast_shares_ = diagnosis::fast_shares(robot, log, remaining, run.settings.cutoff);
+  const auto noisy = [&](const diagnosis::Structure& s) { return is_noisy(s.joint); };
+  if (std::none_of(run.structures.begin(), run.structures.end(), noisy)) return;
+  const std::vector<diagnosis::Structure> now =
+      diagnosis::unexplained_behind(robot, smoother(run), run.loop);
+  std::erase_if(run.structures, [&](const diagnosis::Structure& s) {
+    const bool gone = noisy(s) && std::none_of(now.begin(), now.end(), [&](const auto& other) {
+                        return other.joint == s.joint;
+                      });
+    if (gone) {
+      taken_back_.push_back(fmt::format("{} over {}", s.joint, s.variable));
+      silent_.push_back(s.joint);
+    }
+    return gone;
+  });
+}
+
+void NoiseOfMotion::note(DiagnosisRun& run) const {
+  std::vector<std::string> noisy;
+  const Robot& robot = log_inputs_.robot.robot;
+  for (int j = 0; j < robot.joint_count() && !fast_shares_.empty(); ++j) {
+    if (is_noisy(robot.joint(j).name)) noisy.push_back(robot.joint(j).name);
+  }
+  if (noisy.empty()) return;
+  const double slower = diagnosis::slower_by * run.settings.cutoff;
+  run.notes.push_back(fmt::format(
+      "most of what remains of {} is faster than {:.3g} Hz, as noise of differentiated positions "
+      "is: with --cutoff {:.3g} less of it remains, and smaller effects can be seen",
+      fmt::join(noisy, ", "), slower, slower));
+  if (taken_back_.empty()) return;
+  run.notes.push_back(fmt::format("gone behind a filter of {:.3g} Hz, and so not unexplained: {}",
+                                  slower, fmt::join(taken_back_, ", ")));
+}
+
+bool NoiseOfMotion::is_noisy(const std::string& joint) const {
+  const Robot& robot = log_inputs_.robot.robot;
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    if (robot.joint(j).name != joint) continue;
+    return diagnosis::is_noise_of_motion(fast_shares_[static_cast<std::size_t>(j)]);
+  }
+  return false;
+}
+
+}  // namespace shapeid::app

@@ -1,0 +1,42 @@
+// What `diagnose` says of logs in which noise of motion makes most of what remains.
+#pragma once
+
+#include <vector>
+
+#include "shapeid/app/diagnosis_logs.hpp"
+#include "shapeid/diagnosis/motion_noise.hpp"
+
+namespace shapeid::app {
+
+/// Asks the logs of a diagnosis behind a slower filter, which are read when something is to be
+/// asked.
+class NoiseOfMotion {
+ public:
+  /// `flags`: contact flags that were corrected in the logs, and are in these.
+  NoiseOfMotion(SameLogs log, std::optional<SameLogs> reference,
+                const std::vector<diagnosis::Found>& flags);
+
+  /// Laws without a name that noise of motion may be are taken back if these logs do not have them.
+  void question_laws(const diagnosis::Recording& log, DiagnosisRun& run);
+  /// Likewise curves; `remaining` is what the run's model leaves of `log`. Joints of which curves
+  /// were taken back are silent.
+  void question_curves(const diagnosis::Recording& log, const diagnosis::Series& remaining,
+                       DiagnosisRun& run);
+  [[nodiscard]] const std::vector<std::string>& silent() const { return silent_; }
+  /// Adds notes: of which joints most of what remains is noise of motion, and what was taken back.
+  void note(DiagnosisRun& run) const;
+
+ private:
+  [[nodiscard]] bool is_noisy(const std::string& joint) const;
+  [[nodiscard]] diagnosis::SmootherLogs smoother(const DiagnosisRun& run);
+
+  SameLogs log_inputs_;
+  std::optional<SameLogs> reference_inputs_;
+  const std::vector<diagnosis::Found>& flags_;
+  std::optional<RecordedLog> log_, reference_;
+  diagnosis::LoopSettings settings_;
+  std::vector<double> fast_shares_;
+  std::vector<std::string> taken_back_, silent_;
+};
+
+}  // namespace shapeid::app

@@ -1,0 +1,94 @@
+#include "shapeid/diagnosis/motion_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "shapeid/diagnosis/loop_state.hpp"
+#include "shapeid/diagnosis/names.hpp"
+#include "shapeid/diagnosis/refit.hpp"
+#include "shapeid/diagnosis/spectrum.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+constexpr std::size_t fewest = 8;  // frequencies on either side
+// Two passes of second order leave 0.42 of white noise's power above half their cutoff, and 0.98 of
+// that of noise whose power grows with the fourth power of frequency.
+constexpr double mostly_fast = 0.8;
+// Noise of motion is as strong in what is predicted as in what remains; motion itself is not.
+constexpr double motion_as_fast = 2.0;
+
+/// Of unit power still, and without ends from which a slow motion would seem fast.
+Eigen::VectorXd tapered(const std::vector<double>& time, Eigen::VectorXd y) {
+  const double size = std::sqrt(8.0 / 3.0);
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const double part = (time[i] - time.front()) / (time.back() - time.front());
+    y[static_cast<Eigen::Index>(i)] *= size * std::pow(std::sin(std::numbers::pi * part), 2);
+  }
+  return y;
+}
+
+/// What the loop has come to, before the smoother logs.
+LoopState behind(const Robot& robot, const SmootherLogs& smoother, const LoopResult& loop) {
+  LoopState state(robot, smoother.log, smoother.reference, smoother.settings);
+  state.fit_masses();
+  state.result = loop;
+  state.result.correction.clear();
+  state.correct();
+  state.reweigh();
+  return state;
+}
+
+}  // namespace
+
+std::vector<double> fast_shares(const Robot& robot, const Recording& recording,
+                                const Series& series, double cutoff) {
+  std::vector<double> shares(static_cast<std::size_t>(robot.joint_count()), 0.0);
+  const std::vector<double> time = times(recording, series);
+  if (time.size() < fewest) return shares;
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    const Eigen::Index row = robot.base_dof() + j;
+    const double highest = 0.5 / usual_step(time);
+    const Spectrum left = spectrum(time, centred(series, series.residual, row), highest);
+    const Spectrum asked =
+        spectrum(time, tapered(time, centred(series, series.predicted, row)), highest);
+    const std::size_t from = left.at(slower_by * cutoff), end = left.power.size();
+    if (from < fewest || end - from < fewest) continue;
+    const double all = left.mean(0, end) * static_cast<double>(end);
+    const double fast = left.mean(from, end);
+    const bool moves_as_fast = asked.mean(from, end) > motion_as_fast * fast;
+    if (!(all > 0.0) || moves_as_fast) continue;
+    shares[static_cast<std::size_t>(j)] = fast * static_cast<double>(end - from) / all;
+  }
+  return shares;
+}
+
+bool is_noise_of_motion(double fast_share) { return fast_share > mostly_fast; }
+
+std::vector<Stranger> take_back_noise(const Robot& robot, const SmootherLogs& smoother,
+                                      const std::vector<double>& fast_shares, LoopResult& loop) {
+  LoopState state = behind(robot, smoother, loop);
+  question_names(state);
+  const auto stays = [&](const Stranger& s) {
+    const auto joint = static_cast<std::size_t>(s.law.joint);
+    const auto& now = state.result.strangers;
+    return !is_noise_of_motion(fast_shares[joint]) ||
+           std::any_of(now.begin(), now.end(),
+                       [&](const Stranger& other) { return other.law.joint == s.law.joint; });
+  };
+  const auto gone = std::stable_partition(loop.strangers.begin(), loop.strangers.end(), stays);
+  std::vector<Stranger> taken_back(gone, loop.strangers.end());
+  loop.strangers.erase(gone, loop.strangers.end());
+  if (!taken_back.empty()) loop.found = state.result.found;
+  return taken_back;
+}
+
+std::vector<Structure> unexplained_behind(const Robot& robot, const SmootherLogs& smoother,
+                                          const LoopResult& loop) {
+  LoopState state = behind(robot, smoother, loop);
+  refit_numbers(state);
+  return unexplained(robot, state.log, state.left_by(state.result.model), smoother.settings.stride);
+}
+
+}  // namespace shapeid::diagnosis

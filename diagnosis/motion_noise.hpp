@@ -1,0 +1,45 @@
+// Noise of motion: positions that were differentiated twice. Where it makes most of what remains,
+// it is in the columns of every law as well, and agrees with some of them.
+#pragma once
+
+#include <vector>
+
+#include "shapeid/diagnosis/loop.hpp"
+#include "shapeid/diagnosis/series.hpp"
+#include "shapeid/diagnosis/unexplained.hpp"
+
+namespace shapeid::diagnosis {
+
+/// A slower filter leaves a thirtieth of such noise, and of motion that is slower all.
+inline constexpr double slower_by = 0.5;  // of the cutoff
+
+/// Of what remains of each joint, the share that is faster than `slower_by` times the cutoff (Hz).
+/// Of noise of torque that is less than half, of noise of motion nearly all. Zero where the series
+/// cannot tell, and where the joint itself moves so fast that a slower filter would lose it.
+[[nodiscard]] std::vector<double> fast_shares(const Robot& robot, const Recording& recording,
+                                              const Series& series, double cutoff);
+
+/// Whether so much is noise of motion: two thirds, beside noise of torque.
+[[nodiscard]] bool is_noise_of_motion(double fast_share);
+
+/// The same logs behind a filter of `slower_by` times the cutoff, with the settings that go with
+/// it.
+struct SmootherLogs {
+  const Recording& log;
+  const Recording* reference;  ///< may be null
+  const LoopSettings& settings;
+};
+
+/// Takes back laws without a name at joints of which `fast_shares` is noise of motion, if the
+/// smoother logs have none there; names are then questioned as these have it. Returns what was
+/// taken back.
+std::vector<Stranger> take_back_noise(const Robot& robot, const SmootherLogs& smoother,
+                                      const std::vector<double>& fast_shares, LoopResult& loop);
+
+/// unexplained() of the smoother log, by the loop's model with its numbers fitted anew there: noise
+/// of motion has spoilt these, too.
+[[nodiscard]] std::vector<Structure> unexplained_behind(const Robot& robot,
+                                                        const SmootherLogs& smoother,
+                                                        const LoopResult& loop);
+
+}  // namespace shapeid::diagnosis

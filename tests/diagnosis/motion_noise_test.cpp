@@ -1,0 +1,146 @@
+// Noise of differentiated positions: known by its spectrum, and not taken for a cause.
+#include "shapeid/diagnosis/motion_noise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "shapeid/models/segment_filter.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::arm;
+using test::before_a_gear;
+using test::loop_of;
+using test::record;
+
+constexpr double filter_cutoff = 15.0, rate = 100.0;  // Hz
+const std::vector<double> all_noise = {0.9, 0.9, 0.9}, none = {0.5, 0.5, 0.5};
+
+/// What a log's filter leaves.
+Eigen::VectorXd filtered(const Eigen::VectorXd& x) {
+  SegmentFilter filter(Smoothing::zero_phase, Butterworth(log_filter_order, filter_cutoff, rate),
+                       1);
+  for (const double value : x) filter.push(Eigen::VectorXd::Constant(1, value));
+  filter.finish();
+  Eigen::VectorXd smooth(x.size());
+  for (double& value : smooth) value = (*filter.next())[0];
+  return smooth;
+}
+
+Eigen::VectorXd white(Eigen::Index count, std::uint32_t seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> noise;
+  Eigen::VectorXd x(count);
+  for (double& value : x) value = noise(generator);
+  return x;
+}
+
+Eigen::VectorXd second_difference(const Eigen::VectorXd& x) {
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(x.size());
+  const Eigen::Index n = x.size() - 2;
+  d.segment(1, n) = x.head(n) - 2.0 * x.segment(1, n) + x.tail(n);
+  return d;
+}
+
+/// Joint 1 has noise of torque, joint 2 that of a position, twice differentiated, joint 3 as much
+/// of that beside something slow.
+TEST(NoiseOfMotion, IsFasterThanNoiseOfTorque) {
+  const Recording log = record({{}, 20.0, 0.02, 3});
+  const auto count = static_cast<Eigen::Index>(log.samples().size());
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    Series series;
+    series.residual.resize(3, count);
+    series.counted.setConstant(3, count, true);
+    for (std::size_t i = 0; i < log.samples().size(); ++i) series.index.push_back(i);
+    const Eigen::VectorXd torque = filtered(white(count, seed));
+    const Eigen::VectorXd motion = filtered(second_difference(white(count, 100 + seed)));
+    const Eigen::VectorXd slow = Eigen::VectorXd::LinSpaced(count, 0.0, 30.0).array().sin();
+    series.residual << torque.transpose(), motion.transpose(),
+        (motion / motion.norm() + slow / slow.norm()).transpose();
+    series.predicted = series.residual;
+    const std::vector<double> shares = fast_shares(arm(), log, series, filter_cutoff);
+    ASSERT_EQ(shares.size(), 3U);
+    EXPECT_FALSE(is_noise_of_motion(shares[0])) << shares[0];
+    EXPECT_TRUE(is_noise_of_motion(shares[1])) << shares[1];
+    EXPECT_FALSE(is_noise_of_motion(shares[2])) << shares[2];
+    EXPECT_NEAR(shares[0], 0.42, 0.1);
+    EXPECT_NEAR(shares[1], 0.97, 0.03);  // a difference is less than the square of frequency
+    EXPECT_NEAR(shares[2], 0.49, 0.05);
+    // Of what is predicted the noise is a part; torque that changes as fast is no noise.
+    series.predicted.row(1) += 50.0 * slow.transpose();
+    EXPECT_EQ(fast_shares(arm(), log, series, filter_cutoff), shares);
+    series.predicted.row(1) +=
+        Eigen::VectorXd::LinSpaced(count, 0.0, 1500.0).array().sin().matrix().transpose();
+    EXPECT_EQ(fast_shares(arm(), log, series, filter_cutoff)[1], 0.0);
+  }
+}
+
+TEST(NoiseOfMotion, OfALogThatIsTooShortNothingIsSaid) {
+  const Recording log = record({{}, 20.0, 0.02, 3});
+  for (const double share : fast_shares(arm(), log, {}, filter_cutoff)) EXPECT_EQ(share, 0.0);
+}
+
+Recording with_a_gear() {
+  return before_a_gear([](double torque) { return 0.0005 * torque; });
+}
+
+std::vector<Stranger> taken_back(const Recording& smoother, const std::vector<double>& shares,
+                                 LoopResult& loop) {
+  const LoopSettings settings = test::arm_settings();
+  return take_back_noise(arm(), {smoother, nullptr, settings}, shares, loop);
+}
+
+TEST(NoiseOfMotion, ALawThatTheSmootherLogLacksIsTakenBack) {
+  LoopResult loop = loop_of(with_a_gear());
+  ASSERT_EQ(loop.strangers.size(), 1U);
+  LoopResult same = loop;
+  EXPECT_TRUE(taken_back(record({}), none, same).empty());
+  EXPECT_EQ(same.strangers.size(), 1U);
+  const std::vector<Stranger> gone = taken_back(record({}), all_noise, loop);
+  ASSERT_EQ(gone.size(), 1U);
+  EXPECT_EQ(law_text(gone[0], arm()), "gear@joint2 that yields");
+  EXPECT_TRUE(loop.strangers.empty());
+}
+
+TEST(NoiseOfMotion, ALawThatTheSmootherLogHasStays) {
+  LoopResult loop = loop_of(with_a_gear());
+  EXPECT_TRUE(taken_back(with_a_gear(), all_noise, loop).empty());
+  EXPECT_EQ(loop.strangers.size(), 1U);
+}
+
+/// A name that such a law had displaced stands again, as the smoother log has it.
+TEST(NoiseOfMotion, NamesAreQuestionedAnew) {
+  const Recording log = record({{test::effect("torque_offset", 1, {0.3})}});
+  LoopResult loop = loop_of(log);
+  ASSERT_EQ(loop.found.size(), 1U);
+  loop.strangers = loop_of(with_a_gear()).strangers;
+  loop.found[0].displaced = true;
+  EXPECT_EQ(taken_back(log, all_noise, loop).size(), 1U);
+  EXPECT_TRUE(loop.found[0].name_stands());
+}
+
+/// Numbers are fitted anew: what noise has made of the masses is no structure of a log that has
+/// less of it.
+TEST(NoiseOfMotion, CurvesAreAskedBesideRefittedNumbers) {
+  const Recording log = record({{test::effect("torque_offset", 1, {0.3})}});
+  const auto structures = [](const Recording& of, const LoopResult& loop) {
+    const LoopSettings settings = test::arm_settings();
+    return unexplained_behind(arm(), {of, nullptr, settings}, loop);
+  };
+  LoopResult loop = loop_of(log);
+  loop.model.Phi.tail(30) *= 0.9;
+  loop.found[0].effect.value[0] = loop.model.effects[0].value[0] = 0.2;
+  EXPECT_TRUE(structures(log, loop).empty());
+  const Recording warped = record({{}}, [](std::vector<Sample>& samples) {
+    for (Sample& s : samples) s.tau[1] += 0.3 + 0.1 * std::sin(3.0 * s.q[1]);
+  });
+  const auto found = structures(warped, loop);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].joint, "joint2");
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
