@@ -119,8 +119,10 @@ std::string values_text(const Robot& robot, const AppliedEffect& a, const Eigen:
   for (std::size_t p = 0; p < a.effect->parameters.size(); ++p) {
     const auto at = static_cast<Eigen::Index>(p);
     const diagnosis::Parameter& parameter = a.effect->parameters[p];
-    text += fmt::format("{}{} = {:.4g} +- {:.2g} {}", p == 0 ? "" : ", ", parameter.name,
-                        a.value[at], error[at], unit_of(robot, a, parameter.unit));
+    const std::string own_error =
+        std::isfinite(error[at]) ? fmt::format("+- {:.2g}", error[at]) : "(not determined)";
+    text += fmt::format("{}{} = {:.4g} {} {}", p == 0 ? "" : ", ", parameter.name, a.value[at],
+                        own_error, unit_of(robot, a, parameter.unit));
   }
   for (std::size_t s = 0; s < a.effect->shape.size(); ++s) {
     text += fmt::format(", {} = {:.3g} {}", a.effect->shape[s].name,
@@ -140,9 +142,12 @@ std::string centre_text(const Robot& robot, const AppliedEffect& a, const Eigen:
   const Eigen::Array3d centre = a.value.segment<3>(1) / a.value[0];
   const Eigen::Array3d e =
       (error.segment<3>(1).array().square() + (centre * error[0]).square()).sqrt() / a.value[0];
-  return fmt::format("its centre at ({:.2g} +- {:.1g}, {:.2g} +- {:.1g}, {:.2g} +- {:.1g}) m of {}",
-                     centre[0], e[0], centre[1], e[1], centre[2], e[2],
-                     site_name(robot, a.effect->site, a.site));
+  std::string text;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    text += axis > 0 ? ", " : "";
+    text += std::isfinite(e[axis]) ? fmt::format("{:.2g} +- {:.1g}", centre[axis], e[axis]) : "?";
+  }
+  return fmt::format("its centre at ({}) m of {}", text, site_name(robot, a.effect->site, a.site));
 }
 
 std::string findings_text(const DiagnosisRun& run, const Robot& robot) {

@@ -238,6 +238,7 @@ void add_flags(const std::vector<diagnosis::Found>& flags, DiagnosisRun& run) {
     run.loop.found.push_back(f);
     run.consistent.model.effects.push_back(f.effect);
     run.consistent.effect_error.push_back(f.standard_error);
+    run.consistent.load_size_error.push_back(0.0);
     run.notes.push_back(fmt::format("all else is said with {} corrected", f.id));
   }
 }

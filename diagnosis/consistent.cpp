@@ -68,16 +68,13 @@ class Solver {
     return masses_of(shapes, eliminated, settings_.divisions);
   }
 
-  /// What the data say by themselves, without given inertias and bodies, effects fitted along.
+  /// What the data say by themselves of links, loads and effects, without given inertias and
+  /// bodies.
   [[nodiscard]] reference::Determination determination() const {
     Eigen::VectorXd size(sums_.links() + sums_.linear());
     size << reference::natural_sizes(settings_.shapes, settings_.expected_mass),
         sums_.linear_sizes();
-    reference::Determination all = reference::determine(sums_.blocks(size), size);
-    all.value.conservativeResize(sums_.links());
-    all.standard_error.conservativeResize(sums_.links());
-    all.determined.resize(static_cast<std::size_t>(sums_.links()));
-    return all;
+    return reference::determine(sums_.blocks(size), size);
   }
 
  private:
@@ -184,11 +181,11 @@ std::size_t impossible(const std::vector<AppliedEffect>& effects, const std::vec
   return worst;
 }
 
-/// Delete-a-tenth jackknife of `answer`, which is Phi and theta: about it, and not about the
-/// mean of the tenths, which may stay at a bound together. `masses`: none if there are no bodies.
-Eigen::VectorXd jackknife(const BodySums& sums, const Solver& solver, const ShapeMasses* masses,
-                          const Eigen::VectorXd& answer) {
-  Eigen::MatrixXd answers(answer.size(), tenths);
+/// Phi and theta without each tenth, by which a delete-a-tenth jackknife goes. `masses`: none if
+/// there are no bodies.
+Eigen::MatrixXd answers_without_tenths(const BodySums& sums, const Solver& solver,
+                                       const ShapeMasses* masses) {
+  Eigen::MatrixXd answers(sums.links() + sums.linear(), tenths);
   for (int tenth = 0; tenth < tenths; ++tenth) {
     const Eliminated eliminated = sums.rows_without(tenth);
     Eigen::VectorXd Phi;
@@ -198,8 +195,32 @@ Eigen::VectorXd jackknife(const BodySums& sums, const Solver& solver, const Shap
     }
     answers.col(tenth) << Phi, eliminated.effects(Phi);
   }
+  return answers;
+}
+
+/// Errors of `answer`: about it, and not about the mean of the tenths, which may stay at a bound
+/// together.
+Eigen::VectorXd errors_of(const Eigen::VectorXd& answer, const Eigen::MatrixXd& without_tenths) {
   constexpr double factor = (tenths - 1.0) / tenths;
-  return (factor * (answers.colwise() - answer).rowwise().squaredNorm()).cwiseSqrt();
+  return (factor * (without_tenths.colwise() - answer).rowwise().squaredNorm()).cwiseSqrt();
+}
+
+/// Of a load as one body: how large it is without each tenth, one being `Phi`, by what it does in
+/// the rows. The error of that.
+double error_of_size(const Eigen::MatrixXd& rows, const Eigen::VectorXd& Phi,
+                     const Eigen::MatrixXd& without_tenths) {
+  const Eigen::VectorXd force = rows * Phi;
+  const double square = force.squaredNorm();
+  if (!(square > 0.0)) return std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd sizes = (rows * without_tenths).transpose() * force / square;
+  return errors_of(Eigen::VectorXd::Ones(1), sizes.transpose())[0];
+}
+
+reference::Determination of_links(reference::Determination all, Eigen::Index links) {
+  all.value.conservativeResize(links);
+  all.standard_error.conservativeResize(links);
+  all.determined.resize(static_cast<std::size_t>(links));
+  return all;
 }
 
 /// The jackknife's errors of effects; where too few tenths have a column, those that it has by the
@@ -267,8 +288,10 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       continue;
     }
     result.model.Phi = all_parameters(shapes, answer.head(sums.links()));
-    if (sums.links() > 0) result.data = solver.determination();
-    const Eigen::VectorXd errors = jackknife(sums, solver, masses.get(), answer);
+    reference::Determination data;
+    if (sums.bodies() > 0) data = solver.determination();
+    const Eigen::MatrixXd without_tenths = answers_without_tenths(sums, solver, masses.get());
+    const Eigen::VectorXd errors = errors_of(answer, without_tenths);
     result.Phi_error = Eigen::VectorXd::Zero(result.model.Phi.size());
     for (std::size_t i = 0; i < shapes.free_links.size(); ++i) {
       result.Phi_error.segment<10>(Eigen::Index{10} * shapes.free_links[i]) =
@@ -281,7 +304,21 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       if (known != nullptr) error_places[k].value = known->standard_error;
     }
     put_back(trusted(errors.tail(sums.linear()), sums, linear, error_places), linear, error_places);
+    // A load's numbers that no data tell apart are as the points have it that were tried.
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      Eigen::VectorXd& error = error_places[linear[i]].value;
+      error = error.cwiseMax(
+          data.standard_error.segment<10>(sums.links() + 10 * static_cast<Eigen::Index>(i)));
+    }
     for (const AppliedEffect& a : error_places) result.effect_error.push_back(a.value);
+    if (sums.links() > 0) result.data = of_links(std::move(data), sums.links());
+    result.load_size_error.assign(effects.size(), 0.0);
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      const Eigen::Index own = sums.links() + 10 * static_cast<Eigen::Index>(i);
+      result.load_size_error[linear[i]] =
+          error_of_size(eliminated.rows.middleCols(own, 10), answer.segment(own, 10),
+                        without_tenths.middleRows(own, 10));
+    }
     return result;
   }
 }
@@ -292,7 +329,9 @@ void mark_faded(const Recording& log, const LoopSettings& settings, const Consis
     const AppliedEffect& a = consistent.model.effects[k];
     if (a.effect->transform.any()) continue;  // kept as screened
     const double choices = periods_told_apart(log, a);
-    const double z = differs_from_zero(*a.effect, a.value, consistent.effect_error[k], choices);
+    const double z = a.effect->is_payload ? 1.0 / consistent.load_size_error[k]
+                                          : differs_from_zero(*a.effect, a.value,
+                                                              consistent.effect_error[k], choices);
     const double tried = static_cast<double>(loop.hypotheses) * choices;
     for (Found& f : loop.found) {
       if (same_place(f.effect, a)) f.faded = !(z > least_z(settings.rule.false_alarms, tried));

@@ -17,7 +17,12 @@ struct Consistent {
   /// Of the free links' parameters, effects fitted along: what the data say without the given
   /// inertias. Empty if no link is free.
   reference::Determination data;
-  std::vector<Eigen::VectorXd> effect_error;  ///< one vector an effect of the model
+  /// One vector an effect of the model; of a load's numbers that the data cannot tell apart without
+  /// its being a body infinite.
+  std::vector<Eigen::VectorXd> effect_error;
+  /// Likewise, of loads: the error of how large the load is as a whole, one being as it was found.
+  /// Its ten numbers may each be badly known, and the load not.
+  std::vector<double> load_size_error;
   /// Effects whose sign became impossible when the masses had to be bodies, and loads without mass,
   /// which were left out.
   std::vector<AppliedEffect> dropped;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "shapeid/diagnosis/chance.hpp"
-#include "shapeid/diagnosis/load_places.hpp"
 #include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
@@ -15,18 +14,8 @@ namespace {
 // and less. Of 162 single effects of two and four times the detectable size two had less than 1.1.)
 constexpr double least_of_both = 1.1;
 
-/// Its centre, within its errors, is no further than a load can be from the origin of its link:
-/// moments without mass are none of a load's. Where no data show the mass nothing is known of that.
-bool is_near(const Effect& effect, const Fit& load) {
-  constexpr double errors = 2.5;  // standard ones
-  constexpr double rounding = 1e-9;
-  const double mass = load.value[0], error = load.standard_error[0];
-  if (std::abs(mass) + error < rounding * effect.parameters[0].size) return true;
-  const Eigen::Index moments = std::min<Eigen::Index>(3, load.value.size() - 1);
-  return load.value.segment(1, moments).norm() <=
-         furthest_load * std::max(mass + errors * error, 0.0) +
-             errors * load.standard_error.segment(1, moments).norm();
-}
+// Of what ten free numbers explain, the share that no body explains and a load's name may lack.
+constexpr double least_lost = 0.1;
 
 }  // namespace
 
@@ -57,22 +46,46 @@ bool Credibility::wrong_sign(std::size_t k, const Fit& own, double least_t) cons
   return false;
 }
 
-bool Credibility::within_limits(std::size_t k, const Fit& own) const {
+bool Credibility::within_limits(std::size_t k, const Chosen& others, const Fit& own) const {
   const Effect& effect = *contenders_[k].effect.effect;
+  if (effect.is_payload) return is_body(k, own, body_of(k, others));
   Eigen::VectorXd value = own.value;
   // The column of a transformation is that of a change.
   if (effect.transform.any()) value += contenders_[k].effect.value;
-  if (over_limit(effect, value, rule_.most_force) > 1.0) return false;
-  return !effect.is_payload || is_near(effect, own);
+  return !(over_limit(effect, value, rule_.most_force) > 1.0);
 }
 
-bool Credibility::credible(std::size_t k, const Fit& without, const Fit& with) const {
+LoadBody Credibility::body_of(std::size_t k, const Chosen& others) const {
+  return best_body(fits_.beside(contenders_.terms(others), contenders_[k].term));
+}
+
+bool Credibility::is_body(std::size_t k, const Fit& own, const LoadBody& body) const {
+  const double by_chance =
+      own.left / own.freedom *
+      least_squares_sum(rule_.false_alarms, fits_.numbers_shown(contenders_[k].term));
+  return body.gain > 0.0 && body.lost <= std::max(by_chance, least_lost * (body.gain + body.lost));
+}
+
+bool Credibility::credible(std::size_t k, const Chosen& others, const Fit& without,
+                           const Fit& with) const {
   const double tried = parameters_ * contenders_[k].choices;
   if (!contenders_[k].members.empty()) {
     return std::sqrt(squares_over_chance(k, without, with, tried)) > least_of_both;
   }
   const Fit own = contenders_.last_of(k, with);
-  return over_chance(k, without, with, own, tried) > least_of_both && within_limits(k, own);
+  const double over = over_chance(k, without, with, own, tried);
+  if (!contenders_[k].effect.effect->is_payload) {
+    return over > least_of_both && within_limits(k, others, own);
+  }
+  const LoadBody body = body_of(k, others);
+  if (!is_body(k, own, body)) return false;
+  // Its numbers say the same in part, and each by itself may be any: as a body it is one.
+  const Eigen::Index shown = fits_.numbers_shown(contenders_[k].term);
+  const double limit = limit_for(std::sqrt(least_squares_sum(rule_.false_alarms / tried, shown)),
+                                 fits_.held_blocks());
+  const double t =
+      fits_.along(contenders_.terms(others), contenders_[k].term, body.Phi).t() / limit;
+  return std::max(over, both(t, squares_over_chance(k, without, with, tried))) > least_of_both;
 }
 
 bool Credibility::ripples(std::size_t k, const Chosen& others, const Fit& all,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shapeid/diagnosis/contenders.hpp"
+#include "shapeid/diagnosis/load_body.hpp"
 
 namespace shapeid::diagnosis {
 
@@ -20,12 +21,14 @@ class Credibility {
   /// True if a number of candidate k that cannot be negative is, by more than so many standard
   /// errors. `own`: its part of a fit.
   [[nodiscard]] bool wrong_sign(std::size_t k, const Fit& own, double least_t) const;
-  /// None of its numbers leaves the range in which it is believed; a load is near its link.
-  [[nodiscard]] bool within_limits(std::size_t k, const Fit& own) const;
-  /// Candidate k, last in `with` and not in `without`, is more than chance makes of nothing, and
-  /// leaves the range in which it is believed with no number. Of a group that is asked of all its
+  /// None of its numbers leaves the range in which it is believed; of a load, beside the others, a
+  /// body that is near its link does what its ten free numbers do.
+  [[nodiscard]] bool within_limits(std::size_t k, const Chosen& others, const Fit& own) const;
+  /// Candidate k, last in `with` and not in `without`, which is of the others, is more than chance
+  /// makes of nothing, and within_limits(). Of a group that is asked of all its
   /// members' numbers together; they are judged one by one at the end.
-  [[nodiscard]] bool credible(std::size_t k, const Fit& without, const Fit& with) const;
+  [[nodiscard]] bool credible(std::size_t k, const Chosen& others, const Fit& without,
+                              const Fit& with) const;
   /// Whether a ripple, wherever it stands in `all`, is one by itself beside the others.
   [[nodiscard]] bool ripples(std::size_t k, const Chosen& others, const Fit& all,
                              const Fit& own) const;
@@ -41,6 +44,9 @@ class Credibility {
   [[nodiscard]] bool passes(const Scored& s) const { return s.t > limit_ && s.gain > 0.0; }
 
  private:
+  [[nodiscard]] LoadBody body_of(std::size_t k, const Chosen& others) const;
+  /// `own`: its part of a fit.
+  [[nodiscard]] bool is_body(std::size_t k, const Fit& own, const LoadBody& body) const;
   [[nodiscard]] double squares_over_chance(std::size_t k, const Fit& without, const Fit& with,
                                            double tried) const;
   [[nodiscard]] double over_chance(std::size_t k, const Fit& without, const Fit& with,

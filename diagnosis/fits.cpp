@@ -304,6 +304,46 @@ std::vector<Eigen::MatrixXd> BlockFits::moves(const std::vector<Term>& terms,
   return moves;
 }
 
+BlockFits::Beside BlockFits::beside(const std::vector<Term>& terms, const Term& candidate) const {
+  const Columns a = listed(terms), c = listed({candidate});
+  Eigen::MatrixXd N = normal(a, a, -1);
+  N.diagonal() += ridge(a);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(N);
+  const Eigen::MatrixXd B = normal(a, c, -1);
+  const Eigen::VectorXd unit = scale_(c.index);
+  return {
+      unit.asDiagonal() * (normal(c, c, -1) - B.transpose() * factor.solve(B)) * unit.asDiagonal(),
+      unit.cwiseProduct(target(c, -1) - B.transpose() * factor.solve(target(a, -1)))};
+}
+
+SumWithError BlockFits::along(const std::vector<Term>& terms, const Term& candidate,
+                              const Eigen::VectorXd& numbers) const {
+  std::vector<Term> all = terms;
+  all.push_back(candidate);
+  const Columns a = listed(terms), c = listed({candidate}), both = listed(all);
+  const Eigen::VectorXd direction = scale_(c.index).cwiseProduct(numbers);
+  Eigen::MatrixXd N = normal(a, a, -1);
+  N.diagonal() += ridge(a);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(N);
+  const Eigen::VectorXd B = normal(a, c, -1) * direction;
+  const Eigen::VectorXd moved = factor.solve(B);
+  const double own = direction.dot(normal(c, c, -1) * direction) - B.dot(moved);
+  if (!(own > 0.0)) return {};
+  const double size = (direction.dot(target(c, -1)) - moved.dot(target(a, -1))) / own;
+  Eigen::VectorXd x(both.count());
+  x << factor.solve(target(a, -1) - B * size), direction * size;
+  Eigen::VectorXd influence(std::ssize(tally_.blocks));
+  for (Eigen::Index b = 0; b < influence.size(); ++b) {
+    const auto block = static_cast<std::size_t>(b);
+    Eigen::VectorXd g = gradient_on(both, x, block).head(both.count());
+    for (Eigen::Index i = 0; i < both.count(); ++i) {
+      if (block < both.from[static_cast<std::size_t>(i)]) g[i] = 0.0;
+    }
+    influence[b] = (direction.dot(g.tail(c.count())) - moved.dot(g.head(a.count()))) / own;
+  }
+  return {size, sum_with_error(influence).error};
+}
+
 Eigen::Index BlockFits::numbers_shown(const Term& term) const {
   const Columns c = listed({term});
   const Eigen::MatrixXd N = normal(c, c, -1);

@@ -111,6 +111,16 @@ class BlockFits {
   /// unit: for each candidate terms' columns x its own.
   [[nodiscard]] std::vector<Eigen::MatrixXd> moves(const std::vector<Term>& terms,
                                                    const std::vector<Term>& candidates) const;
+  /// The normal equations of one more term's numbers, in their units, the others fitted along.
+  struct Beside {
+    Eigen::MatrixXd normal;  ///< of the data, without a prior of the term's own
+    Eigen::VectorXd target;
+  };
+  [[nodiscard]] Beside beside(const std::vector<Term>& terms, const Term& candidate) const;
+  /// How large a combination of a term's columns is beside the others, one being `numbers`, with
+  /// its error between blocks.
+  [[nodiscard]] SumWithError along(const std::vector<Term>& terms, const Term& candidate,
+                                   const Eigen::VectorXd& numbers) const;
   /// Share of the columns of `inner` that lies in the span of `terms` and `outer`: 1 if nested.
   [[nodiscard]] double contained(const std::vector<Term>& terms, const Term& inner,
                                  const Term& outer) const;

@@ -93,10 +93,12 @@ class Search {
       if (credibility_.passes(scored)) {
         const Fit fit = fits_.fit(contenders_.terms(accepted_, k));
         scored.fit = contenders_.last_of(k, fit);
-        scored.credible = credibility_.credible(k, fit_now, fit);
-        // Of a group the members with a wrong sign are dropped at the end.
-        scored.wrong_sign =
-            contenders_[k].members.empty() && credibility_.wrong_sign(k, scored.fit, 0.0);
+        scored.credible = credibility_.credible(k, accepted_, fit_now, fit);
+        // Of a group the members with a wrong sign are dropped at the end; a credible load is a
+        // body, whatever sign its free numbers have.
+        const bool is_load = contenders_[k].effect.effect->is_payload;
+        scored.wrong_sign = contenders_[k].members.empty() && !(is_load && scored.credible) &&
+                            credibility_.wrong_sign(k, scored.fit, 0.0);
       }
       ranking.push_back(scored);
     }
@@ -153,11 +155,12 @@ class Search {
   [[nodiscard]] bool is_believed(const Chosen& chosen, std::size_t i, const Fit& all,
                                  const Fit& own) const {
     const std::size_t k = chosen[i];
-    if (credibility_.wrong_sign(k, own, 0.0) || !credibility_.within_limits(k, own)) return false;
-    if (!(contenders_[k].choices > 1.0)) return true;
     Chosen others = chosen;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    return credibility_.ripples(k, others, all, own);
+    const bool is_load = contenders_[k].effect.effect->is_payload;
+    if (!is_load && credibility_.wrong_sign(k, own, 0.0)) return false;
+    if (!credibility_.within_limits(k, others, own)) return false;
+    return !(contenders_[k].choices > 1.0) || credibility_.ripples(k, others, all, own);
   }
 
   /// Drops what later terms made superfluous. It does not come back, but may still be named as a

@@ -108,7 +108,7 @@ void Verdicts::name_common_causes(const Chosen& accepted, const Eigen::VectorXd&
     if (!gains_something(gain_of(around.error(), instead)) || !as_good_as(error, instead)) continue;
     const Fit own = fit_of(rival, beside);
     if (credibility_.wrong_sign(rival, own, rival_sign_t)) continue;
-    if (!credibility_.within_limits(rival, own)) continue;
+    if (!credibility_.within_limits(rival, beside, own)) continue;
     for (std::size_t i = 0; i < accepted.size(); ++i) {
       Chosen& named = verdicts[i].ambiguous;
       if (!contenders_.is_among(accepted[i], beside) && !contenders_.is_among(rival, named)) {

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <initializer_list>
+#include <utility>
+#include <vector>
 
+#include "shapeid/models/shape.hpp"
 #include "shapeid/models/student.hpp"
 #include "shapeid/tests/diagnosis/planted.hpp"
 
@@ -29,7 +32,7 @@ class OfOne {
   [[nodiscard]] const Credibility& operator*() const { return credibility_; }
   [[nodiscard]] const Credibility* operator->() const { return &credibility_; }
   [[nodiscard]] bool credible(std::size_t k) const {
-    return credibility_.credible(k, fits_.fit(contenders_.terms({})),
+    return credibility_.credible(k, {}, fits_.fit(contenders_.terms({})),
                                  fits_.fit(contenders_.terms({}, k)));
   }
 
@@ -73,12 +76,12 @@ TEST(Credibility, NumbersHaveARangeAndThoseOfChangesBeginWhereTheyAre) {
   SelectionRule rule;
   rule.most_force = 10.0;
   const OfOne of(log, rule);
-  EXPECT_TRUE(of->within_limits(plain, own_numbers({-2.9, 1e9}, 1.0)));
-  EXPECT_FALSE(of->within_limits(plain, own_numbers({-3.1, 0.0}, 1.0)));
-  EXPECT_FALSE(of->within_limits(moved, own_numbers({2.9, 0.0}, 1.0)));
-  EXPECT_TRUE(of->within_limits(moved, own_numbers({-3.9, 0.0}, 1.0)));
-  EXPECT_TRUE(of->within_limits(push, own_numbers({9.9}, 1.0)));
-  EXPECT_FALSE(of->within_limits(push, own_numbers({-10.1}, 1.0)));
+  EXPECT_TRUE(of->within_limits(plain, {}, own_numbers({-2.9, 1e9}, 1.0)));
+  EXPECT_FALSE(of->within_limits(plain, {}, own_numbers({-3.1, 0.0}, 1.0)));
+  EXPECT_FALSE(of->within_limits(moved, {}, own_numbers({2.9, 0.0}, 1.0)));
+  EXPECT_TRUE(of->within_limits(moved, {}, own_numbers({-3.9, 0.0}, 1.0)));
+  EXPECT_TRUE(of->within_limits(push, {}, own_numbers({9.9}, 1.0)));
+  EXPECT_FALSE(of->within_limits(push, {}, own_numbers({-10.1}, 1.0)));
 }
 
 /// More is asked of one of many, and of what was chosen among many before.
@@ -119,16 +122,45 @@ TEST(Credibility, ALargeNumberBeyondItsRangeIsNotCredible) {
   }
 }
 
-TEST(Credibility, ALoadHasMass) {
-  Effect load = law("load", 2);
+/// Ten numbers of a load with its mass at two places near its link, at one too far away, or without
+/// any.
+TEST(Credibility, ALoadIsABodyNearItsLink) {
+  Effect load = law("load", 10);
   load.is_payload = true;
-  for (const bool mass : {true, false}) {
+  const auto at = [](double x, double y, double z) {
+    return Eigen::VectorXd(unit_parameters(make_point({x, y, z}, 1.0)).values);
+  };
+  Eigen::VectorXd no_mass = at(0.3, 0.1, -0.2);
+  no_mass[0] = 0.0;
+  const std::vector<std::pair<Eigen::VectorXd, bool>> loads = {
+      {at(0.3, 0.1, -0.2) + at(-0.1, 0.2, 0.4), true},
+      {at(0.3, 0.1, -2.0), false},
+      {no_mass, false},
+      {-at(0.3, 0.1, -0.2), false}};
+  for (const auto& [Phi, is_one] : loads) {
     Planted log(24);
-    const std::size_t k = log.add(load, log.normal(2));
-    log.plant(
-        k, Planted::size_of(25.0) * (mass ? Eigen::Vector2d(1.0, 1.0) : Eigen::Vector2d(0.0, 1.0)));
+    const std::size_t k = log.add(load, log.normal(10));
+    log.plant(k, Planted::size_of(60.0) * Phi);
     log.add_noise();
-    EXPECT_EQ(OfOne(log, {}).credible(k), mass);
+    EXPECT_EQ(OfOne(log, {}).credible(k), is_one) << Phi.transpose();
+  }
+}
+
+/// Two columns are nearly the same, so that neither number is known, and the load is.
+TEST(Credibility, ALoadIsKnownAsOneWhereItsNumbersAreNot) {
+  Effect load = law("load", 10);
+  load.is_payload = true;
+  const Eigen::VectorXd Phi = unit_parameters(make_point({0.3, 0.1, -0.2}, 1.0)).values;
+  for (const double standard_errors : {0.0, 25.0}) {
+    Planted log(31);
+    Eigen::MatrixXd columns = 1e-6 * log.normal(10);
+    const Eigen::VectorXd same = log.normal(1);
+    columns.col(0) += same;
+    columns.col(1) += same;
+    const std::size_t k = log.add(load, columns);
+    log.plant(k, Planted::size_of(standard_errors) * Phi);
+    log.add_noise();
+    EXPECT_EQ(OfOne(log, {}).credible(k), standard_errors > 0.0);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/shape.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
 namespace shapeid::diagnosis {
@@ -365,6 +366,23 @@ TEST(Consistent, ALoadIsABody) {
   const Eigen::VectorXd& body = told.model.model.effects[0].value;
   EXPECT_FALSE(why_impossible(InertialParameters{body}));
   EXPECT_NEAR(body[0], 0.8, 0.2);
+}
+
+/// The first link turns about one axis: of a load there its moment of inertia about that is all
+/// that shows. It is certain, and what no data show is not called known.
+TEST(Consistent, OfALoadOnlyWhatShowsIsDetermined) {
+  AppliedEffect load = effect("payload_from", 1, {0.0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  load.value = 0.5 * unit_parameters(make_point({0.4, 0.3, 0.1}, 1.0)).values;
+  load.shape[0] = 9.0;
+  const Told told(record({{load}, 20.0, 0.02, 2}), record({{}, 20.0}), load);
+  ASSERT_EQ(told.model.model.effects.size(), 1U);
+  const Eigen::VectorXd& error = told.model.effect_error[0];
+  EXPECT_GT(error[0], 1.0);
+  EXPECT_GT(error[1], 1.0);
+  EXPECT_LT(error[9], 0.02 * load.value[9]);
+  EXPECT_NEAR(told.model.model.effects[0].value[9], load.value[9], 0.02 * load.value[9]);
+  EXPECT_LT(told.model.load_size_error[0], 0.02);
+  EXPECT_FALSE(told.loop.found[0].faded);
 }
 
 /// What was taken away is no load. Free links take most of it, and a body on the other side some.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapeid/models/shape.hpp"
 #include "shapeid/tests/diagnosis/planted.hpp"
 
 namespace shapeid::diagnosis {
@@ -181,12 +182,14 @@ TEST(Selection, SizesBeyondBeliefAreNotAccepted) {
 }
 
 TEST(Selection, MomentsWithoutMassAreNoLoad) {
-  Effect load = law("load", 2);
+  Effect load = law("load", 10);
   load.is_payload = true;
   for (const double mass : {1.0, 0.0}) {
     Planted log(11);
-    const std::size_t k = log.add(load, log.normal(2));
-    log.plant(k, Planted::size_of(25.0) * Eigen::Vector2d(mass, 1.0));
+    const std::size_t k = log.add(load, log.normal(10));
+    Eigen::VectorXd Phi = unit_parameters(make_point({0.3, -0.2, 0.6}, 1.0)).values;
+    Phi[0] = mass;
+    log.plant(k, Planted::size_of(50.0) * Phi);
     log.add_noise();
     EXPECT_EQ(accepted(log.selection()), mass > 0.0 ? Numbers{k} : Numbers{});
   }
@@ -293,7 +296,7 @@ TEST(Selection, DoesNotTakeOneCauseWhereThereAreTwo) {
 
 TEST(Selection, OfTwoThatFitAlikeTheSimplerIsTaken) {
   Effect two = law("two", 2);
-  two.parameters[1].unit = "N m/rad";  // as a spring, which has an offset in it: no vector
+  two.parameters[1].unit = "N m/rad";           // as a spring, which has an offset in it: no vector
   for (unsigned seed = 0; seed < 20; ++seed) {  // of half of them the other has the lower error
     Planted log(seed);
     const Eigen::MatrixXd a = log.normal(1);

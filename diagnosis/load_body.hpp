@@ -1,0 +1,24 @@
+// The body that a load can be: what of ten free numbers points of mass near its link explain.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "shapeid/diagnosis/fits.hpp"
+#include "shapeid/models/contract.hpp"
+
+namespace shapeid::diagnosis {
+
+struct LoadBody {
+  Eigen::VectorXd Phi;  ///< 10: kg, kg m, kg m^2
+  double gain = 0.0;    ///< squared error that it takes away
+  double lost = 0.0;    ///< squared error that ten free numbers take away, and it does not
+};
+
+/// Of a load that is fitted beside all else: masses m >= 0 at points no further than
+/// `furthest_load` from its link's origin along each axis, found as load_places.hpp says.
+[[nodiscard]] LoadBody best_body(const BlockFits::Beside& load);
+
+/// Empty if these are the normal equations of a load: of ten numbers.
+[[nodiscard]] Violation why_no_load(const BlockFits::Beside& load);
+
+}  // namespace shapeid::diagnosis
