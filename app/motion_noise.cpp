@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "shapeid/diagnosis/contact_flags.hpp"
+#include "shapeid/models/error.hpp"
 
 namespace shapeid::app {
 
@@ -29,6 +30,9 @@ diagnosis::SmootherLogs NoiseOfMotion::smoother(const DiagnosisRun& run) {
     settings_.margin = margin_of(inputs, log_inputs_.rate);
     settings_.log_starts = log_->starts;
   }
+  if (log_->recording.samples().empty()) {
+    throw Refusal("too-short", "nothing is left of the log behind the slower filter");
+  }
   return {log_->recording, reference_ ? &reference_->recording : nullptr, settings_};
 }
 
@@ -45,9 +49,13 @@ void NoiseOfMotion::question_laws(const diagnosis::Recording& log, DiagnosisRun&
       })) {
     return;
   }
-  for (const diagnosis::Stranger& s :
-       diagnosis::take_back_noise(robot, smoother(run), fast_shares_, run.loop)) {
-    taken_back_.push_back(diagnosis::law_text(s, robot));
+  try {
+    for (const diagnosis::Stranger& s :
+         diagnosis::take_back_noise(robot, smoother(run), fast_shares_, run.loop)) {
+      taken_back_.push_back(diagnosis::law_text(s, robot));
+    }
+  } catch (const Refusal&) {
+    is_too_short_ = true;
   }
 }
 
@@ -58,8 +66,13 @@ void NoiseOfMotion::question_curves(const diagnosis::Recording& log,
   fast_shares_ = diagnosis::fast_shares(robot, log, remaining, run.settings.cutoff);
   const auto noisy = [&](const diagnosis::Structure& s) { return is_noisy(s.joint); };
   if (std::none_of(run.structures.begin(), run.structures.end(), noisy)) return;
-  const std::vector<diagnosis::Structure> now =
-      diagnosis::unexplained_behind(robot, smoother(run), run.loop);
+  std::vector<diagnosis::Structure> now;
+  try {
+    now = diagnosis::unexplained_behind(robot, smoother(run), run.loop);
+  } catch (const Refusal&) {
+    is_too_short_ = true;
+    return;
+  }
   std::erase_if(run.structures, [&](const diagnosis::Structure& s) {
     const bool gone = noisy(s) && std::none_of(now.begin(), now.end(), [&](const auto& other) {
                         return other.joint == s.joint;
@@ -84,6 +97,12 @@ void NoiseOfMotion::note(DiagnosisRun& run) const {
       "most of what remains of {} is faster than {:.3g} Hz, as noise of differentiated positions "
       "is: with --cutoff {:.3g} less of it remains, and smaller effects can be seen",
       fmt::join(noisy, ", "), slower, slower));
+  if (is_too_short_) {
+    run.notes.push_back(fmt::format(
+        "behind a filter of {:.3g} Hz too little of the log is left to tell whether what is "
+        "unexplained of these joints is such noise",
+        slower));
+  }
   if (taken_back_.empty()) return;
   run.notes.push_back(fmt::format("gone behind a filter of {:.3g} Hz, and so not unexplained: {}",
                                   slower, fmt::join(taken_back_, ", ")));

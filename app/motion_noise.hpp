@@ -37,6 +37,7 @@ class NoiseOfMotion {
   diagnosis::LoopSettings settings_;
   std::vector<double> fast_shares_;
   std::vector<std::string> taken_back_, silent_;
+  bool is_too_short_ = false;  ///< behind the slower filter, to be asked
 };
 
 }  // namespace shapeid::app

@@ -32,12 +32,13 @@ struct SmootherLogs {
 
 /// Takes back laws without a name at joints of which `fast_shares` is noise of motion, if the
 /// smoother logs have none there; names are then questioned as these have it. Returns what was
-/// taken back.
+/// taken back. Throws Refusal "too-short" as close_loop() does: a slower filter leaves less of a
+/// log.
 std::vector<Stranger> take_back_noise(const Robot& robot, const SmootherLogs& smoother,
                                       const std::vector<double>& fast_shares, LoopResult& loop);
 
 /// unexplained() of the smoother log, by the loop's model with its numbers fitted anew there: noise
-/// of motion has spoilt these, too.
+/// of motion has spoilt these, too. Throws likewise.
 [[nodiscard]] std::vector<Structure> unexplained_behind(const Robot& robot,
                                                         const SmootherLogs& smoother,
                                                         const LoopResult& loop);

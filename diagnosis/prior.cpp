@@ -11,7 +11,7 @@ double choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
   // Of its natural size, one as standard deviation of each parameter, and a thirtieth. (A hundred
   // times its size was allowed, too: masses of 28 kg, for 8, then stood for an offset of torque.)
   constexpr double weakest = 1.0, strongest = 1000.0;
-  double prior = weakest;
+  double prior = 1e-4;  // as if nothing held them
   while (prior <= 1.5 * strongest) {
     fits.set_prior(prior);
     priors.push_back(prior);
@@ -28,6 +28,7 @@ double choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
     const double worse = errors[i].sum() - best->sum();
     if (!(worse > noise) || gain_of(errors[i], *best).t < told_apart) chosen = priors[i];
   }
+  chosen = std::max(chosen, weakest);
   fits.set_prior(chosen);
   return chosen;
 }

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <tuple>
 
+#include "shapeid/models/error.hpp"
 #include "shapeid/models/segment_filter.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
@@ -108,6 +110,12 @@ TEST(NoiseOfMotion, ALawThatTheSmootherLogLacksIsTakenBack) {
 TEST(NoiseOfMotion, ALawThatTheSmootherLogHasStays) {
   LoopResult loop = loop_of(with_a_gear());
   EXPECT_TRUE(taken_back(with_a_gear(), all_noise, loop).empty());
+  EXPECT_EQ(loop.strangers.size(), 1U);
+}
+
+TEST(NoiseOfMotion, OfTooShortALogNothingIsAsked) {
+  LoopResult loop = loop_of(with_a_gear());
+  EXPECT_THROW(std::ignore = taken_back(record({{}, 3.0}), all_noise, loop), Refusal);
   EXPECT_EQ(loop.strangers.size(), 1U);
 }
 
