@@ -8,8 +8,9 @@
 namespace shapeid::diagnosis {
 
 /// The strongest prior that predicts held-out blocks as well as any, as far as their scatter
-/// tells: what the data say nothing about stays as given. Bounded, because a prior that froze the
-/// given inertias would have effects found that make up for their errors.
+/// tells: what the data say nothing about stays as given. Bounded on both sides: a prior that froze
+/// the given inertias would have effects found that make up for their errors, and beside one that
+/// left them further than their natural size, masses would stand for effects.
 /// Sets it and returns it.
 double choose_prior(BlockFits& fits, const std::vector<Term>& terms);
 
