@@ -91,16 +91,17 @@ void NoiseOfMotion::note(DiagnosisRun& run) const {
   for (int j = 0; j < robot.joint_count() && !fast_shares_.empty(); ++j) {
     if (is_noisy(robot.joint(j).name)) noisy.push_back(robot.joint(j).name);
   }
-  if (noisy.empty()) return;
   const double slower = diagnosis::slower_by * run.settings.cutoff;
-  run.notes.push_back(fmt::format(
-      "most of what remains of {} is faster than {:.3g} Hz, as noise of differentiated positions "
-      "is: with --cutoff {:.3g} less of it remains, and smaller effects can be seen",
-      fmt::join(noisy, ", "), slower, slower));
+  if (!noisy.empty()) {
+    run.notes.push_back(fmt::format(
+        "most of what remains of {} is faster than {:.3g} Hz, as noise of differentiated positions "
+        "is: with --cutoff {:.3g} less of it remains, and smaller effects can be seen",
+        fmt::join(noisy, ", "), slower, slower));
+  }
   if (is_too_short_) {
     run.notes.push_back(fmt::format(
         "behind a filter of {:.3g} Hz too little of the log is left to tell whether what is "
-        "unexplained of these joints is such noise",
+        "unexplained is noise of differentiated positions",
         slower));
   }
   if (taken_back_.empty()) return;
