@@ -135,6 +135,7 @@ std::string values_text(const Robot& robot, const AppliedEffect& a, const Eigen:
 /// Where a load is, of whose mass that much is known; errors as if mass and moments had independent
 /// ones.
 std::string centre_text(const Robot& robot, const AppliedEffect& a, const Eigen::VectorXd& error) {
+  if (!std::isfinite(error[0])) return "where it is cannot be told: no data show its mass";
   constexpr double known = 2.0;  // standard errors
   if (!(a.value[0] > known * error[0])) {
     return "where it is cannot be told: its mass is zero within two standard errors";

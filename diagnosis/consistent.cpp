@@ -304,11 +304,19 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       if (known != nullptr) error_places[k].value = known->standard_error;
     }
     put_back(trusted(errors.tail(sums.linear()), sums, linear, error_places), linear, error_places);
-    // A load's numbers that no data tell apart are as the points have it that were tried.
+    // A load's numbers that no data tell apart are as the points have it that were tried. Rounding
+    // may leave of "not at all" an error that no load could have.
+    constexpr double no_knowledge = 100.0;  // usual sizes
     for (std::size_t i = 0; i < loads.size(); ++i) {
-      Eigen::VectorXd& error = error_places[linear[i]].value;
-      error = error.cwiseMax(
+      AppliedEffect& load = error_places[linear[i]];
+      load.value = load.value.cwiseMax(
           data.standard_error.segment<10>(sums.links() + 10 * static_cast<Eigen::Index>(i)));
+      for (Eigen::Index p = 0; p < load.value.size(); ++p) {
+        const double size = load.effect->parameters[static_cast<std::size_t>(p)].size;
+        if (load.value[p] > no_knowledge * size) {
+          load.value[p] = std::numeric_limits<double>::infinity();
+        }
+      }
     }
     for (const AppliedEffect& a : error_places) result.effect_error.push_back(a.value);
     if (sums.links() > 0) result.data = of_links(std::move(data), sums.links());
