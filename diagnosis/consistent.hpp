@@ -29,8 +29,8 @@ struct Consistent {
 };
 
 /// Marks what does not differ from zero in the consistent model as it had to when it was accepted:
-/// none of its numbers is as many standard errors from zero as a normal number is by chance in so
-/// few logs as the rule allows, for any of the loop's hypotheses.
+/// none of its numbers (of a load its size as a whole) is as many standard errors from zero as a
+/// normal number is by chance in so few logs as the rule allows, for any of the loop's hypotheses.
 void mark_faded(const Recording& log, const LoopSettings& settings, const Consistent& consistent,
                 LoopResult& loop);
 

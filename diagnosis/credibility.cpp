@@ -15,7 +15,7 @@ namespace {
 constexpr double least_of_both = 1.1;
 
 // Of what ten free numbers explain, the share that no body explains and a load's name may lack.
-constexpr double least_lost = 0.1;
+constexpr double most_lost = 0.1;
 
 }  // namespace
 
@@ -63,7 +63,7 @@ bool Credibility::is_body(std::size_t k, const Fit& own, const LoadBody& body) c
   const double by_chance =
       own.left / own.freedom *
       least_squares_sum(rule_.false_alarms, fits_.numbers_shown(contenders_[k].term));
-  return body.gain > 0.0 && body.lost <= std::max(by_chance, least_lost * (body.gain + body.lost));
+  return body.gain > 0.0 && body.lost <= std::max(by_chance, most_lost * (body.gain + body.lost));
 }
 
 bool Credibility::credible(std::size_t k, const Chosen& others, const Fit& without,

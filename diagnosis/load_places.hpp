@@ -9,8 +9,8 @@
 
 namespace shapeid::diagnosis {
 
-/// m: how far beyond its link a load is sought, and how far from the link's origin a name's load
-/// may have its centre.
+/// m: how far beyond its link a load is sought, and how far from the link's origin, along
+/// each axis, a name's load may have its mass.
 inline constexpr double furthest_load = 1.0;
 
 /// `furthest_load` beyond the link on every side. `shapes`: of links, among them those of this one,
