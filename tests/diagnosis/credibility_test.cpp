@@ -153,7 +153,7 @@ TEST(Credibility, ALoadIsKnownAsOneWhereItsNumbersAreNot) {
   const Eigen::VectorXd Phi = unit_parameters(make_point({0.3, 0.1, -0.2}, 1.0)).values;
   for (const double standard_errors : {0.0, 25.0}) {
     Planted log(31);
-    Eigen::MatrixXd columns = 1e-6 * log.normal(10);
+    Eigen::MatrixXd columns = 0.01 * log.normal(10);
     const Eigen::VectorXd same = log.normal(1);
     columns.col(0) += same;
     columns.col(1) += same;
