@@ -161,10 +161,14 @@ Eigen::VectorXd BlockFits::ridge(const Columns& a) const {
   return r;
 }
 
-Eigen::VectorXd BlockFits::solve(const Columns& a, int left_out) const {
+Eigen::LDLT<Eigen::MatrixXd> BlockFits::factored(const Columns& a, int left_out) const {
   Eigen::MatrixXd N = normal(a, a, left_out);
   N.diagonal() += ridge(a);
-  return N.ldlt().solve(target(a, left_out));
+  return N.ldlt();
+}
+
+Eigen::VectorXd BlockFits::solve(const Columns& a, int left_out) const {
+  return factored(a, left_out).solve(target(a, left_out));
 }
 
 /// G (x, -1) in the rows of the listed columns and of F; columns that are not active yet count as
@@ -197,9 +201,7 @@ double BlockFits::error_of(const Columns& a, const Eigen::VectorXd& x, std::size
 
 Fit BlockFits::fit(const std::vector<Term>& terms) const {
   const Columns a = listed(terms);
-  Eigen::MatrixXd N = normal(a, a, -1);
-  N.diagonal() += ridge(a);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(N);
+  const Eigen::LDLT<Eigen::MatrixXd> factor = factored(a, -1);
   const Eigen::VectorXd x = factor.solve(target(a, -1));
 
   const auto count = static_cast<Eigen::Index>(tally_.blocks.size());
@@ -267,12 +269,10 @@ Eigen::VectorXd BlockFits::given_error() const {
 std::vector<BlockFits::Promise> BlockFits::promises(const std::vector<Term>& terms,
                                                     const std::vector<Term>& candidates) const {
   const Columns a = listed(terms);
-  Eigen::MatrixXd N = normal(a, a, -1);
   // How much of a candidate the masses contain is asked of the data alone.
-  const Eigen::LDLT<Eigen::MatrixXd> bare(N + regularity *
-                                                  Eigen::MatrixXd::Identity(N.rows(), N.cols()));
-  N.diagonal() += ridge(a);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(N);
+  const Eigen::LDLT<Eigen::MatrixXd> bare(
+      normal(a, a, -1) + regularity * Eigen::MatrixXd::Identity(a.count(), a.count()));
+  const Eigen::LDLT<Eigen::MatrixXd> factor = factored(a, -1);
   const Eigen::VectorXd x = factor.solve(target(a, -1));
   std::vector<Promise> promises;
   for (const Term& candidate : candidates) {
@@ -291,9 +291,7 @@ std::vector<BlockFits::Promise> BlockFits::promises(const std::vector<Term>& ter
 std::vector<Eigen::MatrixXd> BlockFits::moves(const std::vector<Term>& terms,
                                               const std::vector<Term>& candidates) const {
   const Columns a = listed(terms);
-  Eigen::MatrixXd N = normal(a, a, -1);
-  N.diagonal() += ridge(a);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(N);
+  const Eigen::LDLT<Eigen::MatrixXd> factor = factored(a, -1);
   const Eigen::VectorXd unit = scale_(a.index).cwiseInverse();
   std::vector<Eigen::MatrixXd> moves;
   for (const Term& candidate : candidates) {
@@ -306,9 +304,7 @@ std::vector<Eigen::MatrixXd> BlockFits::moves(const std::vector<Term>& terms,
 
 BlockFits::Beside BlockFits::beside(const std::vector<Term>& terms, const Term& candidate) const {
   const Columns a = listed(terms), c = listed({candidate});
-  Eigen::MatrixXd N = normal(a, a, -1);
-  N.diagonal() += ridge(a);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(N);
+  const Eigen::LDLT<Eigen::MatrixXd> factor = factored(a, -1);
   const Eigen::MatrixXd B = normal(a, c, -1);
   const Eigen::VectorXd unit = scale_(c.index);
   return {
@@ -322,9 +318,7 @@ SumWithError BlockFits::along(const std::vector<Term>& terms, const Term& candid
   all.push_back(candidate);
   const Columns a = listed(terms), c = listed({candidate}), both = listed(all);
   const Eigen::VectorXd direction = scale_(c.index).cwiseProduct(numbers);
-  Eigen::MatrixXd N = normal(a, a, -1);
-  N.diagonal() += ridge(a);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(N);
+  const Eigen::LDLT<Eigen::MatrixXd> factor = factored(a, -1);
   const Eigen::VectorXd B = normal(a, c, -1) * direction;
   const Eigen::VectorXd moved = factor.solve(B);
   const double own = direction.dot(normal(c, c, -1) * direction) - B.dot(moved);

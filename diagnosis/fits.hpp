@@ -140,6 +140,8 @@ class BlockFits {
   [[nodiscard]] Eigen::MatrixXd normal(const Columns& a, const Columns& b, int left_out) const;
   [[nodiscard]] Eigen::VectorXd target(const Columns& a, int left_out) const;
   [[nodiscard]] Eigen::VectorXd ridge(const Columns& a) const;
+  /// What is solved for the listed columns: their sums of squares, and the prior's.
+  [[nodiscard]] Eigen::LDLT<Eigen::MatrixXd> factored(const Columns& a, int left_out) const;
   [[nodiscard]] Eigen::VectorXd solve(const Columns& a, int left_out) const;
   [[nodiscard]] Eigen::VectorXd errors_of_independent_noise(
       const Columns& a, const Eigen::LDLT<Eigen::MatrixXd>& factor, double variance) const;
