@@ -1,0 +1,138 @@
+// Noise of differentiated positions: from a log with noisy encoders to what diagnose says of it.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shapeid/app/motion_noise.hpp"
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/models/log.hpp"
+#include "shapeid/models/log_writer.hpp"
+#include "shapeid/models/simbody/random.hpp"
+#include "shapeid/tests/app/arms.hpp"
+#include "shapeid/tests/app/command.hpp"
+
+namespace shapeid::test {
+namespace {
+
+constexpr double encoder_noise = 1e-3;  // rad
+
+/// Positions and torques of the arms, whose masses are as given, with this noise of positions.
+std::string write_noisy_arms(const std::string& name, double noise) {
+  scratch_file(name + ".urdf", arms_urdf(masses_of_arms()));
+  write_arms_log(name, masses_of_arms(), {0.02, 0.02});
+  LogReader exact(scratch() + "/" + name + ".csv");
+  std::vector<std::string> columns;
+  std::vector<std::size_t> from;
+  for (std::size_t i = 0; i < exact.columns().size(); ++i) {
+    const std::string& column = exact.columns()[i];
+    if (column.starts_with("dq.") || column.starts_with("ddq.")) continue;
+    columns.push_back(column);
+    from.push_back(i);
+  }
+  LogWriter out(scratch() + "/" + name + ".noisy.csv", columns);
+  Random random(11);
+  while (const std::optional<LogRow> row = exact.next()) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      const double error = columns[i].starts_with("q.") ? noise * random.normal() : 0.0;
+      values.push_back(row->values[from[i]] + error);
+    }
+    out.write(values);
+  }
+  out.close();
+  return fmt::format("--robot {0}.urdf --log {0}.noisy.csv --trust", name);
+}
+
+nlohmann::json diagnosed(const std::string& arguments) {
+  const CommandRun run = shapeid("diagnose --json " + arguments);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return run.status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
+}
+
+bool any_says(const std::vector<std::string>& notes, const std::string& words) {
+  return std::any_of(notes.begin(), notes.end(),
+                     [&](const auto& note) { return note.find(words) != std::string::npos; });
+}
+
+/// The noise has no structure of its own: what it seems to have is gone at half the cutoff.
+TEST(NoisyEncoders, LeaveNothingUnexplainedAndAreNamed) {
+  const auto shaken = diagnosed(write_noisy_arms("shaken", encoder_noise) + " --cutoff 16");
+  EXPECT_TRUE(any_says(shaken["notes"], "is faster than 8 Hz, as noise of differentiated"));
+  EXPECT_TRUE(any_says(shaken["notes"], "gone behind a filter of 8 Hz, and so not unexplained"));
+  EXPECT_EQ(shaken["unexplained"], nlohmann::json::array());
+  const auto calm = diagnosed(write_noisy_arms("calm", 0.0) + " --cutoff 16");
+  EXPECT_FALSE(any_says(calm["notes"], "faster than"));
+}
+
+struct Questioned {
+  app::DiagnosisRun run;
+  std::vector<std::string> silent;
+};
+
+/// A run on noisy arms that found a law and a curve of j1 which are not there.
+Questioned with_false_findings(const std::string& name, double noise) {
+  write_noisy_arms(name, noise);
+  app::MotionInputs inputs;
+  inputs.robot = scratch() + "/" + name + ".urdf";
+  inputs.log = scratch() + "/" + name + ".noisy.csv";
+  inputs.cutoff = 16.0;
+  inputs.quiet = true;
+  const app::RobotInputs robot = app::read_robot(inputs);
+  const app::RecordedLog log = app::read_recording(inputs.log, robot, inputs, std::nullopt);
+
+  app::DiagnosisRun run{{}, {}, {}, {}, {}, {}, {}, {}, log.recording, 1, {}, {}, log.motion, {}};
+  run.settings.rows = log.contacts;
+  run.settings.weight = app::weight(robot);
+  run.settings.size = Eigen::VectorXd::Ones(Eigen::Index{10} * robot.robot.link_count());
+  run.settings.cutoff = inputs.cutoff;
+  run.settings.stride = app::stride_of(inputs, log.motion.rate);
+  run.settings.margin = app::margin_of(inputs, log.motion.rate);
+  run.settings.log_starts = log.starts;
+  run.loop = diagnosis::close_loop(robot.robot, log.recording, nullptr, run.settings);
+  diagnosis::Stranger law;
+  law.law = {0, diagnosis::Signal::position, 0};
+  law.carrier = diagnosis::at_start(*diagnosis::find_effect("torque_offset"), 0);
+  run.loop.strangers = {law};
+  diagnosis::Structure curve;
+  curve.joint = "j1";
+  curve.variable = "q.j1";
+  run.structures = {curve};
+
+  const std::vector<diagnosis::Found> no_flags;
+  app::NoiseOfMotion questions({robot, inputs, {inputs.log}, std::nullopt, log.motion.rate, {}},
+                               std::nullopt, no_flags);
+  questions.question_laws(log.recording, run);
+  questions.question_curves(log.recording,
+                            diagnosis::series(robot.robot, run.settings.rows, run.loop.model,
+                                              log.recording, run.settings.stride),
+                            run);
+  questions.note(run);
+  return {std::move(run), questions.silent()};
+}
+
+TEST(NoisyEncoders, WhatIsGoneBehindASlowerFilterIsTakenBackAndSaid) {
+  const auto [run, silent] = with_false_findings("suspected", encoder_noise);
+  EXPECT_TRUE(run.loop.strangers.empty());
+  EXPECT_TRUE(run.structures.empty());
+  EXPECT_EQ(silent, std::vector<std::string>{"j1"});
+  EXPECT_TRUE(any_says(run.notes, "so not unexplained: torque_offset@j1 over q.j1, j1 over q.j1"))
+      << fmt::format("{}", fmt::join(run.notes, "\n"));
+}
+
+/// Where little of what remains is noise of motion nothing is taken back.
+TEST(NoisyEncoders, WithQuietOnesFindingsStand) {
+  const auto [run, silent] = with_false_findings("trusted", 0.0);
+  EXPECT_EQ(run.loop.strangers.size(), 1U);
+  EXPECT_EQ(run.structures.size(), 1U);
+  EXPECT_TRUE(silent.empty());
+  EXPECT_FALSE(any_says(run.notes, "gone behind"));
+}
+
+}  // namespace
+}  // namespace shapeid::test
