@@ -18,13 +18,13 @@ namespace {
 /// size.
 constexpr std::size_t largest_file = std::size_t{1} << 26U;
 
-struct Options {
+struct CertifyArguments {
   std::string problem, answer, certificate, out;
   certificate::Tolerance tolerance;
   bool json = false;
 };
 
-void certify(const Options& options) {
+void certify(const CertifyArguments& options) {
   using namespace certificate;
   const StatedProblem problem =
       stated_problem_from_json(read_small_file(options.problem, largest_file), options.problem);
@@ -62,7 +62,7 @@ void certify(const Options& options) {
 }  // namespace
 
 void add_certify(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CertifyArguments>();
   CLI::App* verb = app.add_subcommand(
       "certify", "accept or reject anyone's answer to a mass problem, with a proven bound");
   verb->add_option("problem", options->problem, "problem.json")->required();

@@ -16,18 +16,18 @@
 namespace shapeid::app {
 namespace {
 
-struct Options {
+struct ConvertArguments {
   std::string from, to;
   std::vector<std::string> numbers;
   bool json = false;
 };
 
-double number(const std::string& text) {
+double parsed(const std::string& text) {
   if (const std::optional<double> value = parse_number(text)) return *value;
   throw InputError("a parameter " + why_no_number(text), "write decimals, such as -0.25");
 }
 
-void convert(const Options& options) {
+void convert(const ConvertArguments& options) {
   const Order from = order_named(options.from), to = order_named(options.to);
   std::vector<std::string> words = options.numbers;
   if (words.empty()) {
@@ -35,7 +35,7 @@ void convert(const Options& options) {
   }
   Eigen::VectorXd values(static_cast<Eigen::Index>(words.size()));
   for (std::size_t i = 0; i < words.size(); ++i) {
-    values[static_cast<Eigen::Index>(i)] = number(words[i]);
+    values[static_cast<Eigen::Index>(i)] = parsed(words[i]);
   }
   const InertialParameters body = from_order(from, values);
   const Eigen::VectorXd result = to_order(to, body);
@@ -59,7 +59,7 @@ void convert(const Options& options) {
 }  // namespace
 
 void add_convert(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ConvertArguments>();
   CLI::App* verb = app.add_subcommand("convert", "inertial parameters from order to order");
   std::string names;
   for (const auto name : order_names) names += (names.empty() ? "" : ", ") + std::string(name);

@@ -27,7 +27,7 @@ namespace {
 
 using Table = std::vector<std::vector<std::string>>;
 
-constexpr double seconds = 10.0;
+constexpr double demo_seconds = 10.0;
 constexpr std::uint64_t seed = 7;
 
 struct Demo {
@@ -54,7 +54,7 @@ MotionInputs record_log(const Demo& demo, const std::string& name,
   Robot robot = read_urdf(inputs.robot).robot;
   const RobotNotes notes = read_robot_yaml(inputs.robot_yaml, robot);
   SimulationOptions simulation;
-  simulation.duration = seconds;
+  simulation.duration = demo_seconds;
   simulation.seed = seed;
   simulation.load = load;
   SensorOptions sensors;
@@ -63,13 +63,13 @@ MotionInputs record_log(const Demo& demo, const std::string& name,
   return inputs;
 }
 
-std::string number(double x) { return fmt::format("{:.5g}", x); }
+std::string five_digits(double x) { return fmt::format("{:.5g}", x); }
 
 /// Truth against found, kg, m and kg m^2 apart: one row each, never one norm over mixed units.
 Table truth_table(const InertialParameters& truth, const InertialParameters& found) {
   Table table = {{"", "unit", "truth", "found", "error"}};
   const auto row = [&](const std::string& name, const std::string& unit, double t, double f) {
-    table.push_back({name, unit, number(t), number(f), fmt::format("{:+.2g}", f - t)});
+    table.push_back({name, unit, five_digits(t), five_digits(f), fmt::format("{:+.2g}", f - t)});
   };
   row("mass", "kg", truth.mass(), found.mass());
   const Eigen::Vector3d ct = truth.centre_of_mass(), cf = found.centre_of_mass();
@@ -129,7 +129,7 @@ void base_link(Demo& demo) {
   const Result result = run_identification(robot, model, inputs, options);
   show(demo,
        fmt::format("The base link: {} shapes of unknown mass, {:.0f} s of trot with sensor noise",
-                   model.shapes.size(), seconds),
+                   model.shapes.size(), demo_seconds),
        truth_table(truth, {result.found.Phi.head<10>()}));
   say(demo, residual_sentence(result, robot.robot));
   demo.document["base"] = comparison_json(truth, {result.found.Phi.head<10>()});

@@ -21,13 +21,13 @@
 namespace shapeid::app {
 namespace {
 
-struct Options {
+struct DiagnoseArguments {
   DiagnoseOptions diagnose;
   Delivery delivery;
   bool strict = false;
 };
 
-void write_files(const Options& options, const RobotInputs& robot, DiagnosisRun& run) {
+void write_files(const DiagnoseArguments& options, const RobotInputs& robot, DiagnosisRun& run) {
   const Robot& r = robot.robot;
   std::string urdf = diagnosed_urdf(run, r, options.diagnose.inputs.robot);
   diagnosis::RichModel model = run.consistent.model;
@@ -40,7 +40,7 @@ void write_files(const Options& options, const RobotInputs& robot, DiagnosisRun&
               {"report.html", diagnosis_report(run, r, options.diagnose)}});
 }
 
-void diagnose(Options& options) {
+void diagnose(DiagnoseArguments& options) {
   if (!options.delivery.folder.empty()) check_gnuplot();
   DiagnoseOptions& d = options.diagnose;
   if (d.inputs.exact) d.inputs.cutoff = 0.0;  // nothing is smoothed
@@ -73,7 +73,7 @@ void print_catalogue(std::int64_t) {
 }  // namespace
 
 void add_diagnose(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DiagnoseArguments>();
   DiagnoseOptions& d = options->diagnose;
   CLI::App* verb =
       app.add_subcommand("diagnose", "what the model lacks: effects, their sizes, a richer model");

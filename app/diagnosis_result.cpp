@@ -17,11 +17,11 @@ namespace {
 using diagnosis::AppliedEffect;
 using nlohmann::json;
 
-json number(double x) { return std::isfinite(x) ? json(x) : json(); }
+json number_or_null(double x) { return std::isfinite(x) ? json(x) : json(); }
 
 json numbers(const Eigen::VectorXd& v) {
   json list = json::array();
-  for (const double x : v) list.push_back(number(x));
+  for (const double x : v) list.push_back(number_or_null(x));
   return list;
 }
 
@@ -47,7 +47,7 @@ json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
     values[a.effect->parameters[p].name] = {
         {"value", a.value[at]},
         {"unit", unit_of(robot, a, a.effect->parameters[p].unit)},
-        {"standard_error", number(error[at])}};
+        {"standard_error", number_or_null(error[at])}};
   }
   for (std::size_t s = 0; s < a.effect->shape.size(); ++s) {
     values[a.effect->shape[s].name] = {{"value", a.shape[static_cast<Eigen::Index>(s)]},
@@ -57,7 +57,7 @@ json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
                 {"site", site_name(robot, a.effect->site, a.site)},
                 {"value", a.value[0]},
                 {"unit", unit_of(robot, a, a.effect->parameters[0].unit)},
-                {"standard_error", number(error[0])},
+                {"standard_error", number_or_null(error[0])},
                 {"values", values}};
   if (const diagnosis::Found* f = found_for(run, a)) {
     entry["heldout_gain"] = f->gain;

@@ -15,7 +15,7 @@
 namespace shapeid::app {
 namespace {
 
-struct Options {
+struct IdentifyArguments {
   MotionInputs inputs;
   RunOptions run;
   Delivery delivery;
@@ -25,8 +25,8 @@ struct Options {
   std::size_t window = 10, stride = 10;
 };
 
-void identify_windows(const Options& options, const RobotInputs& robot, const BodyModel& model,
-                      double mass) {
+void identify_windows(const IdentifyArguments& options, const RobotInputs& robot,
+                      const BodyModel& model, double mass) {
   say_warnings(robot);
   reference::OnlineSettings settings;
   MotionInputs inputs = options.inputs;
@@ -62,7 +62,7 @@ void identify_windows(const Options& options, const RobotInputs& robot, const Bo
              1e3 * log.report().group_delay);
 }
 
-void identify(Options& options) {
+void identify(IdentifyArguments& options) {
   const RobotInputs robot = read_robot(options.inputs);
   const BodyModel model = sought_bodies(options.sought, robot.robot);
   const double mass = expected_mass(options.sought, robot, model);
@@ -80,7 +80,7 @@ void identify(Options& options) {
 }  // namespace
 
 void add_identify(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<IdentifyArguments>();
   CLI::App* verb = app.add_subcommand("identify", "masses, parameters and a URDF from a log");
   options->inputs.add_to(*verb);
   options->inputs.add_row_cutoff_to(*verb);

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct InspectArguments {
   std::string file;
   MotionInputs inputs;
   bool json = false;
@@ -73,7 +73,7 @@ std::string robot_text(const UrdfFile& file) {
   return text;
 }
 
-void inspect_robot(const Options& options) {
+void inspect_robot(const InspectArguments& options) {
   UrdfOptions reading;
   reading.reject_impossible = false;
   const UrdfFile file = read_urdf(options.file, reading);
@@ -106,7 +106,7 @@ struct Range {
   }
 };
 
-void inspect_columns(const Options& options) {
+void inspect_columns(const InspectArguments& options) {
   LogReader reader(options.file);
   const std::vector<std::string> columns = reader.columns();
   std::vector<Range> ranges(columns.size());
@@ -143,7 +143,7 @@ void inspect_columns(const Options& options) {
   }
 }
 
-void inspect_motion(Options& options) {
+void inspect_motion(InspectArguments& options) {
   options.inputs.log = options.file;
   const RobotInputs robot = read_robot(options.inputs);
   LogSamples samples(options.file, robot, options.inputs);
@@ -185,7 +185,7 @@ void inspect_motion(Options& options) {
     fmt::print("{:<26} {}\n", item.key(), json_text(item.value(), -1));
 }
 
-void inspect(Options& options) {
+void inspect(InspectArguments& options) {
   const bool is_robot = options.file.ends_with(".urdf") || options.file.ends_with(".xml");
   if (is_robot && !options.inputs.robot.empty()) {
     throw InputError({options.file}, "is a robot itself", "--robot goes with a log");
@@ -202,7 +202,7 @@ void inspect(Options& options) {
 }  // namespace
 
 void add_inspect(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InspectArguments>();
   CLI::App* verb =
       app.add_subcommand("inspect", "what is in a URDF or a log, and what is wrong with it");
   verb->add_option("file", options->file, "robot.urdf, log.csv or log.csv.gz")->required();

@@ -15,7 +15,7 @@
 namespace shapeid::app {
 namespace {
 
-struct Options {
+struct LoadArguments {
   MotionInputs inputs;
   RunOptions run;
   std::vector<std::string> area;
@@ -28,7 +28,7 @@ double bound(const std::string& text) {
   throw InputError("--area " + why_no_number(text), "LINK x0 x1 y0 y1 z0 z1, in m");
 }
 
-BodyModel region(const Options& options, const Robot& robot) {
+BodyModel region(const LoadArguments& options, const Robot& robot) {
   const auto site = robot.find_site(options.area.front());
   if (!site) throw InputError("--area: no link " + options.area.front(), "a link of the URDF");
   Eigen::Vector3d lower, upper;
@@ -45,14 +45,14 @@ BodyModel region(const Options& options, const Robot& robot) {
 }
 
 /// As asked for, else the middle of what robot.yaml says of loads, else a kilogram.
-double mass_of_load(const Options& options, const RobotNotes& notes) {
+double mass_of_load(const LoadArguments& options, const RobotNotes& notes) {
   if (options.expected_mass > 0.0) return options.expected_mass;
   const auto range = notes.expected_mass.find("load");
   if (range == notes.expected_mass.end()) return 1.0;
   return 0.5 * (range->second.lower + range->second.upper);
 }
 
-void load(Options& options) {
+void load(LoadArguments& options) {
   const RobotInputs robot = read_robot(options.inputs);
   const BodyModel model = region(options, robot.robot);
   options.run.settings.expected_mass = mass_of_load(options, robot.notes);
@@ -69,7 +69,7 @@ void load(Options& options) {
 }  // namespace
 
 void add_load(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LoadArguments>();
   CLI::App* verb = app.add_subcommand("load", "an unknown load on a link: its mass and its place");
   options->inputs.add_to(*verb);
   options->inputs.add_row_cutoff_to(*verb);

@@ -17,7 +17,7 @@
 namespace shapeid::app {
 namespace {
 
-struct Options {
+struct SimulateArguments {
   std::string robot, robot_yaml, out;
   SimulationOptions simulation;
   SensorOptions sensors;
@@ -25,7 +25,7 @@ struct Options {
   bool exact = false, json = false;
 };
 
-void simulate_log(Options& options) {
+void simulate_log(SimulateArguments& options) {
   std::error_code unknown;  // what cannot be looked at is said when it is opened
   if (!options.out.ends_with(".csv") && !options.out.ends_with(".csv.gz") &&
       !std::filesystem::is_character_file(options.out, unknown) &&
@@ -77,7 +77,7 @@ void simulate_log(Options& options) {
 }  // namespace
 
 void add_simulate(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateArguments>();
   CLI::App* verb = app.add_subcommand("simulate", "a trotting quadruped in Simbody writes a log");
   verb->add_option("--out", options->out, "log to write, .csv or .csv.gz")->required();
   verb->add_option("--robot", options->robot, "URDF of a quadruped (default: the bundled one)");

@@ -18,7 +18,7 @@
 namespace shapeid::app {
 namespace {
 
-struct Options {
+struct TrackArguments {
   MotionInputs inputs;
   SoughtLinks sought;
   TrackSettings settings;
@@ -29,7 +29,7 @@ struct Options {
   bool resume = false;
 };
 
-TrackSettings settings_for(const Options& options, const RobotInputs& robot,
+TrackSettings settings_for(const TrackArguments& options, const RobotInputs& robot,
                            const BodyModel& model) {
   TrackSettings settings = options.settings;
   EstimateSettings& estimates = settings.estimates;
@@ -60,7 +60,7 @@ void flush() {
 /// Where the lines of a run begin: at the beginning, or behind the last line of a checkpoint.
 class Source {
  public:
-  Source(const Options& options, const std::optional<Checkpoint>& checkpoint)
+  Source(const TrackArguments& options, const std::optional<Checkpoint>& checkpoint)
       : lines_(options.inputs.log, options.follow) {
     next_ = lines_.next();
     if (checkpoint) {
@@ -115,7 +115,7 @@ class Source {
   std::uint64_t first_byte_ = 0;
 };
 
-void track(Options& options) {
+void track(TrackArguments& options) {
   std::optional<Checkpoint> checkpoint;
   std::error_code unknown;  // what cannot be looked at is said when it is written
   if (options.resume && std::filesystem::exists(options.checkpoint, unknown)) {
@@ -162,7 +162,7 @@ void track(Options& options) {
 }  // namespace
 
 void add_track(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TrackArguments>();
   CLI::App* verb =
       app.add_subcommand("track", "a JSON line per window of a log that is being written");
   options->inputs.add_robot_to(*verb);

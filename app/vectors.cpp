@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct VectorsArguments {
   std::string program, folder, kind;
   std::size_t shown = 3;
   bool json_wanted = false;
@@ -50,7 +50,7 @@ void check_kind(const Vectors& all, const std::string& kind) {
   throw InputError("--kind: no vectors of kind " + kind, fmt::format("{}", fmt::join(kinds, ", ")));
 }
 
-void vectors(const Options& options) {
+void vectors(const VectorsArguments& options) {
   const Vectors all = read_vectors(options.folder);
   check_kind(all, options.kind);
   ForeignProgram program(options.program);
@@ -88,7 +88,7 @@ void vectors(const Options& options) {
 }  // namespace
 
 void add_vectors(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<VectorsArguments>();
   options->folder = SHAPEID_SOURCE_DIR "/tests/vectors";
   CLI::App* verb =
       app.add_subcommand("vectors", "run another implementation over the test vectors, by pipe");

@@ -11,7 +11,7 @@ namespace {
 // Shares of the cutoff. Above a half the filter begins to take noise away.
 constexpr double slow_below = 0.2, noise_from = 0.25, noise_below = 0.5;
 // Standard errors: chance reaches as many in one joint of some hundred thousand.
-constexpr double least_z = 4.5;
+constexpr double believed_z = 4.5;
 constexpr std::size_t fewest = 8;  // frequencies on either side
 
 void set_curve(const Spectrum& spectrum, Structure& structure) {
@@ -47,7 +47,7 @@ std::vector<Structure> slow_remains(const Robot& robot, const Recording& recordi
     const double error = std::sqrt(
         (1.0 / static_cast<double>(low_end) + 1.0 / static_cast<double>(end - from)) / share);
     const double z = std::log(low / noise) / error;
-    if (!(z > least_z)) continue;
+    if (!(z > believed_z)) continue;
     Structure structure;
     structure.joint = robot.joint(j).name;
     structure.variable = slow;

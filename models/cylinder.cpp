@@ -9,10 +9,10 @@ namespace shapeid {
 namespace {
 
 /// Radius with weight r over [lower, upper].
-struct Radial {
+struct RadiusInDisc {
   double middle, width;
 
-  explicit Radial(const Cell& cell)
+  explicit RadiusInDisc(const Cell& cell)
       : middle(0.5 * (cell.lower[0] + cell.upper[0])), width(cell.upper[0] - cell.lower[0]) {}
   [[nodiscard]] double weight() const { return middle * width; }
   [[nodiscard]] double mean() const { return middle + width * width / (12.0 * middle); }
@@ -29,7 +29,7 @@ Cell whole_cell(const Cylinder&) { return {{0.0, 0.0, -0.5}, {1.0, 2.0 * std::nu
 
 Moments canonical_moments(const Cylinder& cylinder) {
   const auto& [lower, upper] = cylinder.cell;
-  const Radial r(cylinder.cell);
+  const RadiusInDisc r(cylinder.cell);
   const Arc arc(lower[1], upper[1]);
   const double height = upper[2] - lower[2];
 

@@ -11,10 +11,10 @@ namespace {
 using std::numbers::pi;
 
 /// Radius with weight r^2 over [lower, upper]; m the middle, q the square of the width.
-struct Radial {
+struct RadiusInBall {
   double m, q, width;
 
-  explicit Radial(const Cell& cell)
+  explicit RadiusInBall(const Cell& cell)
       : m(0.5 * (cell.lower[0] + cell.upper[0])), width(cell.upper[0] - cell.lower[0]) {
     q = width * width;
   }
@@ -91,7 +91,7 @@ Cell whole_cell(const Ellipsoid&) { return {{0.0, 0.0, 0.0}, {1.0, pi, 2.0 * pi}
 
 Moments canonical_moments(const Ellipsoid& ellipsoid) {
   const auto& [lower, upper] = ellipsoid.cell;
-  const Radial r(ellipsoid.cell);
+  const RadiusInBall r(ellipsoid.cell);
   const Polar polar(ellipsoid.cell);
   const Arc arc(lower[2], upper[2]);
 

@@ -7,11 +7,10 @@
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/simbody/random.hpp"
 #include "shapeid/models/simbody/simbody_robot.hpp"
+#include "shapeid/models/simbody/two_pi.hpp"
 
 namespace shapeid {
 namespace {
-
-constexpr double two_pi = 6.283185307179586;
 
 /// centre + sum over k of amplitude_k sin(k w t + phase_k)
 struct MultiSine {

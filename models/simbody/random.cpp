@@ -2,13 +2,9 @@
 
 #include <cmath>
 
+#include "shapeid/models/simbody/two_pi.hpp"
+
 namespace shapeid {
-namespace {
-
-constexpr double two_pi = 6.283185307179586;
-
-}  // namespace
-
 double Random::uniform() {
   constexpr double unit = 1.0 / 9007199254740992.0;  // 2^-53
   return static_cast<double>(engine_() >> 11) * unit;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "shapeid/models/simbody/simbody_robot.hpp"
+#include "shapeid/models/simbody/two_pi.hpp"
 #include "shapeid/models/simbody/world.hpp"
 
 namespace shapeid {
@@ -15,7 +16,6 @@ void simulate_tracking(const Robot& robot, const TrackingOptions& options,
 
   // A critically damped spring of the bandwidth, in front of the inertia that the joints have
   // there.
-  constexpr double two_pi = 6.283185307179586;
   const double pole = two_pi * options.bandwidth;
   const SimbodyRobot known(robot);
   const auto torque = [&](const Sample& w, const RobotState& state) -> Eigen::VectorXd {

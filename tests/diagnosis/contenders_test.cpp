@@ -12,10 +12,9 @@
 namespace shapeid::diagnosis {
 namespace {
 
-using test::law;
-using test::Planted;
-
-Eigen::VectorXd number(double value) { return Eigen::VectorXd::Constant(1, value); }
+using planted::law;
+using planted::one_number;
+using planted::Planted;
 
 /// Three single ones, a group of the first two, and one of two numbers.
 class OfThem : public ::testing::Test {
@@ -89,8 +88,8 @@ TEST(Contenders, TheMostPromisingIsFirstAndWhatIsExcludedIsNotThere) {
   Planted log(12);
   std::vector<std::size_t> k;
   for (int i = 0; i < 5; ++i) k.push_back(log.add(law(fmt::format("law{}", i)), log.normal(1)));
-  log.plant(k[2], number(Planted::size_of(40.0)));
-  log.plant(k[4], number(Planted::size_of(20.0)));
+  log.plant(k[2], one_number(Planted::size_of(40.0)));
+  log.plant(k[4], one_number(Planted::size_of(20.0)));
   log.add_noise();
   const BlockFits fits = log.fits();
   const Contenders contenders(fits, log.masses(), log.candidates());
@@ -113,8 +112,8 @@ TEST(Contenders, MomentsOfOneLoadDoNotCrowdOutWhatIsSomethingElse) {
   }
   const std::size_t elsewhere = log.add(law("load"), log.normal(1), 4, 10);
   const std::size_t other = log.add(law("other"), log.normal(1));
-  log.plant(onsets[2], number(Planted::size_of(60.0)));
-  log.plant(other, number(Planted::size_of(8.0)));
+  log.plant(onsets[2], one_number(Planted::size_of(60.0)));
+  log.plant(other, one_number(Planted::size_of(8.0)));
   log.add_noise();
   const BlockFits fits = log.fits();
   const Contenders contenders(fits, log.masses(), log.candidates());

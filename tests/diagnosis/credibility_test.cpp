@@ -15,10 +15,9 @@
 namespace shapeid::diagnosis {
 namespace {
 
-using test::law;
-using test::Planted;
-
-Eigen::VectorXd number(double value) { return Eigen::VectorXd::Constant(1, value); }
+using planted::law;
+using planted::one_number;
+using planted::Planted;
 
 /// Of one candidate, whatever the log holds.
 class OfOne {
@@ -90,7 +89,7 @@ TEST(Credibility, TheMoreIsTriedTheMoreIsAsked) {
     Planted log(23);
     const std::size_t k = log.add(law("law"), log.normal(1));
     log.candidates()[k].choices = choices;
-    log.plant(k, number(Planted::size_of(standard_errors)));
+    log.plant(k, one_number(Planted::size_of(standard_errors)));
     log.add_noise();
     for (std::size_t i = 1; i < candidates; ++i) {
       log.add(law(fmt::format("law{}", i)), log.normal(1));
@@ -116,7 +115,7 @@ TEST(Credibility, ALargeNumberBeyondItsRangeIsNotCredible) {
     Effect length = law("length");
     length.parameters[0].limit = limit;
     const std::size_t k = log.add(length, log.normal(1));
-    log.plant(k, number(size));
+    log.plant(k, one_number(size));
     log.add_noise();
     EXPECT_EQ(OfOne(log, {}).credible(k), limit > size);
   }
@@ -171,7 +170,7 @@ TEST(Credibility, ARippleIsOneByItselfIfItIsThere) {
     const std::size_t other = log.add(law("other"), log.normal(1));
     const std::size_t k = log.add(law("ripple", 2), log.normal(2));
     log.candidates()[k].choices = 20.0;
-    log.plant(other, number(Planted::size_of(40.0)));
+    log.plant(other, one_number(Planted::size_of(40.0)));
     log.plant(k, Planted::size_of(planted) * Eigen::Vector2d(0.6, -0.8));
     log.add_noise();
     const BlockFits fits = log.fits();

@@ -81,10 +81,10 @@ TEST(LoadBody, HasTenNumbers) {
 
 /// Along its only column a term is as large as its number, with the same error between blocks.
 TEST(Along, IsTheNumberOfATermOfOne) {
-  test::Planted log(41);
-  const std::size_t other = log.add(test::law("other", 2), log.normal(2));
-  const std::size_t k = log.add(test::law("law"), log.normal(1), 0, 5);
-  log.plant(k, Eigen::VectorXd::Constant(1, test::Planted::size_of(9.0)));
+  planted::Planted log(41);
+  const std::size_t other = log.add(planted::law("other", 2), log.normal(2));
+  const std::size_t k = log.add(planted::law("law"), log.normal(1), 0, 5);
+  log.plant(k, planted::one_number(planted::Planted::size_of(9.0)));
   log.add_noise();
   const BlockFits fits = log.fits();
   const std::vector<Term> beside = {log.masses(), log.candidates()[other].term};

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace shapeid::diagnosis::test {
+namespace shapeid::diagnosis::planted {
 namespace {
 
 constexpr Eigen::Index inertial = 10;  // one link
@@ -134,4 +134,4 @@ const Verdict& verdict_on(std::size_t k, const Selection& selection) {
                        [&](const Verdict& v) { return v.candidate == k; });
 }
 
-}  // namespace shapeid::diagnosis::test
+}  // namespace shapeid::diagnosis::planted

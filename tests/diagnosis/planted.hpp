@@ -12,11 +12,16 @@
 
 #include "shapeid/diagnosis/selection.hpp"
 
-namespace shapeid::diagnosis::test {
+namespace shapeid::diagnosis::planted {
 
 /// An effect that is no more than its name and so many parameters of a unit.
 [[nodiscard]] Effect law(const std::string& id, int parameters = 1,
                          const std::string& unit = "N m");
+
+/// The value of an effect that has one parameter.
+[[nodiscard]] inline Eigen::VectorXd one_number(double value) {
+  return Eigen::VectorXd::Constant(1, value);
+}
 
 class Planted {
  public:
@@ -61,4 +66,4 @@ class Planted {
 /// The verdict on candidate k, which was accepted.
 [[nodiscard]] const Verdict& verdict_on(std::size_t k, const Selection& selection);
 
-}  // namespace shapeid::diagnosis::test
+}  // namespace shapeid::diagnosis::planted

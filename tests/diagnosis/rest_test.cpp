@@ -15,15 +15,15 @@ using test::arm;
 using test::arm_settings;
 using test::record;
 
-constexpr double rate = 100.0;  // Hz, of record()
-constexpr int rested = 1;       // joint
+constexpr double recorded_rate = 100.0;  // Hz, of record()
+constexpr int rested = 1;                // joint
 
 /// A log of the arm that then holds joint `rested` still for two seconds while the others go on;
 /// its torque there is `held`.
 Recording with_rest(double held) {
   const Recording moving = record({});
   std::vector<Sample> samples = moving.samples();
-  const std::size_t still = samples.size() - static_cast<std::size_t>(2.0 * rate);
+  const std::size_t still = samples.size() - static_cast<std::size_t>(2.0 * recorded_rate);
   const double place = samples[still].q[rested];
   for (std::size_t i = still; i < samples.size(); ++i) {
     samples[i].q[rested] = place;
@@ -31,7 +31,7 @@ Recording with_rest(double held) {
     samples[i].ddq[rested] = 0.0;
     samples[i].tau[rested] = held;
   }
-  return Recording(std::move(samples), rate);
+  return Recording(std::move(samples), recorded_rate);
 }
 
 TEST(Rest, IsFoundWhereAJointStandsStillAndNotWhereItTurnsRound) {
@@ -51,7 +51,7 @@ TEST(Rest, IsFoundWhereAJointStandsStillAndNotWhereItTurnsRound) {
 TEST(Rest, ShortStopsCount) {
   std::vector<Sample> samples = record({}).samples();
   for (std::size_t i = 500; i < 520; ++i) samples[i].dq[0] = 0.0;
-  const Recording log(std::move(samples), rate);
+  const Recording log(std::move(samples), recorded_rate);
   for (std::size_t i = 500; i < 520; ++i) EXPECT_FALSE(log.at_rest(i, 0));
 }
 

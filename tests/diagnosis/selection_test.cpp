@@ -14,13 +14,12 @@
 namespace shapeid::diagnosis {
 namespace {
 
-using test::accepted;
-using test::law;
-using test::Planted;
-using test::verdict_on;
+using planted::accepted;
+using planted::law;
+using planted::one_number;
+using planted::Planted;
+using planted::verdict_on;
 using Numbers = std::vector<std::size_t>;
-
-Eigen::VectorXd number(double value) { return Eigen::VectorXd::Constant(1, value); }
 
 /// Candidates of one number each, every one somewhat like the one before.
 Numbers add_alike(Planted& log, std::size_t count, double alike, double memory = 0.0) {
@@ -44,7 +43,7 @@ RC_GTEST_PROP(Selection, FindsWhatWasPlanted, ()) {
   for (const std::size_t k : planted) {
     const double sign = *rc::gen::element(-1.0, 1.0);
     // Neighbours share half of the evidence.
-    log.plant(k, number(sign * Planted::size_of(*rc::gen::inRange(14, 60))));
+    log.plant(k, one_number(sign * Planted::size_of(*rc::gen::inRange(14, 60))));
   }
   log.add_noise();
   const Numbers found = accepted(log.selection());
@@ -90,8 +89,8 @@ TEST(Selection, NamesMoreWhereChanceIsNotAllowedFor) {
 TEST(Selection, StepsAndRankingAreAsTheyWent) {
   Planted log(1);
   const Numbers k = add_alike(log, 6, 0.3);
-  log.plant(k[1], number(Planted::size_of(20.0)));
-  log.plant(k[4], number(Planted::size_of(60.0)));
+  log.plant(k[1], one_number(Planted::size_of(20.0)));
+  log.plant(k[4], one_number(Planted::size_of(60.0)));
   log.add_noise();
   const Selection s = log.selection();
   ASSERT_EQ(s.steps.size(), 2U);
@@ -121,7 +120,7 @@ TEST(Selection, WhatAlwaysActsComesBeforeAChange) {
       const std::size_t came = log.add(law("law"), column);
       log.candidates()[came].effect.since_reference = true;
       const std::size_t always = log.add(law("law"), column + apart * log.normal(1));
-      log.plant(came, number(Planted::size_of(40.0)));
+      log.plant(came, one_number(Planted::size_of(40.0)));
       log.add_noise();
       EXPECT_EQ(accepted(log.selection()), Numbers{apart < 1.0 ? always : came}) << seed;
     }
@@ -133,8 +132,8 @@ TEST(Selection, WhatMassesContainIsHidden) {
   const std::size_t open = log.add(law("open"), log.normal(1));
   const std::size_t twin = log.add(law("twin"), log.normal(1));
   log.candidates()[twin].term.columns = {log.masses().columns[3]};
-  log.plant(open, number(Planted::size_of(30.0)));
-  log.plant(twin, number(Planted::size_of(30.0)));
+  log.plant(open, one_number(Planted::size_of(30.0)));
+  log.plant(twin, one_number(Planted::size_of(30.0)));
   log.add_noise();
   const Selection s = log.selection();
   EXPECT_EQ(accepted(s), Numbers{open});
@@ -147,7 +146,7 @@ TEST(Selection, WhatCannotBeNegativeIsNotAcceptedBelowZero) {
   for (const double sign : {1.0, -1.0}) {
     Planted log(3);
     const std::size_t k = log.add(friction, log.normal(1));
-    log.plant(k, number(sign * Planted::size_of(25.0)));
+    log.plant(k, one_number(sign * Planted::size_of(25.0)));
     log.add_noise();
     const Selection s = log.selection();
     EXPECT_EQ(accepted(s), sign > 0.0 ? Numbers{k} : Numbers{});
@@ -166,14 +165,14 @@ TEST(Selection, SizesBeyondBeliefAreNotAccepted) {
     length.parameters[0].limit = limit;
     Planted log(4);
     const std::size_t k = log.add(length, log.normal(1));
-    log.plant(k, number(size));
+    log.plant(k, one_number(size));
     log.add_noise();
     EXPECT_EQ(accepted(log.selection()), limit > size ? Numbers{k} : Numbers{});
   }
   // Of a force the rule has the limit.
   Planted log(4);
   const std::size_t k = log.add(law("force", 1, "N"), log.normal(1));
-  log.plant(k, number(size));
+  log.plant(k, one_number(size));
   log.add_noise();
   SelectionRule rule;
   EXPECT_EQ(accepted(log.selection(rule)), Numbers{k});
@@ -204,7 +203,7 @@ TEST(Selection, GroupsShowTogetherAndAreJudgedOneByOne) {
   Numbers planted;
   for (const std::size_t k : {0U, 2U, 3U, 5U, 6U, 7U}) {
     planted.push_back(drives[k]);
-    log.plant(drives[k], number(Planted::size_of(9.0)));
+    log.plant(drives[k], one_number(Planted::size_of(9.0)));
   }
   log.add_noise();
   const Selection s = log.selection();
@@ -220,7 +219,7 @@ TEST(Selection, MembersWithAnImpossibleSignLeaveTheirGroup) {
   for (int site = 0; site < 6; ++site) drives.push_back(log.add(friction, log.normal(1), site));
   log.add_group(drives);
   for (const std::size_t k : drives) {
-    log.plant(k, number(Planted::size_of(k == drives[4] ? -12.0 : 12.0)));
+    log.plant(k, one_number(Planted::size_of(k == drives[4] ? -12.0 : 12.0)));
   }
   log.add_noise();
   std::erase(drives, drives[4]);
@@ -238,7 +237,7 @@ TEST(Selection, SmallMembersOfAGroupAreNotThereByThemselves) {
     }
     log.add_group(drives);
     for (const std::size_t k : drives) {
-      log.plant(k, number(Planted::size_of(k == drives[2] ? 4.4 : 14.0)));
+      log.plant(k, one_number(Planted::size_of(k == drives[2] ? 4.4 : 14.0)));
     }
     log.add_noise();
     const Selection s = log.selection();
@@ -258,7 +257,7 @@ TEST(Selection, PrefersOneCauseToSeveral) {
   log.add(law("a"), a);
   log.add(law("b"), b);
   const std::size_t both = log.add(law("both"), a + b);
-  log.plant(both, number(Planted::size_of(30.0)));
+  log.plant(both, one_number(Planted::size_of(30.0)));
   log.add_noise();
   EXPECT_EQ(accepted(log.selection()), Numbers{both});
 }
@@ -273,8 +272,8 @@ TEST(Selection, FindsTheOneCauseOfWhatCameInAsSeveral) {
     const Numbers drives = {log.add(law("drive"), a, 0), log.add(law("drive"), b, 1)};
     log.add_group(drives);
     const std::size_t all = log.add(law("all"), a + b);
-    log.plant(drives[0], number(Planted::size_of(30.0)));
-    log.plant(drives[1], number(Planted::size_of(second)));
+    log.plant(drives[0], one_number(Planted::size_of(30.0)));
+    log.plant(drives[1], one_number(Planted::size_of(second)));
     log.add_noise();
     EXPECT_EQ(accepted(log.selection(rule)), second > 30.0 ? drives : Numbers{all});
   }
@@ -286,8 +285,8 @@ TEST(Selection, DoesNotTakeOneCauseWhereThereAreTwo) {
   const Eigen::MatrixXd a = log.normal(1), b = log.normal(1);
   const std::size_t ka = log.add(law("a"), a), kb = log.add(law("b"), b);
   log.add(law("both"), a + b);
-  log.plant(ka, number(Planted::size_of(40.0)));
-  log.plant(kb, number(Planted::size_of(15.0)));
+  log.plant(ka, one_number(Planted::size_of(40.0)));
+  log.plant(kb, one_number(Planted::size_of(15.0)));
   log.add_noise();
   const Selection s = log.selection();
   // One of the two with the sum says the same as both.
@@ -304,7 +303,7 @@ TEST(Selection, OfTwoThatFitAlikeTheSimplerIsTaken) {
     more << a, log.normal(1);
     log.add(two, more);
     const std::size_t one = log.add(law("one"), a);
-    log.plant(one, number(Planted::size_of(30.0)));
+    log.plant(one, one_number(Planted::size_of(30.0)));
     log.add_noise();
     const Selection s = log.selection();
     EXPECT_EQ(accepted(s), Numbers{one}) << seed;

@@ -10,8 +10,8 @@
 namespace shapeid::diagnosis {
 namespace {
 
-using test::law;
-using test::Planted;
+using planted::law;
+using planted::Planted;
 
 Eigen::VectorXd number(double value) { return Eigen::VectorXd::Constant(1, value); }
 

@@ -55,8 +55,8 @@ rc::Gen<DrawnRow> row(const PlantedStyle& style) {
       rc::gen::set(&DrawnRow::weight, maybe(style.badly_scaled, magnitude(1e-4, 1e4), 1.0)));
 }
 
-PlantedProblem assemble(const std::vector<DrawnRow>& rows, std::vector<DrawnColumn> columns,
-                        bool two_links, double relative_lambda) {
+PlantedProblem planted_from(const std::vector<DrawnRow>& rows, std::vector<DrawnColumn> columns,
+                            bool two_links, double relative_lambda) {
   PlantedProblem planted;
   MassProblem& p = planted.problem;
   const Eigen::Index n_Phi = two_links ? 20 : 10;
@@ -118,7 +118,7 @@ rc::Gen<PlantedProblem> planted_problem(const PlantedStyle& style) {
   return rc::gen::resize(
       rc::kNominalSize,
       rc::gen::map(rc::gen::tuple(rows, columns, rc::gen::arbitrary<bool>(), lambda),
-                   [](const auto& t) { return std::apply(assemble, t); }));
+                   [](const auto& t) { return std::apply(planted_from, t); }));
 }
 
 Eigen::VectorXd gradient_terms(const MassProblem& p, const Eigen::VectorXd& m) {

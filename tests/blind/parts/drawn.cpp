@@ -13,10 +13,7 @@
 namespace shapeid::blind {
 namespace {
 
-constexpr double pi = 3.141592653589793;
-constexpr double gravity = 9.81;
-
-std::string text(const Eigen::Vector3d& v) {
+std::string four_digits(const Eigen::Vector3d& v) {
   return fmt::format("{:.4f} {:.4f} {:.4f}", v.x(), v.y(), v.z());
 }
 
@@ -98,9 +95,10 @@ std::string urdf(const std::string& name, const std::vector<DrawnLink>& all) {
       <inertia ixx="{13:.6g}" ixy="0" ixz="0" iyy="{14:.6g}" iyz="0" izz="{15:.6g}"/></inertial>
   </link>
 )",
-        i + 1, i, link.slides ? "prismatic" : "revolute", text(link.place), text(link.rpy),
-        text(link.axis), -link.half_range, link.half_range, effort(all, i), link.velocity,
-        text(link.centre), text(link.inertia_rpy), link.mass, I.x(), I.y(), I.z());
+        i + 1, i, link.slides ? "prismatic" : "revolute", four_digits(link.place),
+        four_digits(link.rpy), four_digits(link.axis), -link.half_range, link.half_range,
+        effort(all, i), link.velocity, four_digits(link.centre), four_digits(link.inertia_rpy),
+        link.mass, I.x(), I.y(), I.z());
   }
   return out + "</robot>\n";
 }

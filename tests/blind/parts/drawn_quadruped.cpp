@@ -15,11 +15,9 @@
 namespace shapeid::blind {
 namespace {
 
-constexpr double pi = 3.141592653589793;
-constexpr double gravity = 9.81;
 constexpr std::array<const char*, 4> legs = {"FR", "FL", "RR", "RL"};
 
-std::string text(const Eigen::Vector3d& v) {
+std::string six_digits(const Eigen::Vector3d& v) {
   return fmt::format("{:.6f} {:.6f} {:.6f}", v.x(), v.y(), v.z());
 }
 
@@ -73,8 +71,8 @@ std::string inertial(const Body& b, const Eigen::Matrix3d& frame) {
   return fmt::format(
       R"(<inertial><origin xyz="{}" rpy="{}"/><mass value="{:.5f}"/>
       <inertia ixx="{:.6g}" ixy="0" ixz="0" iyy="{:.6g}" iyz="0" izz="{:.6g}"/></inertial>)",
-      text(frame.transpose() * b.centre), text(rpy(frame.transpose() * rotation_from_rpy(b.rpy))),
-      b.mass, I.x(), I.y(), I.z());
+      six_digits(frame.transpose() * b.centre),
+      six_digits(rpy(frame.transpose() * rotation_from_rpy(b.rpy))), b.mass, I.x(), I.y(), I.z());
 }
 
 /// A joint of every leg and the link that it carries, as on the left.
@@ -145,9 +143,9 @@ std::string joint(const Part& part, const std::string& parent, const std::string
     {7}
   </link>
 )",
-      leg, part.name, parent, text(parent_frame.transpose() * place),
-      text(rpy(parent_frame.transpose() * part.frame)), text(part.frame.transpose() * part.axis),
-      effort, inertial(own, part.frame));
+      leg, part.name, parent, six_digits(parent_frame.transpose() * place),
+      six_digits(rpy(parent_frame.transpose() * part.frame)),
+      six_digits(part.frame.transpose() * part.axis), effort, inertial(own, part.frame));
 }
 
 std::string urdf(const std::string& name, const Plan& p) {
@@ -174,7 +172,7 @@ std::string urdf(const std::string& name, const Plan& p) {
   </joint>
   <link name="{0}_foot"/>
 )",
-        leg, parent, text(frame.transpose() * mirror.cwiseProduct(p.foot)));
+        leg, parent, six_digits(frame.transpose() * mirror.cwiseProduct(p.foot)));
   }
   return out + "</robot>\n";
 }

@@ -9,6 +9,9 @@
 
 namespace shapeid::blind {
 
+inline constexpr double pi = 3.141592653589793;
+inline constexpr double gravity = 9.81;  // m/s^2
+
 /// One of the first `count` numbers, from 0.
 [[nodiscard]] inline std::size_t draw(Random& random, std::size_t count) {
   return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));

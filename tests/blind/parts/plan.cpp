@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<double, 5> ratios = {0.5, 1.0, 2.0, 4.0, 8.0};
-constexpr std::uint64_t motions = 5;  // of each robot; clean ones are simulated once
+constexpr std::uint64_t motions_of_each = 5;  // of each robot; clean ones are simulated once
 
 /// Without anything in it a robot should walk; of those that are drawn not every one can.
 struct CleanFall : std::runtime_error {
@@ -46,7 +46,7 @@ class Generator {
     if (options_.drawn_arms || options_.drawn_quadrupeds) clean_.clear();
     Trial trial;
     trial.machine = m.name;
-    trial.motion_seed = 100 * options_.seed + 1 + draw(random, motions);
+    trial.motion_seed = 100 * options_.seed + 1 + draw(random, motions_of_each);
     trial.noise_seed = options_.seed * 10007 + static_cast<std::uint64_t>(number);
     trial.inertia_seed = trial.noise_seed + 5;
     logs_.clear();

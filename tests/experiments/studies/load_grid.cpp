@@ -12,9 +12,9 @@
 namespace shapeid::experiments {
 namespace {
 
-constexpr double seconds = 2.0;
-constexpr int most_divisions = 60;
-const std::vector<int> looked_at = {0, 5, 10, 20, 40, most_divisions};
+constexpr double grid_seconds = 2.0;
+constexpr int grid_divisions = 60;
+const std::vector<int> looked_at = {0, 5, 10, 20, 40, grid_divisions};
 
 struct Model {
   std::string key, words;
@@ -33,15 +33,15 @@ std::optional<std::vector<LoadTrace>> trace_case(const test::Quadruped& quadrupe
                                                  std::uint64_t seed) {
   std::vector<SimulatedSample> motion;
   try {
-    motion = simulated(quadruped.robot, {gaits().front(), seconds, seed, load});
+    motion = simulated(quadruped.robot, {gaits().front(), grid_seconds, seed, load});
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }
   std::vector<LoadTrace> traces;
   for (const Model& model : all) {
-    const DataTerm f = prepared(quadruped, model.area, motion, seconds, {.seed = seed});
+    const DataTerm f = prepared(quadruped, model.area, motion, grid_seconds, {.seed = seed});
     traces.push_back(
-        trace_load(model.area, f, inertia_of(load), default_division(), most_divisions));
+        trace_load(model.area, f, inertia_of(load), default_division(), grid_divisions));
   }
   return traces;
 }
