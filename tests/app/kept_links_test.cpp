@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 
 double mass(int link) {
-  const BoxMasses& boxes = masses_of_arms()[at(link)];
+  const BoxMasses boxes = masses_of_arms()[at(link)];
   return boxes[0] + boxes[1];
 }
 
