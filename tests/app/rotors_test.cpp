@@ -14,7 +14,7 @@
 namespace shapeid::test {
 namespace {
 
-constexpr double rotor_size = 6e-5, gear = 9.0;
+constexpr double motor_inertia = 6e-5, gear = 9.0;
 
 class Rotors : public testing::Test {
  protected:
@@ -24,7 +24,7 @@ class Rotors : public testing::Test {
     scratch_file("rotors.yaml",
                  notes + fmt::format("\nrotors: {{FR_knee: {{inertia: {}, gear: {}}}, RL_hip: "
                                      "{{inertia: 2e-5, gear: {}}}}}\n",
-                                     rotor_size, gear, gear));
+                                     motor_inertia, gear, gear));
     for (const char* name : {"plain", "rotors"}) {
       ASSERT_EQ(shapeid(fmt::format("simulate --robot {}quadruped.urdf --robot-yaml {}.yaml "
                                     "--seconds 3 --exact --out {}.csv",
@@ -58,7 +58,7 @@ TEST_F(Rotors, TakeTheirInertiaTimesTheGearSquaredTimesTheAcceleration) {
     for (std::size_t i = 0; i < row->values.size(); ++i) {
       const std::string& name = plain.columns()[i];
       double taken = 0.0;
-      if (name == "tau.FR_knee") taken = rotor_size * row->values[column(plain, "ddq.FR_knee")];
+      if (name == "tau.FR_knee") taken = motor_inertia * row->values[column(plain, "ddq.FR_knee")];
       if (name == "tau.RL_hip") taken = 2e-5 * row->values[column(plain, "ddq.RL_hip")];
       taken *= gear * gear;
       const double size = std::abs(row->values[i]) + std::abs(taken);
@@ -100,7 +100,7 @@ TEST_F(Rotors, AreInThePredictionThatDiagnoseWrites) {
   }
   const std::string header = text_of(scratch() + "/predicted/predict_torque.hpp");
   EXPECT_NE(
-      header.find(fmt::format("tau[2] += {} * ddq[2];  // rotor\n", rotor_size * gear * gear)),
+      header.find(fmt::format("tau[2] += {} * ddq[2];  // rotor\n", motor_inertia * gear * gear)),
       std::string::npos)
       << header.substr(header.find("inline void predict("));
 }
