@@ -57,6 +57,7 @@ Table findings_table(const DiagnosisRun& run, const Robot& robot) {
       gain = short_number(100.0 * f.gain);
       t = short_number(f.t);
       for (const std::string& id : f.ambiguous_with) others += (others.empty() ? "" : ", ") + id;
+      if (f.hangs_on_given) others += (others.empty() ? "" : "; ") + std::string(hangs_on_given);
       if (f.rival) {
         others += (others.empty() ? "" : "; ") + ("no name: " + law_text(*f.rival, robot));
       }

@@ -64,6 +64,7 @@ json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
     entry["gain_over_its_error"] = f->t;
     entry["since_reference"] = a.since_reference;
     entry["ambiguous_with"] = f->ambiguous_with;
+    entry["hangs_on_given_inertias"] = f->hangs_on_given;
     if (f->rival) entry["or_without_name"] = law_text(*f->rival, robot);
     if (!f->ambiguous_with.empty()) entry["separate_by"] = a.effect->separate_by;
     entry["under_contact"] = a.effect->under_contact;
@@ -172,6 +173,7 @@ std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
     if (f == nullptr) continue;
     text += fmt::format("  {:<38}gain {:.1f} %, {:.1f} standard errors{}\n", "", 100.0 * f->gain,
                         f->t, effects[k].since_reference ? "; came since the reference log" : "");
+    if (f->hangs_on_given) text += fmt::format("  {:<38}{}\n", "", hangs_on_given);
     if (f->rival) {
       text +=
           fmt::format("  {:<38}or something without a name: {}\n", "", law_text(*f->rival, robot));

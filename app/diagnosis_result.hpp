@@ -21,4 +21,8 @@ namespace shapeid::app {
 [[nodiscard]] std::string doubt(const DiagnosisRun& run, const diagnosis::Found& found,
                                 const Robot& robot);
 
+/// What is said of Found::hangs_on_given.
+inline constexpr const char* hangs_on_given =
+    "inertias further from the given ones would do as well";
+
 }  // namespace shapeid::app

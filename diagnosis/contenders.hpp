@@ -22,8 +22,10 @@ struct Shortlist {
 /// All arguments of the constructor must outlive this.
 class Contenders {
  public:
-  Contenders(const BlockFits& fits, const Term& masses, const std::vector<Candidate>& candidates)
-      : fits_(fits), masses_(masses), candidates_(candidates) {}
+  /// `hidden_too`: what the data cannot tell from masses is listed as well.
+  Contenders(const BlockFits& fits, const Term& masses, const std::vector<Candidate>& candidates,
+             bool hidden_too = false)
+      : fits_(fits), masses_(masses), candidates_(candidates), hidden_too_(hidden_too) {}
 
   [[nodiscard]] const Candidate& operator[](std::size_t k) const { return candidates_[k]; }
   /// Parameters of all together; groups have none of their own.
@@ -63,6 +65,7 @@ class Contenders {
   const BlockFits& fits_;
   const Term& masses_;
   const std::vector<Candidate>& candidates_;
+  bool hidden_too_;
 };
 
 /// Numbers `from` and the following n of a fit.

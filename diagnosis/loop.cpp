@@ -128,7 +128,9 @@ class Loop {
     const Term fixed = state_.always(fits.tally());
     const std::vector<Candidate> list = listed(fits);
     // From the beginning each time: what was accepted with worse weights has to prove itself again.
-    const Selection selection = select(fits, fixed, list, state_.rule());
+    SelectionRule rule = state_.rule();
+    rule.hidden_too = masses_want_more(fits, {fixed}, rule.least_t);
+    const Selection selection = select(fits, fixed, list, rule);
     note_large_transformation(fits, fixed, list, selection);
     result_.prior = choose_prior(fits, chosen_terms(fixed, list, selection));
     take_selection(fits, fixed, list, selection, state_);

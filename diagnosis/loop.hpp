@@ -63,6 +63,8 @@ struct Found {
   bool only_with_others = false;
   /// It is the force of a ground that would have to pull.
   bool pulls = false;
+  /// Verdict::hangs_on_given
+  bool hangs_on_given = false;
   /// Free parameters take it over; without it links of their size would be no bodies.
   bool needed = false;
   /// Else it only describes: it predicts, and says nothing about the cause.

@@ -3,15 +3,26 @@
 #include <algorithm>
 
 namespace shapeid::diagnosis {
+namespace {
+
+// Of its natural size, one as standard deviation of each parameter, and a thirtieth. (A hundred
+// times its size was allowed, too: masses of 28 kg, for 8, then stood for an offset of torque.)
+constexpr double weakest = 1.0, strongest = 1000.0;
+constexpr double as_if_nothing_held = 1e-4;
+
+// What differs by less than the square of one number's noise is no evidence, be it so in every
+// block.
+double square_of_noise(const BlockFits& fits, double error) {
+  return error / std::max(1.0, fits.tally().freedom);
+}
+
+}  // namespace
 
 double choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
   double chosen = fits.prior();
   std::vector<double> priors;
   std::vector<Eigen::VectorXd> errors;
-  // Of its natural size, one as standard deviation of each parameter, and a thirtieth. (A hundred
-  // times its size was allowed, too: masses of 28 kg, for 8, then stood for an offset of torque.)
-  constexpr double weakest = 1.0, strongest = 1000.0;
-  double prior = 1e-4;  // as if nothing held them
+  double prior = as_if_nothing_held;
   while (prior <= 1.5 * strongest) {
     fits.set_prior(prior);
     priors.push_back(prior);
@@ -21,9 +32,7 @@ double choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
   const auto best = std::min_element(
       errors.begin(), errors.end(), [](const auto& a, const auto& b) { return a.sum() < b.sum(); });
   constexpr double told_apart = 1.0;  // standard errors, as usual in cross-validation
-  // What differs by less than the square of one number's noise is no evidence, be it so in every
-  // block.
-  const double noise = best->sum() / std::max(1.0, fits.tally().freedom);
+  const double noise = square_of_noise(fits, best->sum());
   for (std::size_t i = 0; i < priors.size(); ++i) {
     const double worse = errors[i].sum() - best->sum();
     if (!(worse > noise) || gain_of(errors[i], *best).t < told_apart) chosen = priors[i];
@@ -31,6 +40,15 @@ double choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
   chosen = std::max(chosen, weakest);
   fits.set_prior(chosen);
   return chosen;
+}
+
+bool masses_want_more(BlockFits fits, const std::vector<Term>& terms, double least_t) {
+  fits.set_prior(weakest);
+  const Eigen::VectorXd within = fits.held_out(terms);
+  fits.set_prior(as_if_nothing_held);
+  const Eigen::VectorXd beyond = fits.held_out(terms);
+  return within.sum() - beyond.sum() > square_of_noise(fits, beyond.sum()) &&
+         gain_of(within, beyond).t > least_t;
 }
 
 }  // namespace shapeid::diagnosis

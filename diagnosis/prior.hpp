@@ -14,4 +14,8 @@ namespace shapeid::diagnosis {
 /// Sets it and returns it.
 double choose_prior(BlockFits& fits, const std::vector<Term>& terms);
 
+/// Whether masses predict held-out blocks better, by more than chance, if nothing holds them than
+/// within their natural size: then they stand for something that is no mass.
+[[nodiscard]] bool masses_want_more(BlockFits fits, const std::vector<Term>& terms, double least_t);
+
 }  // namespace shapeid::diagnosis

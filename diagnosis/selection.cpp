@@ -25,7 +25,7 @@ class Search {
          const SelectionRule& rule)
       : fits_(fits),
         rule_(rule),
-        contenders_(fits, masses, candidates),
+        contenders_(fits, masses, candidates, rule.hidden_too),
         credibility_(fits, contenders_, rule) {}
 
   Selection run() {

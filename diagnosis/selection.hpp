@@ -39,6 +39,9 @@ struct SelectionRule {
   /// N: constant forces beyond this are not believed. Some are nearly hidden by contacts, or by
   /// each other.
   double most_force = std::numeric_limits<double>::infinity();
+  /// What the data cannot tell from masses is asked, too. It is accepted only if masses that stay
+  /// as near to the given ones as the prior has it cannot say the same.
+  bool hidden_too = false;
 };
 
 /// What no longer gains this many standard errors, all else in, is dropped again.
@@ -65,6 +68,9 @@ struct Verdict {
   double gain = 0.0, t = 0.0;  ///< of having it, all other accepted ones in
   /// It did not come with the same at other joints, or is more than chance makes of one of these.
   bool by_itself = true;
+  /// The data cannot tell it from masses and what else was accepted: it is worth that gain because
+  /// masses that stay near the given ones cannot say the same.
+  bool hangs_on_given = false;
   /// Candidates that in its place do as well, as far as the data can tell.
   std::vector<std::size_t> ambiguous;
 };

@@ -48,6 +48,7 @@ void take_selection(const BlockFits& fits, const Term& fixed, const std::vector<
                 selection.fit.standard_error.segment(column, n), verdict.gain, verdict.t};
     found.effect.value = selection.fit.value.segment(column, n);
     found.only_with_others = !verdict.by_itself;
+    found.hangs_on_given = verdict.hangs_on_given;
     column += n;
     auto& names = found.ambiguous_with;
     for (const std::size_t k : verdict.ambiguous) names.push_back(list[k].term.id);

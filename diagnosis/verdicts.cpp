@@ -53,7 +53,9 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
   const FitsAround around(fits_, contenders_.terms(others));
   const Eigen::VectorXd& without = around.error();
   const Gain gain = credibility_.gain_by(k, without, error);
-  Verdict verdict{k, gain.share, gain.t, true, {}};
+  const bool hidden =
+      fits_.promises(contenders_.terms(others), {contenders_[k].term}).front().hidden();
+  Verdict verdict{k, gain.share, gain.t, true, hidden, {}};
   for (const std::size_t rival : contenders_.shortlist(others, rule_.rivals).listed) {
     if (rival == k || contenders_.same_place(k, rival) || !contenders_[rival].members.empty()) {
       continue;

@@ -94,6 +94,14 @@ TEST(Blind, ADelayIsNotALagOfEveryJoint) {
   EXPECT_EQ(judged.said, "torque_delay@all");
 }
 
+/// A force that masses can say, too, if they may be any. As far from the given ones as their size
+/// they say most of it, and at d2acc01 a spring was to be the rest.
+TEST(Blind, AForceIsNoAbsurdMassAndASpring) {
+  const Judgement judged = judgement_of(drawn_arm_with("external_force", 33), 5);
+  EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
+  EXPECT_EQ(judged.said.substr(0, 20), "external_force@link2");
+}
+
 /// What the filter makes of a trot comes back in every stride, and once was called by ten names.
 TEST(Blind, ATrotWithoutAnyEffectGetsNoName) {
   PlanOptions options;

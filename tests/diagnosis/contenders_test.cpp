@@ -142,6 +142,10 @@ TEST(Contenders, WhatTheOthersContainIsHidden) {
   const Shortlist beside = contenders.shortlist({one}, 5);
   EXPECT_EQ(beside.hidden, Chosen{same});
   EXPECT_EQ(beside.listed, Chosen{near});
+  const Contenders all(fits, log.masses(), log.candidates(), true);
+  const Shortlist with_hidden = all.shortlist({one}, 5);
+  EXPECT_EQ(with_hidden.hidden, Chosen{same});
+  EXPECT_EQ(with_hidden.listed, (Chosen{near, same}));
 }
 
 }  // namespace

@@ -140,6 +140,31 @@ TEST(Selection, WhatMassesContainIsHidden) {
   EXPECT_EQ(s.hidden, Numbers{twin});
 }
 
+/// A thousand times the usual size of the number that says the same: that one falls short of it by
+/// one, which the log shows.
+TEST(Selection, WhatMassesContainIsAskedWhereTheyFallShort) {
+  for (const double size : {0.0, 1.0, 1000.0}) {
+    for (const bool hidden_too : {false, true}) {
+      Planted log(2);
+      const std::size_t twin = log.add(law("twin"), log.normal(1));
+      log.candidates()[twin].term.columns = {log.masses().columns[3]};
+      log.plant(twin, one_number(size));
+      const std::size_t open = log.add(law("open"), log.normal(1));
+      log.plant(open, one_number(Planted::size_of(30.0)));
+      log.add_noise();
+      SelectionRule rule;
+      rule.hidden_too = hidden_too;
+      const Selection s = log.selection(rule);
+      const bool found = hidden_too && size > 1.0;
+      EXPECT_EQ(accepted(s), found ? (Numbers{twin, open}) : Numbers{open}) << size;
+      EXPECT_FALSE(verdict_on(open, s).hangs_on_given);
+      if (found) {
+        EXPECT_TRUE(verdict_on(twin, s).hangs_on_given);
+      }
+    }
+  }
+}
+
 TEST(Selection, WhatCannotBeNegativeIsNotAcceptedBelowZero) {
   Effect friction = law("friction");
   friction.parameters[0].nonnegative = true;
