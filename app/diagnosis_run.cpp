@@ -330,6 +330,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   if (reference != nullptr) reference->set_correction(run.loop.reference_correction);
   run.consistent =
       diagnosis::make_consistent(robot.robot, log.recording, reference, run.settings, run.loop);
+  diagnosis::add_needed_causes(robot.robot, log.recording, reference, run.settings, run.loop,
+                               run.consistent);
   diagnosis::add_needed_rotors(robot.robot, log.recording, reference, run.settings, run.loop,
                                run.consistent);
   diagnosis::mark_faded(log.recording, run.settings, run.consistent, run.loop);

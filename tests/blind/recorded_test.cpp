@@ -102,6 +102,14 @@ TEST(Blind, AForceIsNoAbsurdMassAndASpring) {
   EXPECT_EQ(judged.said.substr(0, 20), "external_force@link2");
 }
 
+/// A force of 55 N, all of which free numbers say, but no masses within the links do: at 8ed1bcd it
+/// had no name.
+TEST(Blind, AForceThatNoBodySays) {
+  const Judgement judged = judgement_of(drawn_arm_with("external_force", 34), 5);
+  EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
+  EXPECT_EQ(judged.said, "external_force@link3");
+}
+
 /// What the filter makes of a trot comes back in every stride, and once was called by ten names.
 TEST(Blind, ATrotWithoutAnyEffectGetsNoName) {
   PlanOptions options;

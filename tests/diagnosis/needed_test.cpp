@@ -1,7 +1,10 @@
-// Rotors that free parameters take over and bodies cannot.
+// Causes that free parameters take over and bodies cannot. (Forces of which no body can be made
+// come with drawn arms: Blind.AForceThatNoBodySays.)
 #include "shapeid/diagnosis/needed.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "shapeid/diagnosis/unnoticed.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
@@ -14,7 +17,7 @@ struct Diagnosed {
   Consistent before, after;
 };
 
-Diagnosed diagnosed(double rotor, std::uint32_t seed) {
+Diagnosed diagnosed(double rotor, std::uint32_t seed, decltype(add_needed_rotors)* add) {
   test::ArmLog what;
   if (rotor > 0.0) what.effects = {test::effect("rotor_inertia", 0, {rotor})};
   what.seed = seed;
@@ -24,7 +27,7 @@ Diagnosed diagnosed(double rotor, std::uint32_t seed) {
   Diagnosed result{test::loop_of(log), {}, {}};
   result.before = make_consistent(robot, log, nullptr, settings, result.loop);
   result.after = result.before;
-  add_needed_rotors(robot, log, nullptr, settings, result.loop, result.after);
+  add(robot, log, nullptr, settings, result.loop, result.after);
   return result;
 }
 
@@ -32,7 +35,7 @@ Diagnosed diagnosed(double rotor, std::uint32_t seed) {
 TEST(NeededRotors, ABodyDoesNotGrowHeavyForARotor) {
   const Robot robot = test::arm();
   constexpr double truth = 3.0;  // kg m^2, of links with some 0.1
-  const Diagnosed d = diagnosed(truth, 3);
+  const Diagnosed d = diagnosed(truth, 3, add_needed_rotors);
   bool far = false;
   for (const int link : {1, 2, 3}) {
     far = far || is_far_from_given(robot, d.before, d.before.Phi_error, link);
@@ -49,11 +52,29 @@ TEST(NeededRotors, ABodyDoesNotGrowHeavyForARotor) {
   EXPECT_EQ(d.after.model.effects.back().value, rotor.effect.value);
 }
 
-TEST(NeededRotors, NoneIsAddedWhereBodiesDo) {
-  for (const std::uint32_t seed : {1U, 2U}) {
-    const Diagnosed d = diagnosed(0.0, seed);
-    EXPECT_TRUE(d.loop.found.empty());
-    EXPECT_EQ(d.after.model.Phi, d.before.model.Phi);
+/// Such links fit worse than free numbers do, and of all that these hide the rotor mends it.
+TEST(NeededCauses, WhatBodiesLackIsFoundAmongWhatFreeNumbersHide) {
+  constexpr double truth = 3.0;
+  const Diagnosed d = diagnosed(truth, 3, add_needed_causes);
+  ASSERT_EQ(d.loop.found.size(), 1U);
+  const Found& rotor = d.loop.found.front();
+  EXPECT_EQ(rotor.id, "rotor_inertia@joint1");
+  EXPECT_NEAR(rotor.effect.value[0], truth, 0.01 * truth);
+  EXPECT_GT(rotor.gain, 0.0);
+  EXPECT_FALSE(rotor.name_stands()) << "larger links would do as well";
+  EXPECT_EQ(std::count(d.loop.hidden.begin(), d.loop.hidden.end(), rotor.id), 0);
+  ASSERT_EQ(d.after.model.effects.size(), 1U);
+  EXPECT_EQ(d.after.model.effects[0].value, rotor.effect.value);
+}
+
+TEST(Needed, NothingIsAddedWhereBodiesDo) {
+  for (const auto add : {add_needed_rotors, add_needed_causes}) {
+    for (const std::uint32_t seed : {1U, 2U}) {
+      const Diagnosed d = diagnosed(0.0, seed, add);
+      ASSERT_FALSE(d.loop.hidden.empty());
+      EXPECT_TRUE(d.loop.found.empty());
+      EXPECT_EQ(d.after.model.Phi, d.before.model.Phi);
+    }
   }
 }
 
