@@ -42,6 +42,29 @@ class DrawnArms {
   test::ScratchFolder scratch_;
 };
 
+/// One that answers wrongly can be had again without all before it.
+TEST(Plan, ATrialByItselfIsTheSame) {
+  const test::ScratchFolder scratch;
+  PlanOptions options;
+  options.seed = 7;
+  options.trials = 2;
+  options.quadruped_every = 0;
+  options.drawn_arms = true;
+  generate(options, scratch.path("both"));
+  options.first = 1;
+  options.trials = 1;
+  generate(options, scratch.path("second"));
+  EXPECT_FALSE(std::filesystem::exists(scratch.path("second/trial0000")));
+  const auto text = [&](const std::string& set, const std::string& name) {
+    std::ifstream in(scratch.path(set + "/trial0001/" + name));
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  for (const char* name : {"sealed.json", "given.urdf", "log.csv", "test.csv"}) {
+    EXPECT_FALSE(text("both", name).empty()) << name;
+    EXPECT_EQ(text("both", name), text("second", name)) << name;
+  }
+}
+
 TEST(Plan, AThirdHaveAReferenceThatTheyDoNotNeed) {
   int spare = 0;
   constexpr int seeds = 3000;

@@ -21,7 +21,8 @@ nlohmann::json read_json(const std::string& path) {
 /// none had when these were recorded.
 Judgement judgement_of(PlanOptions options, int which = 0) {
   const test::ScratchFolder scratch;
-  options.trials = which + 1;
+  options.first = which;
+  options.trials = 1;
   generate(options, scratch.path("set"));
   const std::string trial = fmt::format("{}/trial{:04d}/", scratch.path("set"), which);
   const std::string command = fmt::format(

@@ -226,7 +226,7 @@ bool has_spare_reference(std::uint64_t noise_seed) {
 void generate(const PlanOptions& options, const std::string& folder,
               const std::function<void(int, const Trial&)>& on_trial) {
   Generator generator(options, folder);
-  for (int number = 0; number < options.trials; ++number) {
+  for (int number = options.first; number < options.first + options.trials; ++number) {
     const Trial trial = generator.make(number);
     if (on_trial) on_trial(number, trial);
   }

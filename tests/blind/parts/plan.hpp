@@ -12,6 +12,7 @@ namespace shapeid::blind {
 
 struct PlanOptions {
   std::uint64_t seed = 1;
+  int first = 0;  ///< the number of the first trial: what is in one does not depend on others
   int trials = 20;
   int quadruped_every = 4;  ///< every how many trials; 0: arms alone
   bool drawn_arms = false;  ///< each arm is another one (drawn.hpp); phases are of five motions

@@ -52,6 +52,10 @@ int main(int argc, char** argv) {
   CLI::App* generating = app.add_subcommand("generate", "writes logs and sealed truths");
   generating->add_option("folder", folder)->required();
   generating->add_option("--trials", options.trials)->capture_default_str();
+  generating
+      ->add_option("--first", options.first, "number of the first trial, those before left out")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   generating->add_option("--seed", options.seed)->capture_default_str();
   generating->add_option("--quadruped-every", options.quadruped_every)->capture_default_str();
   generating->add_flag("--drawn-arms", options.drawn_arms, "each arm is another one");
