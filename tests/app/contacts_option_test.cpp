@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "shapeid/app/inputs.hpp"
-#include "shapeid/models/log.hpp"
-#include "shapeid/models/log_writer.hpp"
+#include "shapeid/tests/app/changed_log.hpp"
 #include "shapeid/tests/app/command.hpp"
 #include "shapeid/tests/support/files.hpp"
 
@@ -17,24 +16,8 @@ namespace {
 /// A simulated trot without the columns whose names begin so; its path.
 std::string trot_without(const std::string& prefix) {
   EXPECT_EQ(shapeid("simulate --seconds 3 --out trot.csv").status, 0);
-  LogReader log(scratch() + "/trot.csv");
-  std::vector<std::size_t> kept;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < log.columns().size(); ++i) {
-    if (log.columns()[i].starts_with(prefix)) continue;
-    kept.push_back(i);
-    names.push_back(log.columns()[i]);
-  }
-  EXPECT_LT(kept.size(), log.columns().size());
-  const std::string path = scratch() + "/fewer.csv";
-  LogWriter out(path, names);
-  while (const std::optional<LogRow> row = log.next()) {
-    std::vector<double> values;
-    for (const std::size_t i : kept) values.push_back(row->values[i]);
-    out.write(values);
-  }
-  out.close();
-  return path;
+  write_changed("trot.csv", "fewer.csv", as_it_is, {prefix});
+  return scratch() + "/fewer.csv";
 }
 
 app::MotionInputs inputs_for(const std::string& log) {

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "shapeid/models/log.hpp"
-#include "shapeid/models/log_writer.hpp"
+#include "shapeid/tests/app/changed_log.hpp"
 #include "shapeid/tests/app/command.hpp"
 #include "shapeid/tests/support/files.hpp"
 
@@ -21,24 +20,12 @@ namespace {
 /// The log with a function of one column added to the torque of a joint.
 void add_torque(const std::string& from, const std::string& to, const std::string& joint,
                 const std::string& over, const std::function<double(double)>& torque) {
-  LogReader log(from);
-  LogWriter out(to, log.columns());
-  const auto column = [&](const std::string& name) {
-    const auto at = std::find(log.columns().begin(), log.columns().end(), name);
-    EXPECT_NE(at, log.columns().end()) << name;
-    return static_cast<std::size_t>(at - log.columns().begin());
-  };
-  const std::size_t tau = column("tau." + joint), x = column(over);
-  while (std::optional<LogRow> row = log.next()) {
-    row->values[tau] += torque(row->values[x]);
-    out.write(row->values);
-  }
-  out.close();
+  write_changed(from, to, [&](NamedRow& row) { row["tau." + joint] += torque(row[over]); });
 }
 
 TEST(Diagnose, FindsAKneesFrictionAndItsFilesAreOfUse) {
   ASSERT_EQ(shapeid("simulate --seconds 10 --out clean.csv.gz").status, 0);
-  add_torque(scratch() + "/clean.csv.gz", scratch() + "/rough.csv.gz", "FR_knee", "dq.FR_knee",
+  add_torque("clean.csv.gz", "rough.csv.gz", "FR_knee", "dq.FR_knee",
              [](double dq) { return 0.4 * dq; });
   const CommandRun run =
       shapeid(fmt::format("diagnose {} --log rough.csv.gz --json --out why", quadruped_files));
@@ -139,7 +126,7 @@ TEST(Diagnose, NeedsUsableSamplesToTestOn) {
 /// where `identify` takes it as known.
 TEST(Diagnose, WritesWhatHasNoNameAsCurves) {
   ASSERT_EQ(shapeid("simulate --seconds 10 --out even.csv.gz").status, 0);
-  add_torque(scratch() + "/even.csv.gz", scratch() + "/pulled.csv.gz", "FR_knee", "q.RL_hip",
+  add_torque("even.csv.gz", "pulled.csv.gz", "FR_knee", "q.RL_hip",
              [](double q) { return 3.0 * std::sin(5.0 * q); });
   const CommandRun run = shapeid(fmt::format(
       "diagnose {} --log pulled.csv.gz --trust --curves --json --out drawn", quadruped_files));
@@ -236,43 +223,12 @@ TEST(Diagnose, LogsOfDifferentRatesAreNotMixed) {
       << run.err;
 }
 
-/// The log without the columns of these names.
-void leave_out(const std::string& from, const std::string& to, const std::string& prefix) {
-  LogReader log(scratch() + "/" + from);
-  std::vector<std::size_t> kept;
-  std::vector<std::string> names;
-  for (std::size_t c = 0; c < log.columns().size(); ++c) {
-    if (log.columns()[c].starts_with(prefix)) continue;
-    kept.push_back(c);
-    names.push_back(log.columns()[c]);
-  }
-  LogWriter out(scratch() + "/" + to, names);
-  while (std::optional<LogRow> row = log.next()) {
-    std::vector<double> values;
-    for (const std::size_t c : kept) values.push_back(row->values[c]);
-    out.write(values);
-  }
-  out.close();
-}
-
-/// The log with the other sign in the columns of these names.
-void turn_round(const std::string& from, const std::string& to, const std::string& prefix) {
-  LogReader log(scratch() + "/" + from);
-  LogWriter out(scratch() + "/" + to, log.columns());
-  while (std::optional<LogRow> row = log.next()) {
-    for (std::size_t c = 0; c < log.columns().size(); ++c) {
-      if (log.columns()[c].starts_with(prefix)) row->values[c] *= -1.0;
-    }
-    out.write(row->values);
-  }
-  out.close();
-}
-
 /// What is only tested on, or came before, means the same as what is diagnosed.
 TEST(Diagnose, OtherLogsAreCheckedAsTheLogIs) {
   ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out other.csv").status, 0);
-  turn_round("other.csv", "turned.csv", "tau.");
+  write_changed("other.csv", "turned.csv",
+                [](NamedRow& row) { row.each("tau.", [](double& tau) { tau = -tau; }); });
   for (const char* option : {"test", "reference"}) {
     const CommandRun run = shapeid(fmt::format(
         "diagnose {} --trust --json --log run.csv --{} turned.csv", quadruped_files, option));
@@ -285,7 +241,7 @@ TEST(Diagnose, OtherLogsAreCheckedAsTheLogIs) {
 TEST(Diagnose, LoggedAndDerivedContactsAreNotMixed) {
   ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out flagged.csv").status, 0);
-  leave_out("flagged.csv", "derived.csv", "contact.");
+  write_changed("flagged.csv", "derived.csv", as_it_is, {"contact."});
   const auto refused = [](const std::string& verb, const std::string& option,
                           const std::string& first, const std::string& other) {
     const CommandRun run =
@@ -312,7 +268,7 @@ TEST(Diagnose, NotesOfFurtherLogsNameThem) {
   ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out fast.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 4 --seed 3 --out test.csv").status, 0);
-  leave_out("fast.csv", "slopeless.csv", "dq.");
+  write_changed("fast.csv", "slopeless.csv", as_it_is, {"dq."});
   const CommandRun run =
       shapeid(fmt::format("diagnose {} --trust --json --log run.csv --also slopeless.csv "
                           "--test test.csv",

@@ -7,8 +7,7 @@
 #include <string>
 
 #include "shapeid/app/inputs.hpp"
-#include "shapeid/models/log.hpp"
-#include "shapeid/models/log_writer.hpp"
+#include "shapeid/tests/app/changed_log.hpp"
 #include "shapeid/tests/app/command.hpp"
 
 namespace shapeid::test {
@@ -17,20 +16,10 @@ namespace {
 constexpr double spoilt_by = 50.0;  // N m
 
 /// The log with more torque of a knee from one time to another.
-void spoil(const std::string& log_name, const std::string& to, double from, double until) {
-  LogReader log(scratch() + "/" + log_name);
-  LogWriter out(scratch() + "/" + to, log.columns());
-  const auto column = [&](const std::string& name) {
-    return static_cast<std::size_t>(std::find(log.columns().begin(), log.columns().end(), name) -
-                                    log.columns().begin());
-  };
-  const std::size_t time = column("time"), tau = column("tau.FR_knee");
-  ASSERT_LT(std::max(time, tau), log.columns().size());
-  while (std::optional<LogRow> row = log.next()) {
-    if (row->values[time] >= from && row->values[time] < until) row->values[tau] += spoilt_by;
-    out.write(row->values);
-  }
-  out.close();
+void spoil(const std::string& from, const std::string& to, double begin, double end) {
+  write_changed(from, to, [&](NamedRow& row) {
+    if (row["time"] >= begin && row["time"] < end) row["tau.FR_knee"] += spoilt_by;
+  });
 }
 
 nlohmann::json identified_with(const std::string& arguments) {

@@ -11,10 +11,9 @@
 
 #include "shapeid/app/motion_noise.hpp"
 #include "shapeid/diagnosis/effects.hpp"
-#include "shapeid/models/log.hpp"
-#include "shapeid/models/log_writer.hpp"
 #include "shapeid/models/simbody/random.hpp"
 #include "shapeid/tests/app/arms.hpp"
+#include "shapeid/tests/app/changed_log.hpp"
 #include "shapeid/tests/app/command.hpp"
 
 namespace shapeid::test {
@@ -26,26 +25,10 @@ constexpr double encoder_noise = 1e-3;  // rad
 std::string write_noisy_arms(const std::string& name, double noise) {
   scratch_file(name + ".urdf", arms_urdf(masses_of_arms()));
   write_arms_log(name, masses_of_arms(), {0.02, 0.02});
-  LogReader exact(scratch() + "/" + name + ".csv");
-  std::vector<std::string> columns;
-  std::vector<std::size_t> from;
-  for (std::size_t i = 0; i < exact.columns().size(); ++i) {
-    const std::string& column = exact.columns()[i];
-    if (column.starts_with("dq.") || column.starts_with("ddq.")) continue;
-    columns.push_back(column);
-    from.push_back(i);
-  }
-  LogWriter out(scratch() + "/" + name + ".noisy.csv", columns);
   Random random(11);
-  while (const std::optional<LogRow> row = exact.next()) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      const double error = columns[i].starts_with("q.") ? noise * random.normal() : 0.0;
-      values.push_back(row->values[from[i]] + error);
-    }
-    out.write(values);
-  }
-  out.close();
+  const auto shake = [&](double& q) { q += noise * random.normal(); };
+  write_changed(name + ".csv", name + ".noisy.csv", [&](NamedRow& row) { row.each("q.", shake); },
+                {"dq.", "ddq."});
   return fmt::format("--robot {0}.urdf --log {0}.noisy.csv --trust", name);
 }
 
