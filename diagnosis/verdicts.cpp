@@ -62,7 +62,14 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
     }
     const Eigen::VectorXd instead = around.with(contenders_[rival].term);
     if (!gains_something(gain_of(without, instead)) || !as_good_as(error, instead)) continue;
-    if (credibility_.wrong_sign(rival, fit_of(rival, others), rival_sign_t)) continue;
+    const Fit own = fit_of(rival, others);
+    // A load that is a body is one, whatever the signs of its free numbers, and a cause of its own
+    // also where these contain k.
+    const auto is_body = [&] {
+      return contenders_[rival].effect.effect->is_payload &&
+             credibility_.within_limits(rival, others, own);
+    };
+    if (credibility_.wrong_sign(rival, own, rival_sign_t) && !is_body()) continue;
     // Two that say the same contain each other: that is no reason to keep silent about one.
     const auto within = [&](std::size_t inner, std::size_t outer) {
       return fits_.contained(contenders_.terms(others), contenders_[inner].term,
@@ -70,7 +77,9 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
     };
     const bool nested = within(k, rival) && !within(rival, k) &&
                         !any_direction_is_one(*contenders_[rival].effect.effect);
-    if (!nested || does_without(k, rival, others, error)) verdict.ambiguous.push_back(rival);
+    if (!nested || is_body() || does_without(k, rival, others, error)) {
+      verdict.ambiguous.push_back(rival);
+    }
   }
   return verdict;
 }
