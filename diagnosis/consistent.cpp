@@ -41,13 +41,12 @@ class Solver {
     const Eigen::VectorXd given = stacked_parameters(robot);
     prior_ = Eigen::VectorXd::Zero(sums.bodies());
     given_ = prior_;
-    const Eigen::VectorXd strength = strength_of_prior(given, loop.prior);
     for (std::size_t i = 0; i < shapes.free_links.size(); ++i) {
       const Eigen::Index from = Eigen::Index{10} * shapes.free_links[i];
       const auto at = 10 * static_cast<Eigen::Index>(i);
       given_.segment<10>(at) = given.segment<10>(from);
       prior_.segment<10>(at) =
-          strength.segment<10>(from).cwiseSqrt().cwiseQuotient(settings.size.segment<10>(from));
+          std::sqrt(loop.prior) * settings.size.segment<10>(from).cwiseInverse();
     }
   }
 

@@ -53,18 +53,9 @@ double squares_sum(const Fit& before, const Fit& after) {
                           : std::numeric_limits<double>::infinity();
 }
 
-Eigen::VectorXd strength_of_prior(const Eigen::VectorXd& given, double prior) {
-  Eigen::VectorXd strength = Eigen::VectorXd::Constant(given.size(), prior);
-  for (Eigen::Index mass = 0; mass < given.size(); mass += 10) {
-    const Eigen::Index numbers = std::min<Eigen::Index>(10, given.size() - mass);
-    if (!(given[mass] > 0.0)) strength.segment(mass, numbers).setOnes();
-  }
-  return strength;
-}
-
 BlockFits::BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::VectorXd& size,
                      int folds)
-    : tally_(std::move(tally)), given_(given) {
+    : tally_(std::move(tally)) {
   const Eigen::Index p = tally_.columns();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(p);
   x.head(tally_.inertial) = given;
@@ -162,11 +153,10 @@ Eigen::VectorXd BlockFits::target(const Columns& a, int left_out) const {
 
 Eigen::VectorXd BlockFits::ridge(const Columns& a) const {
   Eigen::VectorXd r(a.count());
-  const Eigen::VectorXd strength = strength_of_prior(given_, prior_);
   for (Eigen::Index i = 0; i < a.count(); ++i) {
     const Eigen::Index column = a.index[static_cast<std::size_t>(i)];
     // What strengthens the prior of inertias must not freeze effects.
-    r[i] = regularity + (column < tally_.inertial ? strength[column] : 1.0) * precision_[column];
+    r[i] = regularity + (column < tally_.inertial ? prior_ : 1.0) * precision_[column];
   }
   return r;
 }

@@ -14,10 +14,6 @@
 
 namespace shapeid::diagnosis {
 
-/// By what a prior multiplies the precision of each inertial number (10 links): of a link that is
-/// given without mass nothing is known that could hold more strongly than its natural size, so one.
-[[nodiscard]] Eigen::VectorXd strength_of_prior(const Eigen::VectorXd& given, double prior);
-
 /// Relative to a column of unit length: keeps a factorisation regular where columns coincide, and
 /// is far below what any noise leaves open.
 inline constexpr double regularity = 1e-10;
@@ -76,8 +72,8 @@ struct Gain {
 class BlockFits {
  public:
   /// Unknown inertial parameters are deviations from `given` (10 links), with a prior of zero mean
-  /// and standard deviation `size` / sqrt(strength_of_prior(given, prior)). Blocks are held out in
-  /// `folds` contiguous groups; of three logs and more, in these.
+  /// and standard deviation `size` / sqrt(prior). Blocks are held out in `folds` contiguous groups;
+  /// of three logs and more, in these.
   BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::VectorXd& size, int folds);
 
   void set_prior(double prior) { prior_ = prior; }
@@ -157,8 +153,7 @@ class BlockFits {
                                 std::size_t block) const;
 
   Tally tally_;
-  Eigen::VectorXd scale_;  ///< columns are divided by it
-  Eigen::VectorXd given_;
+  Eigen::VectorXd scale_;      ///< columns are divided by it
   Eigen::VectorXd precision_;  ///< of a prior of one, in scaled units
   double prior_ = 1.0;
   int folds_ = 2;

@@ -6,12 +6,10 @@
 namespace shapeid::diagnosis {
 namespace {
 
-constexpr double given_mass = 2.0;
-
-/// One number of usual size one, given as `given`, which is `value` more than that in twenty blocks
-/// of a thousand samples each; the noise of a sample is one.
-BlockFits fits_of(double value, double given = given_mass) {
-  constexpr double samples = 1000.0;
+/// One number of usual size one, which is `value` more than given in twenty blocks of a thousand
+/// samples each; the noise of a sample is one.
+BlockFits fits_of(double value) {
+  constexpr double samples = 1000.0, given = 2.0;
   Tally tally;
   tally.inertial = 1;
   tally.width = 2;
@@ -53,28 +51,6 @@ TEST(Prior, MassesWantMoreWhereTheirSizeIsNotEnough) {
   EXPECT_FALSE(masses_want_more(fits_of(0.0), number, 2.5));
   EXPECT_FALSE(masses_want_more(fits_of(5.0), number, 2.5));  // a fit that is short by 3e-4
   EXPECT_TRUE(masses_want_more(fits_of(1000.0), number, 2.5));
-}
-
-/// Of a link without mass nothing was given that could be right.
-TEST(Prior, IsNoStrongerThanItsSizeWhereNothingIsGiven) {
-  const auto fitted = [](double given) {
-    BlockFits fits = fits_of(1.0, given);
-    fits.set_prior(1000.0);
-    return fits.fit(number).value[0];
-  };
-  constexpr double samples = 20000.0;
-  EXPECT_NEAR(fitted(given_mass), samples / (samples + 1000.0), 1e-9);
-  EXPECT_NEAR(fitted(0.0), samples / (samples + 1.0), 1e-9);
-}
-
-TEST(Prior, StrengthIsALinks) {
-  Eigen::VectorXd given = Eigen::VectorXd::Zero(30);
-  given[10] = 3.0;
-  given[21] = 0.5;  // a moment without mass
-  const Eigen::VectorXd strength = strength_of_prior(given, 100.0);
-  EXPECT_TRUE((strength.segment<10>(10).array() == 100.0).all());
-  EXPECT_TRUE((strength.head(10).array() == 1.0).all());
-  EXPECT_TRUE((strength.tail(10).array() == 1.0).all());
 }
 
 }  // namespace
