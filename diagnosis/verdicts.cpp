@@ -63,10 +63,13 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
     const Eigen::VectorXd instead = around.with(contenders_[rival].term);
     if (!gains_something(gain_of(without, instead)) || !as_good_as(error, instead)) continue;
     const Fit own = fit_of(rival, others);
-    // A load that is a body is one, whatever the signs of its free numbers, and a cause of its own
-    // also where these contain k.
+    // Something came since the reference log, and loads do. One that is a body is a load, whatever
+    // the signs of its free numbers, and a cause of its own also where these contain k. (Of what
+    // was always there a load is hardly ever the cause, and one of any size within a metre of a
+    // link says much: it would be named with every rotor.)
     const auto is_body = [&] {
-      return contenders_[rival].effect.effect->is_payload &&
+      return contenders_[k].effect.since_reference &&
+             contenders_[rival].effect.effect->is_payload &&
              credibility_.within_limits(rival, others, own);
     };
     if (credibility_.wrong_sign(rival, own, rival_sign_t) && !is_body()) continue;
