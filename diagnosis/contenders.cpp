@@ -90,8 +90,9 @@ Shortlist Contenders::shortlist(const Chosen& chosen, int length, const Chosen& 
     const auto of_one_place =
         std::count_if(list.listed.begin(), list.listed.end(),
                       [&](std::size_t other) { return same_place(open[i], other); });
-    if (promises[i].hidden()) list.hidden.push_back(open[i]);
-    if (promises[i].hidden() && !hidden_too_) continue;
+    const bool hidden = promises[i].hidden();
+    if (hidden) list.hidden.push_back(open[i]);
+    if (hidden && !hidden_too_) continue;
     if (std::ssize(list.listed) < length && of_one_place < most_of_one_place) {
       list.listed.push_back(open[i]);
     }

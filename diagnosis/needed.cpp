@@ -11,6 +11,7 @@
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/unnoticed.hpp"
+#include "shapeid/diagnosis/verdicts.hpp"
 #include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
@@ -147,7 +148,6 @@ std::vector<WithCause> causes_that_help(const LoopState& state, const Recording*
 
 /// The simplest of those that predict as well as the first; the others are named beside it.
 WithCause simplest_of(std::vector<WithCause> list) {
-  constexpr double told_apart_t = 2.5;  // as in verdicts
   const Eigen::VectorXd best = list.front().error;
   std::erase_if(list, [&](const WithCause& c) { return gain_of(c.error, best).t > told_apart_t; });
   const auto chosen =

@@ -8,9 +8,6 @@
 namespace shapeid::diagnosis {
 namespace {
 
-// What comes within this many is named beside an accepted one: of a hundred causes that are there
-// about one is further behind by chance, with so few blocks.
-constexpr double told_apart_t = 2.5;
 // What cannot be negative must not be so by more than this many standard errors in a rival. In what
 // is accepted it must not be at all; but of a rival's ten numbers one may, within its error.
 constexpr double rival_sign_t = 2.0;

@@ -8,6 +8,10 @@
 
 namespace shapeid::diagnosis {
 
+/// What comes within this many standard errors is named beside an accepted one: of a hundred causes
+/// that are there about one is further behind by chance, with so few blocks.
+inline constexpr double told_apart_t = 2.5;
+
 /// All arguments of the constructor must outlive this.
 class Verdicts {
  public:
