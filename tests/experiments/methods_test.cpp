@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "shapeid/models/inertia.hpp"
 #include "shapeid/proofs/certificate/quadric.hpp"
@@ -105,14 +106,16 @@ Vector10 point_at(const Eigen::Vector3d& x) {
   return from_centre(1.0, x, Eigen::Matrix3d::Zero()).values;
 }
 
-BodyModel base_of(std::size_t kind) {
+template <typename Kind>
+BodyModel base_of() {
   BodyModel model = test::bundled_quadruped().base;
-  std::erase_if(model.shapes, [&](const SoughtShape& s) { return s.shape.index() != kind; });
+  std::erase_if(model.shapes,
+                [](const SoughtShape& s) { return !std::holds_alternative<Kind>(s.shape); });
   return model;
 }
 
 TEST(LowestPoint, InCuboidsIsThatOfTheExactSearch) {
-  const BodyModel cuboids = base_of(Shape(Cuboid{}).index());
+  const BodyModel cuboids = base_of<Cuboid>();
   ASSERT_EQ(cuboids.shapes.size(), 7U);
   test::Draw draw(5);
   for (int i = 0; i < 100; ++i) {
@@ -131,7 +134,7 @@ TEST(LowestPoint, InCuboidsIsThatOfTheExactSearch) {
 }
 
 TEST(LowestPoint, InCylindersIsBelowAllTheirPointsAndNotFarOutside) {
-  const BodyModel cylinders = base_of(Shape(Cylinder{}).index());
+  const BodyModel cylinders = base_of<Cylinder>();
   ASSERT_EQ(cylinders.shapes.size(), 4U);
   constexpr double corner = 0.045 * 0.00215;  // m: radius times 1 / cos(pi / 48) - 1, and a little
   test::Draw draw(6);
