@@ -61,6 +61,9 @@ Table findings_table(const DiagnosisRun& run, const Robot& robot) {
       if (f.rival) {
         others += (others.empty() ? "" : "; ") + ("no name: " + law_text(*f.rival, robot));
       }
+      if (const std::string since = since_text(f); !since.empty()) {
+        others += (others.empty() ? "" : "; ") + since;
+      }
       if (!f.name_stands()) others = "a description, not the cause: " + doubt(run, f, robot);
     }
     for (std::size_t p = 0; p < a.effect->parameters.size(); ++p) {

@@ -63,6 +63,7 @@ json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
     entry["heldout_gain"] = f->gain;
     entry["gain_over_its_error"] = f->t;
     entry["since_reference"] = a.since_reference;
+    entry["may_act_in_both"] = f->may_act_in_both;
     entry["ambiguous_with"] = f->ambiguous_with;
     entry["hangs_on_given_inertias"] = f->hangs_on_given;
     if (f->rival) entry["or_without_name"] = law_text(*f->rival, robot);
@@ -171,8 +172,11 @@ std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
       text += fmt::format("  {:<38}a description, not the cause: {}\n", "", doubt(run, *f, robot));
     }
     if (f == nullptr) continue;
-    text += fmt::format("  {:<38}gain {:.1f} %, {:.1f} standard errors{}\n", "", 100.0 * f->gain,
-                        f->t, effects[k].since_reference ? "; came since the reference log" : "");
+    text +=
+        fmt::format("  {:<38}gain {:.1f} %, {:.1f} standard errors\n", "", 100.0 * f->gain, f->t);
+    if (const std::string since = since_text(*f); !since.empty()) {
+      text += fmt::format("  {:<38}{}\n", "", since);
+    }
     if (f->hangs_on_given) text += fmt::format("  {:<38}{}\n", "", hangs_on_given);
     if (f->rival) {
       text +=
@@ -260,6 +264,13 @@ std::map<std::string, JointFriction> joint_friction(const DiagnosisRun& run, con
 }
 
 }  // namespace
+
+std::string since_text(const diagnosis::Found& found) {
+  if (!found.effect.since_reference) return "";
+  return found.may_act_in_both ? "came since the reference log or acts in both: these two logs do "
+                                 "not tell"
+                               : "came since the reference log";
+}
 
 std::string doubt(const DiagnosisRun& run, const diagnosis::Found& f, const Robot& robot) {
   if (f.varies) {

@@ -21,6 +21,9 @@ namespace shapeid::app {
 [[nodiscard]] std::string doubt(const DiagnosisRun& run, const diagnosis::Found& found,
                                 const Robot& robot);
 
+/// Whether it came since the reference log; empty if it did not.
+[[nodiscard]] std::string since_text(const diagnosis::Found& found);
+
 /// What is said of Found::hangs_on_given.
 inline constexpr const char* hangs_on_given =
     "inertias further from the given ones would do as well";

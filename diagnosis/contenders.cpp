@@ -59,6 +59,19 @@ bool Contenders::same_place(std::size_t k, std::size_t other) const {
   return diagnosis::same_place(candidates_[k].effect, candidates_[other].effect);
 }
 
+std::optional<std::size_t> Contenders::acting_in_both(std::size_t k) const {
+  const AppliedEffect& came = candidates_[k].effect;
+  if (!came.since_reference) return std::nullopt;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const AppliedEffect& other = candidates_[i].effect;
+    if (candidates_[i].members.empty() && !other.since_reference && other.effect == came.effect &&
+        other.site == came.site) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
 std::size_t Contenders::cost(std::size_t k) const {
   const Effect& e = *candidates_[k].effect.effect;
   return candidates_[k].term.columns.size() + e.shape.size() + (e.transform.any() ? 1 : 0);

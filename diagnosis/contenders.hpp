@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,8 @@ class Contenders {
   /// Likewise, or another onset of one of these.
   [[nodiscard]] bool is_taken(std::size_t k, const Chosen& chosen) const;
   [[nodiscard]] bool same_place(std::size_t k, std::size_t other) const;
+  /// Of what came since the reference log the same that acts in both logs, if that is a candidate.
+  [[nodiscard]] std::optional<std::size_t> acting_in_both(std::size_t k) const;
 
   /// Parameters, those of shape and transformations counted on top.
   [[nodiscard]] std::size_t cost(std::size_t k) const;

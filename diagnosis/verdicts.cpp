@@ -1,6 +1,7 @@
 #include "shapeid/diagnosis/verdicts.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "shapeid/diagnosis/fits_around.hpp"
@@ -52,9 +53,16 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
   const Gain gain = credibility_.gain_by(k, without, error);
   const bool hidden =
       fits_.promises(contenders_.terms(others), {contenders_[k].term}).front().hidden();
-  Verdict verdict{k, gain.share, gain.t, true, hidden, {}};
+  Verdict verdict{k, gain.share, gain.t, true, hidden, false, {}};
+  const std::optional<std::size_t> in_both = contenders_.acting_in_both(k);
+  if (in_both && !contenders_.is_among(*in_both, others)) {
+    const Eigen::VectorXd instead = around.with(contenders_[*in_both].term);
+    verdict.may_act_in_both =
+        gains_something(gain_of(without, instead)) && as_good_as(error, instead);
+  }
   for (const std::size_t rival : contenders_.shortlist(others, rule_.rivals).listed) {
-    if (rival == k || contenders_.same_place(k, rival) || !contenders_[rival].members.empty()) {
+    if (rival == k || rival == in_both || contenders_.same_place(k, rival) ||
+        !contenders_[rival].members.empty()) {
       continue;
     }
     const Eigen::VectorXd instead = around.with(contenders_[rival].term);

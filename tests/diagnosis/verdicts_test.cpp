@@ -121,6 +121,37 @@ TEST(Verdicts, NameALoadThatContainsAFindingIfItIsABody) {
   }
 }
 
+/// What came since the reference log may as well have been there if both look alike; then it is no
+/// other cause. (A delay of the detectable size that was in both logs was said to have come since:
+/// blind trial 4 of seed 9542.)
+TEST(Verdicts, SayWhetherWhatCameSinceMayActInBoth) {
+  for (const double apart : {0.0, 2.0}) {
+    for (const bool transforms : {false, true}) {
+      Planted log(40);
+      Effect change = law("change");
+      if (transforms) {
+        change.transform.sample = [](const Moment& moment, int, const Eigen::VectorXd&) {
+          return moment.at(0.0);
+        };
+      }
+      const Eigen::MatrixXd column = log.normal(1);
+      const std::size_t came = log.add(change, column);
+      log.candidates()[came].effect.since_reference = true;
+      const std::size_t always = log.add(change, column + apart * log.normal(1));
+      log.candidates()[always].effect.effect = log.candidates()[came].effect.effect;
+      log.plant(came, number(Planted::size_of(25.0)));
+      log.add_noise();
+      const Verdict verdict = verdicts(log, {came})[0];
+      EXPECT_EQ(verdict.may_act_in_both, apart == 0.0);
+      EXPECT_EQ(verdict.ambiguous, Chosen{});
+      // Of what is in both there is nothing to say; nor where it grew, and is named twice.
+      EXPECT_FALSE(verdicts(log, {always})[0].may_act_in_both);
+      if (transforms) continue;
+      for (const Verdict& v : verdicts(log, {came, always})) EXPECT_FALSE(v.may_act_in_both);
+    }
+  }
+}
+
 /// One that could stand in the place of one alone is no common cause: a spring whose offset is all
 /// that the log has of it.
 TEST(Verdicts, DoNotNameWhatContainsAFindingAsACommonCause) {
