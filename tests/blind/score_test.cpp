@@ -199,17 +199,20 @@ TEST(ScoreTables, ReferencesThatWereNotNeededAreCounted) {
   clean.reference = offset.reference = load.reference = true;
   json since = finding("torque_offset", "turn");
   since["since_reference"] = true;
+  json undecided = since;
+  undecided["may_act_in_both"] = true;
   json carried = finding("payload", "fore");
   carried["since_reference"] = true;
   const std::vector<Scored> all = {
       scored_as(clean, answer({carried})), scored_as(offset, answer({since})),
-      scored_as(load, answer({carried})), scored_as(alone, answer({carried}))};
-  EXPECT_TRUE(has_row(all, "trials without a static load that had a reference log | 2 of 3 |"))
+      scored_as(load, answer({carried})), scored_as(alone, answer({carried})),
+      scored_as(offset, answer({undecided}))};
+  EXPECT_TRUE(has_row(all, "trials without a static load that had a reference log | 3 of 4 |"))
       << tables(all);
   EXPECT_TRUE(has_row(
-      all, "of these a load named where there is none, be it as one of several names | 1 of 2 |"));
+      all, "of these a load named where there is none, be it as one of several names | 1 of 3 |"));
   EXPECT_TRUE(
-      has_row(all, "an effect said to have come since a reference log that has it too | 1 of 1 |"));
+      has_row(all, "an effect said to have come since a reference log that has it too | 1 of 2 |"));
 }
 
 /// A load on the wrong link needed no reference; one that was never absent did.

@@ -68,9 +68,10 @@ Scored score_trial(const fs::path& folder) {
     const Machine m = machine(s.trial.machine);
     double sum = 0.0;
     for (const double rms : result.at("heldout_rms_after")) sum += rms * rms;
-    s.judgement.error_ratio =
-        std::sqrt(sum) / told_truth_error(m, s.trial, read_log(m, folder / "log.csv"),
-                                          read_log(m, folder / "test.csv"));
+    const ToldTruth told =
+        told_truth(m, s.trial, read_log(m, folder / "log.csv"), read_log(m, folder / "test.csv"));
+    s.judgement.error_ratio = std::sqrt(sum) / told.error;
+    s.judgement.told = distance_from_truth(m, told.inertias);
   }
   return s;
 }

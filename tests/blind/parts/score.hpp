@@ -48,6 +48,7 @@ struct Judgement {
     std::array<double, 3> all_by_unit = {}, determined_by_unit = {};
   };
   Distance given, found;
+  double told = 0.0;  ///< as `all`, of ToldTruth::inertias; 0: not known
   /// How far the number that is furthest from the truth is, of those called determined: in its
   /// standard errors, and in the errors that allow for an effect that was not noticed.
   double standard_errors = 0.0, errors_if_unnoticed = 0.0;
@@ -55,6 +56,10 @@ struct Judgement {
 
 /// `result` is the document of `shapeid diagnose --json`; null if it refused the log.
 [[nodiscard]] Judgement judge(const Trial& trial, const nlohmann::json& result);
+
+/// Judgement::Distance::all of the inertias of the machine's free links.
+[[nodiscard]] double distance_from_truth(const Machine& m,
+                                         const std::vector<InertialParameters>& inertias);
 
 /// 95 % bounds of a share of which `hits` of `count` were seen (Wilson 1927).
 struct Bounds {

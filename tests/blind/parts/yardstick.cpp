@@ -78,9 +78,9 @@ std::vector<Block> blocks_of(const Machine& machine, const Recording& log, const
   return blocks;
 }
 
-/// One over the variance that masses may have about those of the model: a quarter of each, and
-/// lengths of a decimetre.
-Eigen::VectorXd precision(const Machine& machine) {
+/// Inverse covariance that masses may have about those of the model: a quarter of each, and lengths
+/// of a decimetre.
+Eigen::MatrixXd precision(const Machine& machine) {
   Eigen::VectorXd p(10 * std::ssize(machine.free_links));
   for (std::size_t i = 0; i < machine.free_links.size(); ++i) {
     const double m =
@@ -91,21 +91,48 @@ Eigen::VectorXd precision(const Machine& machine) {
     p.segment<3>(at + 1).setConstant(std::pow(m * length, -2));
     p.segment<6>(at + 4).setConstant(std::pow(m * length * length, -2));
   }
-  return p;
+  return p.asDiagonal();
+}
+
+/// Inverse covariance of how far inertias are off that are drawn as given ones are, about these.
+Eigen::MatrixXd precision_of_given(const Machine& machine, const Robot& given) {
+  Machine about = machine;
+  about.robot = given;
+  constexpr int draws = 1000;
+  std::vector<Eigen::MatrixXd> off(machine.free_links.size(), Eigen::MatrixXd(10, draws));
+  for (int d = 0; d < draws; ++d) {
+    const auto drawn = wrong_inertias(about, static_cast<std::uint64_t>(d));
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const auto link = static_cast<std::size_t>(machine.free_links[i]);
+      off[i].col(d) = drawn[i].values - given.links[link].inertia.values;
+    }
+  }
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(10 * std::ssize(off), 10 * std::ssize(off));
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    // Each number in its own size, for they differ by some thousands.
+    const Eigen::VectorXd size = off[i].rowwise().norm() / std::sqrt(double{draws});
+    const Eigen::MatrixXd scaled = size.cwiseInverse().asDiagonal() * off[i];
+    const Eigen::MatrixXd inverse = (scaled * scaled.transpose() / double{draws})
+                                        .ldlt()
+                                        .solve(Eigen::MatrixXd::Identity(10, 10));
+    const auto at = 10 * static_cast<Eigen::Index>(i);
+    P.block(at, at, 10, 10) =
+        size.cwiseInverse().asDiagonal() * inverse * size.cwiseInverse().asDiagonal();
+  }
+  return P;
 }
 
 /// Masses for [change, residual] as targets, of all blocks but those from `first` to `last`, and of
 /// `others`.
-Eigen::MatrixXd masses(const std::vector<Block>& blocks, const Eigen::VectorXd& prior,
+Eigen::MatrixXd masses(const std::vector<Block>& blocks, const Eigen::MatrixXd& prior,
                        std::size_t first, std::size_t last, const std::vector<Block>& others = {}) {
-  const Eigen::Index n = prior.size();
+  const Eigen::Index n = prior.rows();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n + 2, n + 2);
   for (const Block& other : others) sum += other.gram;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (b < first || b >= last) sum += blocks[b].gram;
   }
-  Eigen::MatrixXd N = sum.topLeftCorner(n, n);
-  N.diagonal() += prior;
+  const Eigen::MatrixXd N = sum.topLeftCorner(n, n) + prior;
   return N.ldlt().solve(sum.topRightCorner(n, 2));
 }
 
@@ -193,8 +220,8 @@ double detectable_size(const Machine& machine, const Recording& clean,
                        const Eigen::MatrixXd& unit_change, const Recording* without) {
   const RichModel truth{stacked_parameters(machine.robot), {}};
   const std::vector<Block> blocks = blocks_of(machine, clean, truth, unit_change);
-  const Eigen::VectorXd prior = precision(machine);
-  const Eigen::Index n = prior.size();
+  const Eigen::MatrixXd prior = precision(machine);
+  const Eigen::Index n = prior.rows();
   std::vector<Block> others;
   if (without != nullptr) {
     const Eigen::MatrixXd nothing =
@@ -221,8 +248,8 @@ double detectable_size(const Machine& machine, const Recording& clean,
   return std::max(size_at(p, q, standard_errors), size_at(p, even, standard_errors));
 }
 
-double told_truth_error(const Machine& machine, const Trial& trial, const Recording& log,
-                        const Recording& test) {
+ToldTruth told_truth(const Machine& machine, const Trial& trial, const Recording& log,
+                     const Recording& test) {
   const Robot given = with_inertias(machine, wrong_inertias(machine, trial.inertia_seed));
   RichModel model{stacked_parameters(given), {}};
   for (const Item& item : trial.items) model.effects.push_back(applied(machine, item));
@@ -230,6 +257,16 @@ double told_truth_error(const Machine& machine, const Trial& trial, const Record
       Eigen::MatrixXd::Zero(machine.robot.dof(), std::ssize(log.usable(1)));
   const std::vector<Block> blocks = blocks_of(machine, log, model, none);
   const Eigen::VectorXd x = masses(blocks, precision(machine), 0, 0).col(1);
+  // A filter at f leaves 2 f independent numbers a second.
+  const double independent = std::min(1.0, 2.0 * machine.cutoff / log.rate());
+  const Eigen::VectorXd best =
+      masses(blocks, precision_of_given(machine, given) / independent, 0, 0).col(1);
+  ToldTruth told;
+  for (std::size_t i = 0; i < machine.free_links.size(); ++i) {
+    const auto link = static_cast<std::size_t>(machine.free_links[i]);
+    const Vector10 off = best.segment<10>(10 * static_cast<Eigen::Index>(i));
+    told.inertias.push_back({given.links[link].inertia.values + off});
+  }
   const auto columns = free_columns(machine);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     model.Phi[columns[i]] += x[static_cast<Eigen::Index>(i)];
@@ -241,7 +278,8 @@ double told_truth_error(const Machine& machine, const Trial& trial, const Record
     const Eigen::VectorXd r = diagnosis::residual(viewer, viewer.view(test, i), model);
     sum += r.tail(machine.robot.joint_count()).squaredNorm();
   }
-  return std::sqrt(sum / static_cast<double>(indices.size()));
+  told.error = std::sqrt(sum / static_cast<double>(indices.size()));
+  return told;
 }
 
 }  // namespace shapeid::blind

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "shapeid/diagnosis/recording.hpp"
 #include "shapeid/diagnosis/rich_model.hpp"
@@ -34,10 +35,17 @@ namespace shapeid::blind {
                                      const Eigen::MatrixXd& unit_change,
                                      const diagnosis::Recording* without = nullptr);
 
-/// Root of the sum over joints of the mean squared residual on the test log, N m, of the model that
-/// is told the trial's effects and fits the masses to the other log.
-[[nodiscard]] double told_truth_error(const Machine& machine, const Trial& trial,
-                                      const diagnosis::Recording& log,
-                                      const diagnosis::Recording& test);
+/// A model that is told the trial's effects and fits the masses to the log.
+struct ToldTruth {
+  /// Root of the sum over joints of the mean squared residual on the test log, N m.
+  double error = 0.0;
+  /// Of the free links, by a fit that is also told how far from the truth given inertias are as a
+  /// rule (of many drawn as these were), and how much of the filtered noise is independent: what
+  /// such a log says of inertias at best.
+  std::vector<InertialParameters> inertias;
+};
+[[nodiscard]] ToldTruth told_truth(const Machine& machine, const Trial& trial,
+                                   const diagnosis::Recording& log,
+                                   const diagnosis::Recording& test);
 
 }  // namespace shapeid::blind
