@@ -174,8 +174,8 @@ TEST(Yardstick, LuckShowsNothingAndMayHide) {
   EXPECT_GT(detectable_size(m, log, -noise), 2.0);
 }
 
-/// Who knows how far given inertias are off as a rule is nearer to the truth by a log of 12 s but
-/// for one of some thirty (of 320 such trials 309), and predicts as the truth does.
+/// Who knows how far given inertias are off as a rule is nearer to the truth by a log of 12 s in
+/// most cases (docs/blind.md: 834 of 880), and predicts as the truth does.
 TEST(Yardstick, WhoIsToldAllIsNearerAsARule) {
   const test::ScratchFolder scratch;
   const Machine m = arm();
