@@ -57,6 +57,9 @@ struct Judgement {
 /// `result` is the document of `shapeid diagnose --json`; null if it refused the log.
 [[nodiscard]] Judgement judge(const Trial& trial, const nlohmann::json& result);
 
+/// Its effect is none of the catalogue.
+[[nodiscard]] bool is_foreign(const Trial& t);
+
 /// Judgement::Distance::all of the inertias of the machine's free links.
 [[nodiscard]] double distance_from_truth(const Machine& m,
                                          const std::vector<InertialParameters>& inertias);
