@@ -85,6 +85,16 @@ json ranking_json(const std::vector<diagnosis::Ranked>& ranking) {
   return list;
 }
 
+/// Ten errors; null where the data do not determine the number: how little the given inertias let
+/// it scatter is no error of it.
+json errors_of_determined(const Eigen::VectorXd& errors, const std::vector<bool>& determined) {
+  json list = json::array();
+  for (std::size_t p = 0; p < determined.size(); ++p) {
+    list.push_back(determined[p] ? number_or_null(errors[static_cast<Eigen::Index>(p)]) : json());
+  }
+  return list;
+}
+
 json links_json(const DiagnosisRun& run, const Robot& robot) {
   json links = json::array();
   const auto& free_links = run.settings.shapes.free_links;
@@ -93,19 +103,22 @@ json links_json(const DiagnosisRun& run, const Robot& robot) {
     const Link& given = robot.links[static_cast<std::size_t>(free_links[i])];
     const auto own = 10 * static_cast<std::ptrdiff_t>(i);
     const reference::Determination& data = run.consistent.data;
+    const std::vector<bool> determined(data.determined.begin() + own,
+                                       data.determined.begin() + own + 10);
     json entry = {
         {"name", given.name},
         {"parameters", numbers(run.consistent.model.Phi.segment<10>(at))},
         {"given", numbers(given.inertia.values)},
-        {"standard_error", numbers(run.consistent.Phi_error.segment<10>(at))},
-        {"error_if_unnoticed", numbers(run.unnoticed.error.segment<10>(at))},
+        {"standard_error",
+         errors_of_determined(run.consistent.Phi_error.segment<10>(at), determined)},
+        {"error_if_unnoticed",
+         errors_of_determined(run.unnoticed.error.segment<10>(at), determined)},
         {"unnoticed", std::vector<std::string>(run.unnoticed.effect.begin() + at,
                                                run.unnoticed.effect.begin() + at + 10)},
         {"far_from_given",
          diagnosis::is_far_from_given(robot, run.consistent, run.unnoticed.error, free_links[i])},
         {"data_standard_error", numbers(data.standard_error.segment<10>(own))},
-        {"determined",
-         std::vector<bool>(data.determined.begin() + own, data.determined.begin() + own + 10)}};
+        {"determined", determined}};
     if (run.causes_alone) {
       entry["beside_causes_alone"] = numbers(run.causes_alone->model.Phi.segment<10>(at));
       entry["hangs_on_descriptions"] =
