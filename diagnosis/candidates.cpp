@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/load_places.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -169,6 +170,9 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
     for (const std::size_t block : moments) {
       add(payload_candidate(robot, later, link, block, tally.blocks[block].from));
     }
+  }
+  for (Candidate& c : list) {
+    if (c.effect.effect->is_payload) c.room = room_for_load(robot, c.effect.site);
   }
   return list;
 }

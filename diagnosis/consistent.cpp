@@ -32,7 +32,7 @@ class Solver {
     const BodyModel& shapes = settings.shapes;
     // Every load is a link of its own behind the robot's.
     for (std::size_t i = 0; i < loads.size(); ++i) {
-      rooms_.push_back(room_for_load(robot, shapes.shapes, loads[i]));
+      rooms_.push_back(room_for_load(robot, loads[i]));
       shapes_.free_links.push_back(robot.link_count() + static_cast<int>(i));
     }
     for (std::size_t i = 0; i < rooms_.size(); ++i) {

@@ -56,7 +56,8 @@ bool Credibility::within_limits(std::size_t k, const Chosen& others, const Fit& 
 }
 
 LoadBody Credibility::body_of(std::size_t k, const Chosen& others) const {
-  return best_body(fits_.beside(contenders_.terms(others), contenders_[k].term));
+  return best_body(fits_.beside(contenders_.terms(others), contenders_[k].term),
+                   contenders_[k].room);
 }
 
 bool Credibility::is_body(std::size_t k, const Fit& own, const LoadBody& body) const {

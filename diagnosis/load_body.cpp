@@ -29,7 +29,7 @@ Violation why_no_load(const BlockFits::Beside& load) {
   return is_one ? Violation() : "a load has ten numbers";
 }
 
-LoadBody best_body(const BlockFits::Beside& load) {
+LoadBody best_body(const BlockFits::Beside& load, const Box& room) {
   SHAPEID_CONTRACT(why_no_load(load));
   // Rows whose squares are the load's normal matrix, without the directions that no data show.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(load.normal);
@@ -44,8 +44,6 @@ LoadBody best_body(const BlockFits::Beside& load) {
       shown.select((eigen.eigenvectors().transpose() * load.target).array() / length.array(), 0.0);
   problem.W = Eigen::VectorXd::Ones(10);
 
-  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(furthest_load);
-  const Box room{-reach, reach};
   std::vector<Eigen::Vector3d> places = first_places(room);
   LoadBody body;
   body.Phi = Eigen::VectorXd::Zero(10);

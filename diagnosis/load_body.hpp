@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "shapeid/diagnosis/fits.hpp"
+#include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/models/contract.hpp"
 
 namespace shapeid::diagnosis {
@@ -14,9 +15,9 @@ struct LoadBody {
   double lost = 0.0;    ///< squared error that ten free numbers take away, and it does not
 };
 
-/// Of a load that is fitted beside all else: masses m >= 0 at points no further than
-/// `furthest_load` from its link's origin along each axis, found as load_places.hpp says.
-[[nodiscard]] LoadBody best_body(const BlockFits::Beside& load);
+/// Of a load that is fitted beside all else: masses m >= 0 at points of the room, found as
+/// load_places.hpp says.
+[[nodiscard]] LoadBody best_body(const BlockFits::Beside& load, const Box& room);
 
 /// Empty if these are the normal equations of a load: of ten numbers.
 [[nodiscard]] Violation why_no_load(const BlockFits::Beside& load);

@@ -29,8 +29,13 @@ double least_along(const Eigen::VectorXd& gradient, Eigen::Vector3d place, int a
 
 }  // namespace
 
-Box room_for_load(const Robot& robot, const std::vector<SoughtShape>& shapes, int link) {
-  Box room = box_around(robot, shapes, link);
+Box room_for_load(const Robot& robot, int link) {
+  Box room = box_around(robot, {}, link);
+  const InertialParameters& given = robot.links[static_cast<std::size_t>(link)].inertia;
+  if (given.mass() > 0.0) {
+    room.lower = room.lower.cwiseMin(given.centre_of_mass());
+    room.upper = room.upper.cwiseMax(given.centre_of_mass());
+  }
   room.lower.array() -= furthest_load;
   room.upper.array() += furthest_load;
   return room;

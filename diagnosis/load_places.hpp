@@ -9,14 +9,12 @@
 
 namespace shapeid::diagnosis {
 
-/// m: how far beyond its link a load is sought, and how far from the link's origin, along
-/// each axis, a name's load may have its mass.
+/// m: how far beyond its link a load may have its mass.
 inline constexpr double furthest_load = 1.0;
 
-/// `furthest_load` beyond the link on every side. `shapes`: of links, among them those of this one,
-/// which may be none.
-[[nodiscard]] Box room_for_load(const Robot& robot, const std::vector<SoughtShape>& shapes,
-                                int link);
+/// `furthest_load` on every side beyond the link's origin, its given centre of mass and the origins
+/// of its children.
+[[nodiscard]] Box room_for_load(const Robot& robot, int link);
 
 /// Points to begin with: corners, sides and inside of the room, most of them where the link is.
 [[nodiscard]] std::vector<Eigen::Vector3d> first_places(const Box& room);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shapeid/diagnosis/fits.hpp"
+#include "shapeid/diagnosis/regions.hpp"
 
 namespace shapeid::diagnosis {
 
@@ -18,6 +19,7 @@ struct Candidate {
   std::vector<std::size_t> members;
   /// Among how many independent ones it was chosen before (periods of a ripple): as many chances.
   double choices = 1.0;
+  Box room = {};  ///< of a load: in which it has its mass
 };
 
 /// The rule of acceptance. The best hypothesis is accepted if the sum over held-out blocks of its

@@ -11,6 +11,8 @@
 namespace shapeid::diagnosis {
 namespace {
 
+const Box near_link = {Eigen::Vector3d(-1.0, -1.0, -1.0), Eigen::Vector3d(1.0, 1.0, 1.0)};
+
 Eigen::VectorXd point(double mass, const Eigen::Vector3d& place) {
   return mass * unit_parameters(make_point(place, 1.0)).values;
 }
@@ -35,7 +37,7 @@ TEST(LoadBody, ABodyLosesNothing) {
     const Eigen::VectorXd Phi = point(0.7, {0.31, -0.12, 0.83}) + point(0.2, {-0.4, 0.05, 0.3}) +
                                 point(0.1, {0.0, 0.6, -0.2});
     const BlockFits::Beside load = exact(Phi, seed);
-    const LoadBody body = best_body(load);
+    const LoadBody body = best_body(load, near_link);
     const double all = all_of(load, Phi);
     // Places are sought until a thousandth of the gain is left, at most ten.
     EXPECT_LT(body.lost, 0.01 * all) << seed;
@@ -51,8 +53,15 @@ TEST(LoadBody, WhatIsNoneLosesMuch) {
   for (const Eigen::VectorXd& numbers :
        {no_mass, far, Eigen::VectorXd(-point(1.0, {0.3, 0.2, 0.1}))}) {
     const BlockFits::Beside load = exact(numbers, 7);
-    EXPECT_GT(best_body(load).lost, 0.1 * all_of(load, numbers)) << numbers.transpose();
+    EXPECT_GT(best_body(load, near_link).lost, 0.1 * all_of(load, numbers)) << numbers.transpose();
   }
+}
+
+/// At the tip of a long link it is as near as one of a short link at its joint.
+TEST(LoadBody, MayBeAnywhereInItsRoom) {
+  const Eigen::VectorXd tip = point(1.0, {0.31, -3.0, 0.83});
+  const Box of_a_boom = {Eigen::Vector3d(-1.0, -4.0, -1.0), near_link.upper};
+  EXPECT_LT(best_body(exact(tip, 7), of_a_boom).lost, 0.01 * all_of(exact(tip, 7), tip));
 }
 
 /// On a link that turns about one axis no torque shows the mass: any that the moments need is
@@ -61,14 +70,14 @@ TEST(LoadBody, AMassThatNoDataShowIsFree) {
   Eigen::VectorXd numbers = point(1.0, {0.5, -0.4, 0.0});
   numbers[0] = 0.0;
   const BlockFits::Beside load = exact(numbers, 3, {0, 3, 5, 6, 8});
-  const LoadBody body = best_body(load);
+  const LoadBody body = best_body(load, near_link);
   EXPECT_LT(body.lost, 0.01 * all_of(load, numbers));
   EXPECT_GT(body.Phi[0], 0.5);
 }
 
 TEST(LoadBody, OfNothingNothingIsMade) {
   const BlockFits::Beside load{Eigen::MatrixXd::Zero(10, 10), Eigen::VectorXd::Zero(10)};
-  const LoadBody body = best_body(load);
+  const LoadBody body = best_body(load, near_link);
   EXPECT_EQ(body.gain, 0.0);
   EXPECT_EQ(body.lost, 0.0);
 }

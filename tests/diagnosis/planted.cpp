@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "shapeid/diagnosis/load_places.hpp"
+
 namespace shapeid::diagnosis::planted {
 namespace {
 
@@ -61,6 +63,7 @@ std::size_t Planted::add(const Effect& effect, const Eigen::MatrixXd& columns, i
   c.effect = {&*known, site, {}, Eigen::VectorXd::Zero(n)};
   c.term.id = fmt::format("{}@{}", effect.id, site);
   c.term.from_block = from_block;
+  c.room = {Eigen::Vector3d::Constant(-furthest_load), Eigen::Vector3d::Constant(furthest_load)};
   for (Eigen::Index p = 0; p < n; ++p) {
     c.term.columns.push_back(columns_.cols() + p);
     c.term.nonnegative.push_back(known->parameters[static_cast<std::size_t>(p)].nonnegative);
