@@ -67,10 +67,13 @@ void check_torque_scale(const Robot& robot, const Recording& recording,
   }
   if (telling == 0) return;
   if (against == telling) {
-    throw Refusal("torque-sign",
-                  fmt::format("the logged torque runs against the given model at {} joints, and "
-                              "with it at none: turn it in the mapping (sign: -1)",
-                              telling));
+    throw Refusal(
+        "torque-sign",
+        fmt::format(
+            "the logged torque runs against the given model at {} joints, and "
+            "with it at none: turn it in the mapping (sign: -1){}",
+            telling,
+            robot.root == Root::fixed ? ", or the base in the URDF, if it hangs upside down" : ""));
   }
   if (above == telling || below == telling) {
     throw Refusal(

@@ -11,6 +11,7 @@
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/prior.hpp"
+#include "shapeid/diagnosis/quarter_turns.hpp"
 #include "shapeid/diagnosis/refit.hpp"
 #include "shapeid/diagnosis/take_selection.hpp"
 
@@ -31,6 +32,7 @@ class Loop {
       : state_(robot, log, reference, settings) {}
 
   LoopResult run() {
+    try_quarter_turns(state_);
     state_.fit_masses();
     do {
       do {

@@ -23,7 +23,8 @@ Effect gravity_tilt() {
   e.title = "a fixed base does not stand upright";
   e.equation = "specific force turned by (roll, pitch, 0)";
   e.site = SiteKind::whole;
-  e.parameters = {{"roll", "rad", false, 0.02, 0.3}, {"pitch", "rad", false, 0.02, 0.3}};
+  // More than a quarter turn: a base may hang on a wall (quarter_turns.hpp).
+  e.parameters = {{"roll", "rad", false, 0.02, 2.0}, {"pitch", "rad", false, 0.02, 2.0}};
   e.confused_with = {"encoder_offset of the first joints"};
   e.separate_by = "put a level on the base";
   e.under_contact = "not hidden: fixed bases only";

@@ -1,0 +1,14 @@
+// A fixed base that stands on its side.
+#pragma once
+
+#include "shapeid/diagnosis/loop_state.hpp"
+
+namespace shapeid::diagnosis {
+
+/// Before anything is sought: if the given inertias predict the logged torque far better with the
+/// base turned by a quarter (a robot on a wall that is modelled upright), that is found, and its
+/// numbers refined. The derivative of a tilt, by which others are found, leads there from half a
+/// quarter away and no further.
+void try_quarter_turns(LoopState& state);
+
+}  // namespace shapeid::diagnosis
