@@ -7,31 +7,46 @@
 #include "shapeid/diagnosis/refit.hpp"
 
 namespace shapeid::diagnosis {
+namespace {
 
-void try_quarter_turns(LoopState& state) {
-  if (state.robot.root != Root::fixed) return;
-  constexpr double quarter = 1.5707963267948966;
-  constexpr double far_better = 0.5;  // of the squared error: what all else that is wrong may cost
-  const AppliedEffect upright = at_start(*find_effect("gravity_tilt"), 0);
+constexpr double quarter = 1.5707963267948966;
+constexpr double far_better = 0.5;  // of the squared error
+
+/// The turn with which the given model predicts best, if that is far better than upright.
+std::optional<AppliedEffect> best_turn(LoopState& state) {
   double least = far_better * state.tallied({}).given_error().sum();
   std::optional<AppliedEffect> best;
   for (const int axis : {0, 1}) {
-    for (const double turn : {-quarter, quarter}) {
-      AppliedEffect turned = upright;
-      turned.value[axis] = turn;
-      state.result.model.effects = {turned};
+    for (const double angle : {-quarter, quarter}) {
+      AppliedEffect turn = at_start(*find_effect("gravity_tilt"), 0);
+      turn.value[axis] = angle;
+      state.result.model.effects = {turn};
       const double error = state.tallied({}).given_error().sum();
       if (!(error < least)) continue;
       least = error;
-      best = turned;
+      best = turn;
     }
   }
-  if (best) {
-    state.result.found.push_back(
-        {*best, hypothesis_id(state.robot, *best), Eigen::VectorXd::Zero(best->value.size())});
-  }
   state.collect_effects();
-  if (best) refit(state);
+  return best;
+}
+
+}  // namespace
+
+void try_quarter_turns(LoopState& state) {
+  if (state.robot.root != Root::fixed) return;
+  const std::optional<AppliedEffect> turn = best_turn(state);
+  if (!turn) return;
+  const double upright = state.tallied({}).held_out({state.masses}).sum();
+  state.result.found.push_back(
+      {*turn, hypothesis_id(state.robot, *turn), Eigen::VectorXd::Zero(turn->value.size())});
+  state.collect_effects();
+  refit(state);
+  // Of links that are given far too heavy less pulls where weight is along the joints' axes: then
+  // masses say as much.
+  if (state.held_out_of_model().sum() < far_better * upright) return;
+  state.result.found.clear();
+  state.collect_effects();
 }
 
 }  // namespace shapeid::diagnosis

@@ -5,10 +5,10 @@
 
 namespace shapeid::diagnosis {
 
-/// Before anything is sought: if the given inertias predict the logged torque far better with the
-/// base turned by a quarter (a robot on a wall that is modelled upright), that is found, and its
-/// numbers refined. The derivative of a tilt, by which others are found, leads there from half a
-/// quarter away and no further.
+/// Before anything is sought: if the given links predict the logged torque far better with the
+/// base turned by a quarter (a robot on a wall that is modelled upright), its numbers are refined,
+/// and it is found if the same holds on held-out blocks with masses refitted. The derivative of a
+/// tilt, by which others are found, leads there from half a quarter away and no further.
 void try_quarter_turns(LoopState& state);
 
 }  // namespace shapeid::diagnosis

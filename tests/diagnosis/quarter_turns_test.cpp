@@ -15,11 +15,6 @@ using Ids = std::vector<std::string>;
 
 constexpr double quarter = 1.5707963267948966;
 
-LoopState state_of(const Recording& log, const LoopSettings& settings) {
-  static const Robot robot = test::arm();
-  return {robot, log, nullptr, settings};
-}
-
 TEST(QuarterTurns, OnAWallAndHalfWayThereTheTiltIsFoundBesideFriction) {
   for (const auto& [roll, pitch] :
        {std::pair(quarter, 0.0), {0.0, -quarter}, {-1.0, 0.9}, {0.7, -0.7}, {-1.8, 0.3}}) {
@@ -42,6 +37,7 @@ TEST(QuarterTurns, OnAWallAndHalfWayThereTheTiltIsFoundBesideFriction) {
 /// A tilt that its derivative leads to is left to it, and a torque that has other causes is no
 /// turn.
 TEST(QuarterTurns, AreTakenOnlyWhereTheyExplainFarMore) {
+  const Robot robot = test::arm();
   const LoopSettings settings = test::arm_settings();
   for (const auto& [effects, turns] :
        {std::pair(std::vector<AppliedEffect>{}, false),
@@ -50,11 +46,36 @@ TEST(QuarterTurns, AreTakenOnlyWhereTheyExplainFarMore) {
         {{effect("gravity_tilt", 0, {1.3, 0.1})}, true}}) {
     test::ArmLog log;
     log.effects = effects;
-    LoopState state = state_of(test::record(log), settings);
+    LoopState state(robot, test::record(log), nullptr, settings);
     try_quarter_turns(state);
     EXPECT_EQ(state.result.found.size(), turns ? 1U : 0U);
     EXPECT_EQ(state.result.model.effects.size(), turns ? 1U : 0U);
   }
+}
+
+/// The arm's motion, with the torque of another robot.
+Recording moved_alike(const Robot& robot) {
+  const Recording log = test::record({});
+  std::vector<Sample> samples = log.samples();
+  const RichModel truth{stacked_parameters(robot), {}};
+  const Viewer viewer(robot, reference::ContactTreatment::ignore, {});
+  for (const std::size_t i : log.usable(1)) {
+    samples[i].tau = predict(viewer, viewer.view(log, i), truth).force;
+  }
+  return {samples, 100.0};
+}
+
+/// Where all axes are level and links are given four times too heavy, weight along the axes would
+/// do less harm.
+TEST(QuarterTurns, AreNotTakenForMassesThatAreGivenTooLarge) {
+  Robot robot = test::arm();
+  robot.links[1].joint.axis = Eigen::Vector3d::UnitY();
+  const Recording log = moved_alike(robot);
+  for (Link& link : robot.links) link.inertia.values *= 4.0;
+  const LoopSettings settings = test::arm_settings();
+  LoopState state(robot, log, nullptr, settings);
+  try_quarter_turns(state);
+  EXPECT_TRUE(state.result.found.empty());
 }
 
 }  // namespace
