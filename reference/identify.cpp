@@ -130,6 +130,7 @@ Eigen::VectorXd natural_sizes(const BodyModel& model, double expected_mass) {
 }
 
 Eigen::VectorXd sizes_of_links(const BodyModel& model, const Eigen::VectorXd& masses) {
+  if (model.free_links.empty()) return {};
   const Eigen::VectorXd largest = shape_columns(model).cwiseAbs().rowwise().maxCoeff();
   // A parameter that every shape leaves at zero by symmetry still needs a positive size to be
   // measured against: that of the largest of its group on the same link.

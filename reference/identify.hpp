@@ -78,7 +78,7 @@ struct CompressedRows {
 inline constexpr std::size_t most_blocks = 64;
 
 /// For each parameter of the free links the largest size that the link's mass (kg, one a free link)
-/// can give it within the shapes.
+/// can give it within the shapes. Empty if no link is free.
 [[nodiscard]] Eigen::VectorXd sizes_of_links(const BodyModel& model, const Eigen::VectorXd& masses);
 
 /// The same with M0 shared among the links as the volume of their shapes.
