@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
@@ -85,6 +86,33 @@ void check_torque_scale(const Robot& robot, const Recording& recording,
   }
 }
 
+double squared_error(const Robot& robot, const Recording& recording,
+                     reference::ContactTreatment contacts, const RichModel& model) {
+  const Viewer viewer(robot, contacts, model.effects);
+  double sum = 0.0;
+  for (const std::size_t i : recording.usable(stride_for(recording))) {
+    const View view = viewer.view(recording, i);
+    sum += (predict(viewer, view, model).force - view.sample.tau).squaredNorm();
+  }
+  return sum;
+}
+
+/// Where motion is fast, torque need not run against the model of a base that hangs.
+void check_base(const Robot& robot, const Recording& recording,
+                reference::ContactTreatment contacts) {
+  if (robot.root != Root::fixed) return;
+  RichModel model{stacked_parameters(robot), {}};
+  const double upright = squared_error(robot, recording, contacts, model);
+  AppliedEffect half_turn = at_start(*find_effect("gravity_tilt"), 0);
+  half_turn.value[0] = std::numbers::pi;
+  model.effects = {half_turn};
+  constexpr double far_better = 0.5;  // as of quarter turns
+  if (!(squared_error(robot, recording, contacts, model) < far_better * upright)) return;
+  throw Refusal("upside-down",
+                "the given model predicts the logged torque far better with its base upside down: "
+                "turn the base in the URDF, or the torque in the mapping (sign: -1)");
+}
+
 void check_contact_labels(const Robot& robot, const Recording& recording) {
   // Speed of declared stance feet against their mean, and of the feet in the air against the same.
   double stance = 0.0, swing = 0.0;
@@ -132,6 +160,7 @@ void check_recording(const Robot& robot, const Recording& recording,
 void check_meaning(const Robot& robot, const Recording& recording,
                    reference::ContactTreatment contacts) {
   check_torque_scale(robot, recording, contacts);
+  check_base(robot, recording, contacts);
   if (contacts == reference::ContactTreatment::project) check_contact_labels(robot, recording);
 }
 

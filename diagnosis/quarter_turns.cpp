@@ -1,5 +1,6 @@
 #include "shapeid/diagnosis/quarter_turns.hpp"
 
+#include <numbers>
 #include <optional>
 
 #include "shapeid/diagnosis/effects.hpp"
@@ -9,7 +10,7 @@
 namespace shapeid::diagnosis {
 namespace {
 
-constexpr double quarter = 1.5707963267948966;
+constexpr double quarter = 0.5 * std::numbers::pi;
 constexpr double far_better = 0.5;  // of the squared error
 
 /// The turn with which the given model predicts best, if that is far better than upright.

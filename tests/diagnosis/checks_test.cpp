@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <string>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
@@ -64,6 +65,28 @@ TEST(Checks, FactorsInBothDirectionsAreNoCurrent) {
 TEST(Checks, TorqueOfTheOtherSign) {
   for (const double scale : {-1.0, -10.0}) {
     EXPECT_EQ(check(changed(record({}), [&](Sample& s) { s.tau *= scale; })), "torque-sign");
+  }
+}
+
+/// Either way it is refused; some joints move so fast that their torque may still follow the model.
+TEST(Checks, BasesThatHang) {
+  const auto tilted = [](double roll) {
+    return check(record({{test::effect("gravity_tilt", 0, {roll, 0.0})}}));
+  };
+  for (const double roll : {0.0, 0.3, 1.5, -1.8}) EXPECT_EQ(tilted(roll), "accepted") << roll;
+  EXPECT_EQ(tilted(3.1), "upside-down");
+  EXPECT_EQ(tilted(-2.9), "torque-sign");
+}
+
+/// Of weight alone it looks the same.
+TEST(Checks, ABaseUpsideDownIsNamedBesideTheSign) {
+  const Recording turned = changed(record({}), [](Sample& s) { s.tau = -s.tau; });
+  try {
+    check_recording(arm(), turned, reference::ContactTreatment::ignore);
+    ADD_FAILURE() << "accepted";
+  } catch (const Refusal& r) {
+    EXPECT_EQ(r.code(), "torque-sign");
+    EXPECT_NE(std::string(r.what()).find("upside down"), std::string::npos) << r.what();
   }
 }
 

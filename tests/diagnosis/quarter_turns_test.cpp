@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "shapeid/tests/diagnosis/arm.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 using test::effect;
 using Ids = std::vector<std::string>;
 
-constexpr double quarter = 1.5707963267948966;
+constexpr double quarter = 0.5 * std::numbers::pi;
 
 TEST(QuarterTurns, OnAWallAndHalfWayThereTheTiltIsFoundBesideFriction) {
   for (const auto& [roll, pitch] :
