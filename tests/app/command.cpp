@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "shapeid/tests/support/files.hpp"
 
@@ -47,6 +48,12 @@ CommandRun program(const std::string& line, const std::string& input) {
 
 CommandRun shapeid(const std::string& arguments, const std::string& input) {
   return program(command(arguments), input);
+}
+
+nlohmann::json diagnosed(const std::string& arguments) {
+  const CommandRun run = shapeid("diagnose --json " + arguments);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return run.status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
 }
 
 void expect_one_line(const CommandRun& run, int status, const std::string& words) {

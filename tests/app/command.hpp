@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace shapeid::test {
@@ -22,6 +23,9 @@ struct CommandRun {
 /// its standard input.
 [[nodiscard]] CommandRun shapeid(const std::string& arguments,
                                  const std::string& input = "/dev/null");
+
+/// What `shapeid diagnose --json ARGUMENTS` prints; expects that it succeeds.
+[[nodiscard]] nlohmann::json diagnosed(const std::string& arguments);
 
 /// What the shell calls for `shapeid ARGUMENTS`, as a part of a longer line.
 [[nodiscard]] std::string command(const std::string& arguments);

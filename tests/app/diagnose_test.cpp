@@ -151,13 +151,9 @@ TEST(Diagnose, FitsAndTestsSeveralLogsTogether) {
     const std::string words = fmt::format("simulate --seconds 4 --seed {0} --out run{0}.csv", seed);
     ASSERT_EQ(shapeid(words).status, 0);
   }
-  const auto diagnosed = [](const std::string& logs) {
-    const CommandRun run = shapeid(fmt::format("diagnose {} {} --json", quadruped_files, logs));
-    EXPECT_EQ(run.status, 0) << run.err;
-    return nlohmann::json::parse(run.out);
-  };
-  const auto one = diagnosed("--log run1.csv --test run3.csv");
-  const auto two = diagnosed("--log run1.csv --also run2.csv --test run3.csv run4.csv");
+  const auto one = diagnosed(quadruped_files + " --log run1.csv --test run3.csv");
+  const auto two =
+      diagnosed(quadruped_files + " --log run1.csv --also run2.csv --test run3.csv run4.csv");
   // Blocks have margins at their ends, which costs a few samples more or less.
   const auto samples = [](const nlohmann::json& r) { return r["samples"].get<double>(); };
   EXPECT_NEAR(samples(two) / samples(one), 2.0, 0.05);

@@ -32,12 +32,6 @@ std::string write_noisy_arms(const std::string& name, double noise) {
   return fmt::format("--robot {0}.urdf --log {0}.noisy.csv --trust", name);
 }
 
-nlohmann::json diagnosed(const std::string& arguments) {
-  const CommandRun run = shapeid("diagnose --json " + arguments);
-  EXPECT_EQ(run.status, 0) << run.err;
-  return run.status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
-}
-
 bool any_says(const std::vector<std::string>& notes, const std::string& words) {
   return std::any_of(notes.begin(), notes.end(),
                      [&](const auto& note) { return note.find(words) != std::string::npos; });

@@ -64,19 +64,14 @@ TEST(StillJoint, HasNoErrorBesideKnownEffects) {
   }
 }
 
-nlohmann::json diagnosis(const std::string& sought) {
-  swinging_and_braked();
-  const CommandRun run =
-      shapeid("diagnose --robot still.urdf --log still.csv --cutoff 20 --json " + sought);
-  EXPECT_EQ(run.status, 0) << run.err;
-  return nlohmann::json::parse(run.out);
-}
+const std::string post_files = "--robot still.urdf --log still.csv --cutoff 20 ";
 
 /// Of an arm that swings about one axis no torque tells the mass: it is the given one, and how
 /// little that lets it scatter is no error.
 TEST(StillJoint, OfNumbersThatAreNotDeterminedNoErrorIsSaid) {
   std::size_t determined = 0, held = 0;
-  const auto result = diagnosis("--free swing_arm braked_arm");
+  swinging_and_braked();
+  const auto result = diagnosed(post_files + "--free swing_arm braked_arm");
   for (const auto& link : result.at("links")) {
     for (std::size_t p = 0; p < 10; ++p) {
       const bool is_determined = link.at("determined").at(p).get<bool>();
@@ -91,7 +86,8 @@ TEST(StillJoint, OfNumbersThatAreNotDeterminedNoErrorIsSaid) {
 }
 
 TEST(StillJoint, HasNoErrorInADiagnosis) {
-  const auto result = diagnosis("");
+  swinging_and_braked();
+  const auto result = diagnosed(post_files);
   EXPECT_TRUE(result.at("heldout").at("rms_after").at(0).is_number());
   EXPECT_TRUE(result.at("heldout").at("rms_after").at(1).is_null());
 }
