@@ -27,7 +27,7 @@ const std::string& scratch() {
 }
 
 std::string scratch_file(const std::string& name, const std::string& text) {
-  const std::string path = scratch() + "/" + name;
+  std::string path = scratch() + "/" + name;
   std::ofstream(path, std::ios::binary) << text;
   return path;
 }
