@@ -7,13 +7,14 @@
 #include <bit>
 #include <cstddef>
 
+#include "shapeid/fast/link_rows.hpp"
 #include "shapeid/fast/price_chunk.hpp"
 #include "shapeid/fast/wide.hpp"
 
 namespace shapeid::fast::tableau {
 
 /// More passive shapes are not dealt with.
-inline constexpr std::size_t most_passive = 12;
+inline constexpr std::size_t most_passive = AtPlaces::most;
 
 /// A column of which less than this share of its bound's square is new counts as dependent:
 /// rounding of M may be a hundredth of it.
@@ -76,6 +77,11 @@ struct Others {
   return others;
 }
 
+/// How many parts of a dozen places those in use reach into.
+[[gnu::always_inline]] inline std::size_t parts_in_use(unsigned used) noexcept {
+  return (static_cast<std::size_t>(std::bit_width(used)) + 3) / 4;
+}
+
 /// a at the others, x at the one.
 [[gnu::always_inline]] inline Dozen with(const Dozen& a, const Others& others, double x) noexcept {
   Dozen b;
@@ -109,16 +115,22 @@ struct Image {
 [[gnu::always_inline]] inline void look_at(const Tableau& t, const double* column, double stiffness,
                                            Image& image) noexcept {
   // Two sums each, so that one addition need not wait for the other.
-  Dozen u, s, x, odd_s, odd_x;
+  Dozen u, s, x, odd_s;
   load_ten(column, u);
   for (std::size_t i = 0; i < 10; i += 2) {
     add(s, column[i], t.M[i]);
-    add(x, column[i], t.C[i]);
     add(odd_s, column[i + 1], t.M[i + 1]);
-    add(odd_x, column[i + 1], t.C[i + 1]);
   }
   add(s, 1.0, odd_s);
-  add(x, 1.0, odd_x);
+  const std::size_t parts = parts_in_use(t.used);
+  for (std::size_t p = 0; p < parts; ++p) {
+    Four even = {}, odd = {};
+    for (std::size_t i = 0; i < 10; i += 2) {
+      even += column[i] * t.C[i].part[p];
+      odd += column[i + 1] * t.C[i + 1].part[p];
+    }
+    x.part[p] = even + odd;
+  }
   image.left = dot(s, u) + stiffness;
   image.slope = dot(t.g, u);
   image.s = s;
@@ -142,12 +154,13 @@ struct Image {
   const Dozen f = times(-inverse, s), h = times(inverse, x);
   t.diagonal = with(t.diagonal, others, 0.0);
   for (std::size_t p = 0; p < 3; ++p) t.diagonal.part[p] += h.part[p] * x.part[p];
-  for (std::size_t i = 0; i < 10; ++i) {
-    add(t.M[i], f[i], s);
-    add(t.C[i], f[i], x);
-  }
+  for (std::size_t i = 0; i < 10; ++i) add(t.M[i], f[i], s);
   t.K[place] = Dozen{};
-  for (std::size_t q = 0; q < t.places; ++q) add(t.K[q], h[q], x);
+  const std::size_t parts = parts_in_use(t.used);
+  for (std::size_t p = 0; p < parts; ++p) {
+    for (std::size_t i = 0; i < 10; ++i) t.C[i].part[p] += f[i] * x.part[p];
+    for (std::size_t q = 0; q < t.places; ++q) t.K[q].part[p] += h[q] * x.part[p];
+  }
 }
 
 /// The coefficients of the shape at this place.

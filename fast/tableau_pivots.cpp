@@ -25,14 +25,19 @@ constexpr double smallest_price = 1e-13;
   t.m = with(t.m, others, 1.0);
   for (std::size_t p = 0; p < 3; ++p) t.diagonal.part[p] += h.part[p] * k.part[p];
   t.diagonal = with(t.diagonal, others, 1.0);
-  for (std::size_t i = 0; i < 10; ++i) {
-    add(t.M[i], f[i], c);
-    add(t.C[i], -f[i], k);
-    clear_one(t.C[i], others);
-  }
-  for (std::size_t q = 0; q < t.places; ++q) {
-    add(t.K[q], h[q], k);
-    clear_one(t.K[q], others);
+  for (std::size_t i = 0; i < 10; ++i) add(t.M[i], f[i], c);
+  const std::size_t parts = parts_in_use(t.used);
+  for (std::size_t p = 0; p < parts; ++p) {
+    const Four here = k.part[p];
+    const FourBits kept = others.part[p];
+    for (std::size_t i = 0; i < 10; ++i) {
+      Four& entry = t.C[i].part[p];
+      entry = reinterpret_cast<Four>(reinterpret_cast<FourBits>(entry - f[i] * here) & kept);
+    }
+    for (std::size_t q = 0; q < t.places; ++q) {
+      Four& entry = t.K[q].part[p];
+      entry = reinterpret_cast<Four>(reinterpret_cast<FourBits>(entry + h[q] * here) & kept);
+    }
   }
   t.used &= ~(1U << place);
   --t.count;
