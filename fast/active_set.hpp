@@ -81,8 +81,9 @@ class ActiveSet {
   /// From a guess at the minimum: whether it is the minimum once its masses are corrected. If not,
   /// nothing changes.
   [[nodiscard]] bool settles_at(Guess& guess) noexcept {
-    iterations_ = guess.pivots() + 1;  // one to see that nothing is left to do
+    const int pivots = guess.pivots();  // which are counted anew from its answer on
     if (!now_.settles_at(guess)) return false;
+    iterations_ = pivots + 1;  // one to see that nothing is left to do
     started_ = false;
     return true;
   }

@@ -13,7 +13,7 @@
 
 namespace shapeid::fast::few {
 
-inline constexpr std::size_t most_shapes = 12;
+inline constexpr std::size_t most_shapes = AtPlaces::most;
 
 /// A column of which less than this share of its square is new counts as dependent: rounding of H
 /// may be a hundredth of it.

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "shapeid/fast/shape_columns.hpp"
@@ -13,6 +14,8 @@ namespace shapeid::fast {
 
 /// Passive shapes of a link at up to a dozen places.
 struct AtPlaces {
+  static constexpr std::size_t most = 12;
+
   const std::array<Dozen, 10>* U;  ///< a place's column in each lane; any numbers where none is
   const Dozen* inverse;            ///< of A^T A + lambda V^-1, a row a place
   const int* shape;                ///< of each place

@@ -1,6 +1,7 @@
 #include "shapeid/fast/mass_solver.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -36,6 +37,7 @@ MassSolver::MassSolver(int links, int most_shapes)
       even_(columns_, V_) {
   before_.reserve(static_cast<std::size_t>(most_shapes));
   heavy_.reserve(static_cast<std::size_t>(most_shapes));
+  failed_guess_.reserve(AtPlaces::most);
   massless_.reserve(static_cast<std::size_t>(most_shapes));
   method_.use(*vertex_, 0.0);
 }
@@ -93,6 +95,7 @@ Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
   if (!method_.take(R)) return Outcome::not_finite;
   const bool has_many = links() == 1 && !few_.fits();  // few enter at little cost
   start_watching();
+  failed_guess_.clear();
   if (!start_guess(has_many ? worth_starting_from() : passive()) || !try_guess()) {
     is_new_ = true;
     const Outcome outcome = solve_by_method();
@@ -141,7 +144,12 @@ void MassSolver::watch(int j, int other) noexcept {
 Outcome MassSolver::solve_by_method() noexcept {
   method_.save();
   take_masses_out();
-  const Outcome outcome = lambda_ > 0.0 ? solve_damped() : method_.run();
+  Outcome outcome = Outcome::solved;
+  if (lambda_ == 0.0) {
+    outcome = method_.run();
+  } else {
+    outcome = is_new_ && links() == 1 ? solve_damped_anew() : solve_damped();
+  }
   if (outcome != Outcome::solved) method_.restore();
   put_masses_in();
   return outcome;
@@ -185,8 +193,27 @@ bool MassSolver::try_guess() noexcept {
     if (settles_at_guess()) return true;
     if (!guess_->can_go_on()) break;
   }
+  keep_failed_guess();
   guess_ = nullptr;
   return false;
+}
+
+// It is near the minimum as a rule: what is missing are shapes for which it has no place, or
+// digits.
+void MassSolver::keep_failed_guess() noexcept {
+  failed_guess_.clear();
+  const AtPlaces at = guess_->answer();
+  for (unsigned left = at.used; left != 0; left &= left - 1) {
+    const auto place = static_cast<std::size_t>(std::countr_zero(left));
+    const double mass = (*at.m)[place];
+    if (mass > 0.0 && std::isfinite(mass)) failed_guess_.push_back({at.shape[place], mass});
+  }
+}
+
+void MassSolver::start_at_failed_guess() noexcept {
+  method_.clear();
+  for (const ShapeMass& shape : failed_guess_) method_.start_at(shape.place, shape.mass);
+  failed_guess_.clear();
 }
 
 bool MassSolver::settles_at_guess() noexcept {
@@ -210,23 +237,33 @@ void MassSolver::put_masses_in() noexcept {
 // its own size, and the answer costs what it costs at lambda = 0. Only where shapes are left that
 // the rows do not tell apart, the even density among them is sought.
 Outcome MassSolver::solve_damped() noexcept {
-  bool from_vertex = at_vertex_;
-  // On new rows of one link masses that are far off are worse than none: a vertex is found in less
-  // time than they take to leave.
-  if (is_new_ && links() == 1 && !from_vertex) {
-    method_.use(even_, lambda_);
-    from_vertex = method_.is_far_off();
-    if (from_vertex) method_.clear();
-  }
-  if (from_vertex) {
+  if (at_vertex_) {
     method_.use(*vertex_, 0.0);
     const Outcome outcome = method_.run();
-    if (outcome == Outcome::solved && method_.damp(*vertex_, lambda_)) {
-      at_vertex_ = true;
-      return outcome;
-    }
+    if (outcome == Outcome::solved && method_.damp(*vertex_, lambda_)) return outcome;
     if (outcome != Outcome::solved) method_.restore();
   }
+  return spread_evenly();
+}
+
+// On new rows of one link a guess has looked for a vertex already; or there were more masses than
+// it has places for, which are worse than none where they are far off.
+Outcome MassSolver::solve_damped_anew() noexcept {
+  method_.use(even_, lambda_);
+  const bool has_no_guess = failed_guess_.empty() && method_.passive().size() > AtPlaces::most;
+  if (has_no_guess && method_.is_far_off()) {
+    method_.clear();
+    if (start_guess(method_.passive()) && try_guess()) return Outcome::solved;
+  }
+  if (failed_guess_.empty()) return spread_evenly();
+  start_at_failed_guess();
+  const Outcome outcome = spread_evenly();
+  if (outcome == Outcome::solved) return outcome;
+  method_.restore();  // pivots may have gone astray
+  return solve_damped();
+}
+
+Outcome MassSolver::spread_evenly() noexcept {
   method_.use(even_, lambda_);
   const Outcome outcome = method_.run();
   if (outcome == Outcome::solved) at_vertex_ = method_.is_at_a_vertex();

@@ -90,7 +90,11 @@ class MassSolver {
   void watch(int j, int other) noexcept;
   [[nodiscard]] bool settles_at_guess() noexcept;
   [[nodiscard]] Outcome solve_by_method() noexcept;
+  void keep_failed_guess() noexcept;
+  void start_at_failed_guess() noexcept;
   [[nodiscard]] Outcome solve_damped() noexcept;
+  [[nodiscard]] Outcome solve_damped_anew() noexcept;
+  [[nodiscard]] Outcome spread_evenly() noexcept;
   void give(int j, double mass) noexcept;
   void take_masses_out() noexcept;
   void put_masses_in() noexcept;
@@ -99,17 +103,18 @@ class MassSolver {
   Eigen::VectorXd m_, V_;
   std::unique_ptr<ColumnSet> vertex_;  ///< passive shapes with independent columns
   double lambda_ = 0.0;
-  Guess* guess_ = nullptr;      ///< that of the passive shapes, of one link, if there is one
-  std::vector<int> before_;     ///< passive shapes of the last triangle
-  std::vector<int> heavy_;      ///< of these
-  std::vector<int> massless_;   ///< parts of shapes without mass, since the last answer
-  bool only_massless_ = false;  ///< no others were divided
-  bool most_stay_ = true;       ///< passive from one triangle to the next; clear() keeps it
-  bool is_new_ = false;         ///< the triangle
-  bool has_answer_ = false;     ///< masses are those of the last answer, or were divided since
-  bool at_vertex_ = true;       ///< where the next call may start, for lambda > 0
-  FewShapes few_;               ///< a guess where a link has few shapes
-  LinkTable table_;             ///< and where it has more
+  Guess* guess_ = nullptr;   ///< that of the passive shapes, of one link, if there is one
+  std::vector<int> before_;  ///< passive shapes of the last triangle
+  std::vector<int> heavy_;   ///< of these
+  std::vector<ShapeMass> failed_guess_;  ///< at the present triangle; empty if none has failed
+  std::vector<int> massless_;            ///< parts of shapes without mass, since the last answer
+  bool only_massless_ = false;           ///< no others were divided
+  bool most_stay_ = true;    ///< passive from one triangle to the next; clear() keeps it
+  bool is_new_ = false;      ///< the triangle
+  bool has_answer_ = false;  ///< masses are those of the last answer, or were divided since
+  bool at_vertex_ = true;    ///< where the next call may start, for lambda > 0
+  FewShapes few_;            ///< a guess where a link has few shapes
+  LinkTable table_;          ///< and where it has more
   ActiveSet method_;
   EvenDensity even_;  ///< passive shapes, any number of them, for lambda > 0
 };
