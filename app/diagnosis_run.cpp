@@ -11,6 +11,7 @@
 #include "shapeid/app/motion_noise.hpp"
 #include "shapeid/diagnosis/checks.hpp"
 #include "shapeid/diagnosis/contact_flags.hpp"
+#include "shapeid/diagnosis/contact_reach.hpp"
 #include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/needed.hpp"
 #include "shapeid/diagnosis/regions.hpp"
@@ -243,6 +244,14 @@ void add_flags(const std::vector<diagnosis::Found>& flags, DiagnosisRun& run) {
   }
 }
 
+void note_contact_reach(const diagnosis::ContactReach& reach, DiagnosisRun& run) {
+  if (reach.covers({}) && diagnosis::ContactReach().covers(reach)) return;
+  run.notes.push_back(fmt::format(
+      "contacts count as touching {:.3g} ms before and {:.3g} ms after they are declared to, for a "
+      "delay of the torque carries their force there",
+      1e3 * reach.before, 1e3 * reach.after));
+}
+
 }  // namespace
 
 DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& options) {
@@ -317,12 +326,15 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   run.settings.rough_reference = pointer(rough_earlier);
   run.settings.cutoff = options.inputs.cutoff;
   Recording* reference = pointer(earlier);
-  std::vector<diagnosis::Found> flags = diagnosis::correct_contact_flags(
-      robot.robot, log.recording, reference, {pointer(rough), pointer(rough_earlier), &run.test},
-      run.settings);
-  run.loop = diagnosis::close_loop(robot.robot, log.recording, reference, run.settings);
+  const std::vector<Recording*> along = {pointer(rough), pointer(rough_earlier), &run.test};
+  std::vector<diagnosis::Found> flags =
+      diagnosis::correct_contact_flags(robot.robot, log.recording, reference, along, run.settings);
+  diagnosis::LoopInReach in_reach =
+      diagnosis::close_loop_in_reach(robot.robot, log.recording, reference, along, run.settings);
+  run.loop = std::move(in_reach.loop);
+  note_contact_reach(in_reach.reach, run);
   log.recording.set_correction(run.loop.correction);
-  NoiseOfMotion noise(same, same_earlier, flags);
+  NoiseOfMotion noise(same, same_earlier, flags, in_reach.reach);
   noise.question_laws(log.recording, run);
   for (diagnosis::Found& f : flags) {
     f.beside_unknown = diagnosis::is_beside_unknown(robot.robot, run.loop, f);

@@ -12,15 +12,21 @@
 namespace shapeid::app {
 
 NoiseOfMotion::NoiseOfMotion(SameLogs log, std::optional<SameLogs> reference,
-                             const std::vector<diagnosis::Found>& flags)
-    : log_inputs_(std::move(log)), reference_inputs_(std::move(reference)), flags_(flags) {}
+                             const std::vector<diagnosis::Found>& flags,
+                             const diagnosis::ContactReach& reach)
+    : log_inputs_(std::move(log)),
+      reference_inputs_(std::move(reference)),
+      flags_(flags),
+      reach_(reach) {}
 
 diagnosis::SmootherLogs NoiseOfMotion::smoother(const DiagnosisRun& run) {
   if (!log_) {
     log_ = log_inputs_.smoother();
     if (reference_inputs_) reference_ = reference_inputs_->smoother();
     for (std::optional<RecordedLog>* of : {&log_, &reference_}) {
-      if (*of) diagnosis::correct_contact_flags((*of)->recording, flags_);
+      if (!*of) continue;
+      diagnosis::correct_contact_flags((*of)->recording, flags_);
+      (*of)->recording.extend_contacts(reach_.before, reach_.after);
     }
     MotionInputs inputs = log_inputs_.inputs;
     inputs.cutoff *= diagnosis::slower_by;

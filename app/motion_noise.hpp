@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "shapeid/app/diagnosis_logs.hpp"
+#include "shapeid/diagnosis/contact_reach.hpp"
 #include "shapeid/diagnosis/motion_noise.hpp"
 
 namespace shapeid::app {
@@ -12,9 +13,10 @@ namespace shapeid::app {
 /// asked.
 class NoiseOfMotion {
  public:
-  /// `flags`: contact flags that were corrected in the logs, and are in these.
+  /// `flags`: contact flags that were corrected in the logs, and are in these; `reach`: how much
+  /// longer contacts count as touching there, and here.
   NoiseOfMotion(SameLogs log, std::optional<SameLogs> reference,
-                const std::vector<diagnosis::Found>& flags);
+                const std::vector<diagnosis::Found>& flags, const diagnosis::ContactReach& reach);
 
   /// Laws without a name that noise of motion may be are taken back if these logs do not have them.
   void question_laws(const diagnosis::Recording& log, DiagnosisRun& run);
@@ -33,6 +35,7 @@ class NoiseOfMotion {
   SameLogs log_inputs_;
   std::optional<SameLogs> reference_inputs_;
   const std::vector<diagnosis::Found>& flags_;
+  diagnosis::ContactReach reach_;
   std::optional<RecordedLog> log_, reference_;
   diagnosis::LoopSettings settings_;
   std::vector<double> fast_shares_;

@@ -69,6 +69,22 @@ void Recording::lengthen_contact(int contact, double before, double after) {
   find_touches();
 }
 
+void Recording::extend_contacts(double before, double after) {
+  if (declared_.empty()) {
+    for (const Sample& s : samples_) declared_.push_back(s.in_contact);
+  }
+  // Times are sums of steps.
+  const double rounding = 1e-6 / rate_;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    for (Eigen::Index c = 0; c < until_touch_.rows(); ++c) {
+      if (until_touch_(c, at) <= before + rounding || since_touch_(c, at) <= after + rounding) {
+        samples_[i].in_contact[static_cast<std::size_t>(c)] = true;
+      }
+    }
+  }
+}
+
 Surroundings Recording::surroundings(std::size_t index) const {
   const auto at = static_cast<Eigen::Index>(index);
   return {elapsed(index), down(index), since_touch_.col(at), until_touch_.col(at)};
@@ -175,7 +191,9 @@ Sample Recording::shifted(std::size_t index, double dt) const {
   const double place = static_cast<double>(index) + dt * rate_;
   const auto before = static_cast<std::size_t>(std::floor(place));
   const double u = place - static_cast<double>(before);
-  Sample result = samples_[u < 0.5 ? before : before + 1];
+  const std::size_t nearest = u < 0.5 ? before : before + 1;
+  Sample result = samples_[nearest];
+  if (!declared_.empty()) result.in_contact = declared_[nearest];
   if (u == 0.0) return result;
   // Lagrange's cubic through the samples at -1, 0, 1, 2.
   const std::array<double, 4> w = {

@@ -48,6 +48,10 @@ class Recording {
   /// The contact touches also for so long (s) before and after it is declared to.
   void lengthen_contact(int contact, double before, double after);
 
+  /// All contacts count as touching also for so long (s) before and after they are declared to;
+  /// what is declared stays: surroundings() and shifted() tell it.
+  void extend_contacts(double before, double after);
+
   /// A force (dof) that counts as logged besides the torque, one a sample: what the filter took
   /// from it (filter_error()). Zero-length: none.
   void set_correction(std::vector<Eigen::VectorXd> correction) {
@@ -93,8 +97,9 @@ class Recording {
 
   [[nodiscard]] Surroundings surroundings(std::size_t index) const;
 
-  /// The motion `dt` seconds after a usable sample, by the cubic through four neighbours. Contact
-  /// flags, forces and extras are those of the nearest sample. |dt| <= largest_shift.
+  /// The motion `dt` seconds after a usable sample, by the cubic through four neighbours. Contacts
+  /// (as they are declared), forces and extras are those of the nearest sample. |dt| <=
+  /// largest_shift.
   [[nodiscard]] Sample shifted(std::size_t index, double dt) const;
 
  private:
@@ -109,6 +114,7 @@ class Recording {
   double rate_, independent_rate_, origin_;
   std::vector<std::string> extra_;
   std::vector<Eigen::VectorXd> correction_;
+  std::vector<std::vector<bool>> declared_;  ///< contacts of each sample, if more count as touching
   std::vector<std::size_t> segment_begin_, segment_end_;        ///< of each sample's segment
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> at_rest_;  ///< joints x samples
   Eigen::ArrayXXd turned_;                                      ///< likewise

@@ -3,10 +3,16 @@
 namespace shapeid::diagnosis {
 namespace {
 
+// A contact that touches now or did then counts as touching: that costs rows, and is never wrong.
+// (Flags near a touch are on already, for the filter smears its force. With those of then alone the
+// first rows before a touch would have more of that force in them than without the delay.)
 Sample earlier(const Moment& moment, int, const Eigen::VectorXd& value) {
   Sample sample = moment.at(-value[0]);
   sample.tau = moment.now.tau;
   sample.time = moment.now.time;
+  for (std::size_t c = 0; c < sample.in_contact.size(); ++c) {
+    sample.in_contact[c] = sample.in_contact[c] || moment.now.in_contact[c];
+  }
   return sample;
 }
 

@@ -83,7 +83,7 @@ Questioned with_false_findings(const std::string& name, double noise) {
 
   const std::vector<diagnosis::Found> no_flags;
   app::NoiseOfMotion questions({robot, inputs, {inputs.log}, std::nullopt, log.motion.rate, {}},
-                               std::nullopt, no_flags);
+                               std::nullopt, no_flags, diagnosis::ContactReach());
   questions.question_laws(log.recording, run);
   questions.question_curves(log.recording,
                             diagnosis::series(robot.robot, run.settings.rows, run.loop.model,

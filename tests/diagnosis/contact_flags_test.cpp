@@ -71,6 +71,18 @@ TEST(ContactTimes, LengthenedContactsStayInTheirSegment) {
   EXPECT_EQ(log.surroundings(0).until_touch[1], 0.01) << "times are of the new flags";
 }
 
+TEST(ContactTimes, ExtendedContactsLeaveWhatIsDeclared) {
+  Recording log = flags("...x.....|...x...");
+  log.extend_contacts(0.02, 0.01);
+  EXPECT_EQ(pattern_of(log), ".xxxx.....xxxx..");
+  EXPECT_DOUBLE_EQ(log.surroundings(2).until_touch[1], 0.01);
+  EXPECT_FALSE(log.shifted(1, 0.01).in_contact[1]);
+  EXPECT_TRUE(log.shifted(2, 0.01).in_contact[1]);
+  log.extend_contacts(0.03, 0.0);
+  EXPECT_EQ(pattern_of(log), "xxxxx....xxxxx..")
+      << "from what is declared, not from what was extended";
+}
+
 /// On the log as it was, the effect says what lengthening the log's contact says.
 RC_GTEST_PROP(ContactFlags, AreTheSameAsAnEffectAndCorrectedInTheLog, ()) {
   const Robot robot = *test::robot({2, 5, Root::floating});

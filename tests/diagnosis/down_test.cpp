@@ -12,7 +12,7 @@
 namespace shapeid::diagnosis {
 namespace {
 
-constexpr double rate = 200.0, g = 9.81;
+constexpr double samples_a_second = 200.0, g = 9.81;
 const Eigen::Vector3d axis = Eigen::Vector3d(0.3, -0.5, 0.8).normalized();
 constexpr double turning = 0.7;  // rad/s
 
@@ -26,13 +26,13 @@ Recording trot() {
   std::vector<Sample> samples(1000);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     Sample& s = samples[i];
-    s.time = static_cast<double>(i) / rate;
+    s.time = static_cast<double>(i) / samples_a_second;
     const double swing = 4.0 * std::sin(2.0 * 3.14159265358979 * 2.0 * s.time);
     s.base_angular_velocity = turning * axis;
     s.base_specific_force =
         attitude(s.time).conjugate() * Eigen::Vector3d(swing, 0.5 * swing, g - 0.3 * swing);
   }
-  return {std::move(samples), rate, {}};
+  return {std::move(samples), samples_a_second, {}};
 }
 
 double worst_angle(const Recording& log, const auto& down_at) {
@@ -63,11 +63,11 @@ TEST(Down, DoesNotReachAcrossAGap) {
   std::vector<Sample> samples(20);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const bool later = i >= 10;
-    samples[i].time = static_cast<double>(i) / rate + (later ? 1.0 : 0.0);
+    samples[i].time = static_cast<double>(i) / samples_a_second + (later ? 1.0 : 0.0);
     samples[i].base_specific_force =
         later ? Eigen::Vector3d(0.0, g, 0.0) : Eigen::Vector3d(g, 0.0, 0.0);
   }
-  const Recording log(std::move(samples), rate, {});
+  const Recording log(std::move(samples), samples_a_second, {});
   for (std::size_t i = 0; i < 20; ++i) {
     EXPECT_EQ(log.down(i),
               i < 10 ? Eigen::Vector3d(-1.0, 0.0, 0.0) : Eigen::Vector3d(0.0, -1.0, 0.0))

@@ -417,6 +417,28 @@ RC_GTEST_PROP(Transformations, ContactsAreHeldWhereADelayLooksAcrossATouchdown, 
   RC_ASSERT(test::scaled(change.norm(), terms / step, scene.robot.dof()) < few_hundred_eps);
 }
 
+/// Where a delay looks across a touchdown, either way, the contact counts as touching.
+TEST(Transformations, ADelayKeepsContactsOfNowAndOfThen) {
+  constexpr double rate = 100.0;
+  constexpr std::size_t count = 40, middle = count / 2;
+  std::vector<Sample> samples(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    samples[i].time = static_cast<double>(i) / rate;
+    samples[i].q = samples[i].dq = samples[i].ddq = samples[i].tau = Eigen::VectorXd::Zero(1);
+    // One lifts between the sample and the one before, one touches, and two stay as they are.
+    samples[i].in_contact = {i < middle, i >= middle, true, false};
+  }
+  const Recording recording(samples, rate);
+  const Effect& delay = *find_effect("torque_delay");
+  for (const double d : {0.004, 0.006, 0.014}) {
+    const Moment moment{recording[middle],
+                        [&](double dt) { return recording.shifted(middle, dt); }};
+    const Sample then = delay.transform.sample(moment, 0, Eigen::VectorXd::Constant(1, d));
+    const bool other = d > 0.5 / rate;  // the nearest sample is the one before
+    EXPECT_EQ(then.in_contact, (std::vector<bool>{other, true, true, false})) << d;
+  }
+}
+
 /// On a floating base the predicted load asks the motion alone.
 RC_GTEST_PROP(PredictedLoads, ContainNoMeasuredTorque, ()) {
   const Scene scene = any_scene(Root::floating);
