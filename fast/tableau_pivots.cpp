@@ -182,8 +182,8 @@ template <std::size_t first, std::size_t count>
 
 }  // namespace
 
-SHAPEID_WIDE void fill(Tableau& t, const Ten& rows, const Dozen& lengths,
-                       Dozen& inverse_lengths) noexcept {
+SHAPEID_WIDE_AND_MANY void fill(Tableau& t, const Ten& rows, const Dozen& lengths,
+                                Dozen& inverse_lengths) noexcept {
   for (std::size_t p = 0; p < 3; ++p) {
     const Four length = lengths.part[p];
     inverse_lengths.part[p] = length > 0.0 ? 1.0 / length : Four{};
@@ -203,13 +203,14 @@ SHAPEID_WIDE void fill(Tableau& t, const Ten& rows, const Dozen& lengths,
   fill_rows<8, 2>(t, rows);
 }
 
-SHAPEID_WIDE bool enter(Tableau& t, const Problem& problem, const Lane& lane) noexcept {
+SHAPEID_WIDE_AND_MANY bool enter(Tableau& t, const Problem& problem, const Lane& lane) noexcept {
   return enter_shape(t, problem, lane);
 }
 
-SHAPEID_WIDE void leave(Tableau& t, std::size_t place) noexcept { leave_place(t, place); }
+SHAPEID_WIDE_AND_MANY void leave(Tableau& t, std::size_t place) noexcept { leave_place(t, place); }
 
-SHAPEID_WIDE Stop pivot(Tableau& t, const Problem& problem, int most_pivots, int& pivots) noexcept {
+SHAPEID_WIDE_AND_MANY Stop pivot(Tableau& t, const Problem& problem, int most_pivots,
+                                 int& pivots) noexcept {
   for (; pivots < most_pivots; ++pivots) {
     if (some_below(t)) {
       const std::size_t place = furthest_below(t);
@@ -230,8 +231,8 @@ SHAPEID_WIDE Stop pivot(Tableau& t, const Problem& problem, int most_pivots, int
   return Stop::endless;
 }
 
-SHAPEID_WIDE bool find_doubtful(const Dozen& g, const Problem& problem,
-                                Doubtful& doubtful) noexcept {
+SHAPEID_WIDE_AND_MANY bool find_doubtful(const Dozen& g, const Problem& problem,
+                                         Doubtful& doubtful) noexcept {
   const double possible = largest_of(g, problem.inverse_lengths) * problem.inverse_length;
   const auto limit = static_cast<float>(-visible(possible));
   const SingleSlopes single = in_single(g, problem);

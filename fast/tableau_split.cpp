@@ -96,7 +96,7 @@ constexpr double smallest_coefficient = 1e-3;
 
 }  // namespace
 
-SHAPEID_WIDE Split split(Tableau& t, std::size_t place, const Parts& parts) noexcept {
+SHAPEID_WIDE_AND_MANY Split split(Tableau& t, std::size_t place, const Parts& parts) noexcept {
   Image image;
   look_at(t, parts.goes, parts.stiffness, image);
   if (parts.shared > 0.0) {

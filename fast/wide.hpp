@@ -105,12 +105,23 @@ constexpr std::uint64_t place_bits = 15;
 }  // namespace shapeid::fast
 
 /// A function so marked is compiled twice, and the machine's own version is chosen when the program
-/// starts: Four is then one register. No operation changes, and none is fused with another, so the
-/// digits are the same on every machine (the test DigitsOfBothWidths). Not under ThreadSanitizer,
-/// which is not ready yet when the choice is made.
+/// starts: Four is then one register. No operation changes, and none is fused with another
+/// (-ffp-contract=off), so the digits are the same on every machine (the test DigitsOfBothWidths).
+/// Not under ThreadSanitizer, which is not ready yet when the choice is made.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__AVX2__) && \
     !defined(__SANITIZE_THREAD__) && !defined(SHAPEID_NARROW)
 #define SHAPEID_WIDE __attribute__((target_clones("avx2", "default")))
 #else
 #define SHAPEID_WIDE
+#endif
+
+/// Likewise, and once more for machines with AVX-512: not for longer registers but for twice as
+/// many, which tables of a dozen rows do not fit into otherwise. What waits for one number after
+/// the other gains nothing by it, or loses. (Older GCC and clang do not know that machine here.)
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__AVX2__) &&              \
+    !defined(__SANITIZE_THREAD__) && !defined(SHAPEID_NARROW) && !defined(__clang__) && \
+    __GNUC__ >= 12
+#define SHAPEID_WIDE_AND_MANY __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
+#else
+#define SHAPEID_WIDE_AND_MANY SHAPEID_WIDE
 #endif

@@ -45,7 +45,8 @@ void print_head(const Results& results) {
       "takes "
       "three times as long.\n\n"
       "- machine: {}\n- build: {}; Eigen's own vectorisation for plain x86-64 (SSE2), peers alike; "
-      "the kernels of ours that read `fast/wide.hpp` take AVX2 where the processor has it\n"
+      "the kernels of ours that read `fast/wide.hpp` take AVX2 where the processor has it, and "
+      "those of tables with many shapes the registers of AVX-512\n"
       "- peers: {}, Lawson-Hanson of r-cran-nnls; ProxSuite without its optional simde\n"
       "- commit: {}\n- seeds: {}\n\n",
       context(results, "cpu"), context(results, "flags"), context(results, "peers"),
