@@ -7,6 +7,7 @@
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/joint_zeros.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/reference/contact.hpp"
 
@@ -68,13 +69,14 @@ void check_torque_scale(const Robot& robot, const Recording& recording,
   }
   if (telling == 0) return;
   if (against == telling) {
-    throw Refusal(
-        "torque-sign",
-        fmt::format(
-            "the logged torque runs against the given model at {} joints, and "
-            "with it at none: turn it in the mapping (sign: -1){}",
-            telling,
-            robot.root == Root::fixed ? ", or the base in the URDF, if it hangs upside down" : ""));
+    throw Refusal("torque-sign",
+                  fmt::format("the logged torque runs against the given model at {} joints, and "
+                              "with it at none: turn it in the mapping (sign: -1){}",
+                              telling,
+                              robot.root == Root::fixed
+                                  ? ", or the base in the URDF, if it hangs upside down, or a "
+                                    "joint's zero, if it is half a turn off"
+                                  : ""));
   }
   if (above == telling || below == telling) {
     throw Refusal(
@@ -161,6 +163,7 @@ void check_meaning(const Robot& robot, const Recording& recording,
                    reference::ContactTreatment contacts) {
   check_torque_scale(robot, recording, contacts);
   check_base(robot, recording, contacts);
+  check_joint_zeros(robot, recording, contacts);
   if (contacts == reference::ContactTreatment::project) check_contact_labels(robot, recording);
 }
 

@@ -15,6 +15,8 @@ void check_recording(const Robot& robot, const Recording& recording,
 ///  * "torque-scale": the torque that the given model predicts, and that the logged one follows,
 ///    differs from it by the same large factor at every joint: a current, or the motor's side;
 ///  * "torque-sign": the logged torque has the other sign at every joint where it tells;
+///  * "upside-down": the base, if it hangs, explains far more;
+///  * "joint-zero": so do joints that are read a quarter or half a turn further (joint_zeros.hpp);
 ///  * "contact-labels": feet that are declared to stand move against each other as fast as feet in
 ///    the air.
 /// Units, signs, frozen channels and clocks that cannot be are refused when the log is read

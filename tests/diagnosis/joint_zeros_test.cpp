@@ -1,0 +1,116 @@
+// Joints that are read from another zero than the model's.
+#include "shapeid/diagnosis/joint_zeros.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::effect;
+
+constexpr double a_quarter = 0.5 * std::numbers::pi;
+
+/// What is refused of the arm's log with these in it; empty if nothing is.
+std::string zeros_of(const Robot& robot, const Recording& log) {
+  try {
+    check_joint_zeros(robot, log, reference::ContactTreatment::ignore);
+  } catch (const Refusal& r) {
+    EXPECT_EQ(r.code(), "joint-zero");
+    return r.what();
+  }
+  return "";
+}
+std::string zeros_of(const std::vector<AppliedEffect>& effects) {
+  return zeros_of(test::arm(), test::record({effects}));
+}
+
+TEST(JointZeros, AreNamedWithWhatIsToBeAdded) {
+  EXPECT_NE(zeros_of({effect("encoder_offset", 1, {a_quarter})}).find("(joint2 +1.5708 rad)"),
+            std::string::npos);
+  EXPECT_NE(zeros_of({effect("encoder_offset", 1, {-a_quarter})}).find("(joint2 -1.5708 rad)"),
+            std::string::npos);
+  EXPECT_NE(zeros_of({effect("encoder_offset", 1, {2.0 * a_quarter})}).find("(joint2 +3.1416 rad)"),
+            std::string::npos);
+  // Not quite a quarter, and friction beside it.
+  EXPECT_NE(zeros_of({effect("encoder_offset", 1, {1.4}), effect("viscous_friction", 0, {0.5})})
+                .find("(joint2 +1.5708 rad)"),
+            std::string::npos);
+}
+
+TEST(JointZeros, OfSeveralJointsAreAllNamed) {
+  const std::string said = zeros_of(
+      {effect("encoder_offset", 1, {a_quarter}), effect("encoder_offset", 2, {-a_quarter})});
+  EXPECT_NE(said.find("joint2 +1.5708 rad"), std::string::npos) << said;
+  EXPECT_NE(said.find("joint3 -1.5708 rad"), std::string::npos) << said;
+}
+
+TEST(JointZeros, AreNoneWhereSomethingElseIsWrong) {
+  EXPECT_EQ(zeros_of({}), "");
+  EXPECT_EQ(zeros_of({effect("encoder_offset", 1, {0.3})}), "");
+  EXPECT_EQ(zeros_of({effect("torque_offset", 1, {20.0}), effect("viscous_friction", 0, {5.0})}),
+            "");
+  for (const double roll : {a_quarter, -a_quarter}) {
+    EXPECT_EQ(zeros_of({effect("gravity_tilt", 0, {roll, 0.0})}), "") << roll;
+    EXPECT_EQ(zeros_of({effect("gravity_tilt", 0, {0.0, roll})}), "") << roll;
+  }
+}
+
+/// The arm's motion, with the torque of another robot.
+Recording torque_of(const Robot& robot, const std::vector<AppliedEffect>& effects) {
+  const Recording log = test::record({});
+  std::vector<Sample> samples = log.samples();
+  const RichModel truth{stacked_parameters(robot), effects};
+  const Viewer viewer(robot, reference::ContactTreatment::ignore, effects);
+  for (const std::size_t i : log.usable(1)) {
+    samples[i].tau = predict(viewer, viewer.view(log, i), truth).force;
+  }
+  return {samples, 100.0};
+}
+
+/// About a level first axis a base on its side is what a turned joint is: left to the tilt.
+TEST(JointZeros, OfALevelFirstAxisAreLeftToTheBase) {
+  Robot robot = test::arm();
+  robot.links[1].joint.axis = Eigen::Vector3d::UnitY();
+  EXPECT_EQ(zeros_of(robot, torque_of(robot, {effect("gravity_tilt", 0, {0.0, a_quarter})})), "");
+  EXPECT_NE(zeros_of(robot, torque_of(robot, {effect("encoder_offset", 1, {a_quarter})})), "");
+}
+
+/// Stretched out, and given four times too heavy: upright links would do less harm, and predict
+/// nothing.
+TEST(JointZeros, AreNoneWhereTheGivenLinksPredictNothing) {
+  Robot robot = test::arm();
+  for (Link& link : robot.links) {
+    if (link.parent < 0) continue;
+    link.joint.placement.translation() = Eigen::Vector3d(0.3, 0.0, 0.02);
+    link.inertia = from_centre(2.0, {0.3, 0.01, 0.02}, 0.01 * Eigen::Matrix3d::Identity());
+  }
+  const Recording log = torque_of(robot, {});
+  for (const double times : {4.0, 1e-3}) {
+    Robot given = robot;
+    for (Link& link : given.links) link.inertia.values *= times;
+    EXPECT_EQ(zeros_of(given, log), "") << times;
+  }
+}
+
+/// A centre of mass near an axis that is given on its other side is no other zero, as on seven of
+/// 150 drawn arms (seed 9556): all else is predicted.
+TEST(JointZeros, AreNotThoseOfCentresNearAnAxis) {
+  Robot robot = test::arm(), given = robot;
+  const auto with_centre = [](Robot& of, double side) {
+    of.links.back().inertia =
+        from_centre(1.0, {0.004 * side, 0.1, -0.003 * side}, 0.004 * Eigen::Matrix3d::Identity());
+  };
+  with_centre(robot, 1.0);
+  with_centre(given, -1.0);
+  EXPECT_EQ(zeros_of(given, torque_of(robot, {})), "");
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
