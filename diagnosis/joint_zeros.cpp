@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/rich_model.hpp"
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::diagnosis {
@@ -113,6 +114,7 @@ void check_joint_zeros(const Robot& robot, const Recording& recording,
   const std::vector<AppliedEffect> turns = Zeros(robot, recording, contacts).sought();
   if (turns.empty()) return;
   std::vector<std::string> each;
+  each.reserve(turns.size());
   for (const AppliedEffect& a : turns) {
     each.push_back(fmt::format("{} {:+.4f} rad", robot.joint(a.site).name, a.value[0]));
   }
