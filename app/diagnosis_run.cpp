@@ -245,7 +245,7 @@ void add_flags(const std::vector<diagnosis::Found>& flags, DiagnosisRun& run) {
 }
 
 void note_contact_reach(const diagnosis::ContactReach& reach, DiagnosisRun& run) {
-  if (reach.covers({}) && diagnosis::ContactReach().covers(reach)) return;
+  if (diagnosis::ContactReach().covers(reach)) return;
   run.notes.push_back(fmt::format(
       "contacts count as touching {:.3g} ms before and {:.3g} ms after they are declared to, for a "
       "delay of the torque carries their force there",

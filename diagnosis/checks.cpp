@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/joint_zeros.hpp"
+#include "shapeid/diagnosis/quarter_turns.hpp"
+#include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/reference/contact.hpp"
 
@@ -88,28 +89,17 @@ void check_torque_scale(const Robot& robot, const Recording& recording,
   }
 }
 
-double squared_error(const Robot& robot, const Recording& recording,
-                     reference::ContactTreatment contacts, const RichModel& model) {
-  const Viewer viewer(robot, contacts, model.effects);
-  double sum = 0.0;
-  for (const std::size_t i : recording.usable(stride_for(recording))) {
-    const View view = viewer.view(recording, i);
-    sum += (predict(viewer, view, model).force - view.sample.tau).squaredNorm();
-  }
-  return sum;
-}
-
 /// Where motion is fast, torque need not run against the model of a base that hangs.
 void check_base(const Robot& robot, const Recording& recording,
                 reference::ContactTreatment contacts) {
   if (robot.root != Root::fixed) return;
-  RichModel model{stacked_parameters(robot), {}};
-  const double upright = squared_error(robot, recording, contacts, model);
+  const auto squared_error = [&](const std::vector<AppliedEffect>& effects) {
+    const RichModel model{stacked_parameters(robot), effects};
+    return series(robot, contacts, model, recording, stride_for(recording)).residual.squaredNorm();
+  };
   AppliedEffect half_turn = at_start(*find_effect("gravity_tilt"), 0);
   half_turn.value[0] = std::numbers::pi;
-  model.effects = {half_turn};
-  constexpr double far_better = 0.5;  // as of quarter turns
-  if (!(squared_error(robot, recording, contacts, model) < far_better * upright)) return;
+  if (!(squared_error({half_turn}) < far_better * squared_error({}))) return;
   throw Refusal("upside-down",
                 "the given model predicts the logged torque far better with its base upside down: "
                 "turn the base in the URDF, or the torque in the mapping (sign: -1)");

@@ -13,6 +13,7 @@ ContactReach contact_reach(const std::vector<Found>& found, double rate,
   for (const Found& f : found) {
     if (f.effect.effect != find_effect("torque_delay")) continue;
     const double delay = f.effect.value[0];
+    if (std::abs(delay) * rate < 0.5) continue;  // the nearest sample is the same
     double& side = delay > 0.0 ? reach.after : reach.before;
     // Whose flags are taken is the nearest sample, at most so many away.
     side = std::max(side, std::ceil(std::abs(delay) * rate) / rate);

@@ -4,19 +4,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "shapeid/diagnosis/effects.hpp"
-#include "shapeid/diagnosis/rich_model.hpp"
+#include "shapeid/diagnosis/quarter_turns.hpp"
+#include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
 
-constexpr double quarter_turn = 0.5 * std::numbers::pi;
-constexpr double far_better = 0.5;  // of the squared error, as of a base on its side
 /// Of the squared torque: links that are given too heavy do less harm where their weight is along
 /// the axes, but predict nothing there. And where the given links predict more than half as it is,
 /// a centre of mass that is given a little off an axis, on the other side of it, may gain as much.
@@ -25,11 +23,7 @@ constexpr double well = 0.25, badly = 0.5;
 class Zeros {
  public:
   Zeros(const Robot& robot, const Recording& recording, RowSource rows)
-      : robot_(robot),
-        recording_(recording),
-        rows_(rows),
-        indices_(recording.usable(std::max<std::size_t>(1, recording.samples().size() / samples))) {
-  }
+      : robot_(robot), recording_(recording), rows_(rows) {}
 
   /// Joints that should be read further, the strongest first; none if that is not far better.
   [[nodiscard]] std::vector<AppliedEffect> sought() const {
@@ -72,38 +66,28 @@ class Zeros {
 
   /// What the given links leave on a base that stands on its side, if it is less than `error`.
   [[nodiscard]] double best_on_its_side(double error) const {
-    for (const int axis : {0, 1}) {
-      for (const double angle : {-quarter_turn, quarter_turn}) {
-        AppliedEffect turn = at_start(*find_effect("gravity_tilt"), 0);
-        turn.value[axis] = angle;
-        error = std::min(error, given_error({turn}));
-      }
+    for (const AppliedEffect& turn : bases_on_their_side()) {
+      error = std::min(error, given_error({turn}));
     }
     return error;
   }
 
   [[nodiscard]] double given_error(const std::vector<AppliedEffect>& effects) const {
-    const RichModel model{stacked_parameters(robot_), effects};
-    const Viewer viewer(robot_, rows_, effects);
-    double sum = 0.0;
-    for (const std::size_t i : indices_) {
-      const View view = viewer.view(recording_, i);
-      sum += (predict(viewer, view, model).force - view.sample.tau).squaredNorm();
-    }
-    return sum;
+    return squared_error({stacked_parameters(robot_), effects});
   }
-
   [[nodiscard]] double squared_torque() const {
-    double sum = 0.0;
-    for (const std::size_t i : indices_) sum += recording_[i].tau.squaredNorm();
-    return sum;
+    return squared_error({Eigen::VectorXd::Zero(Eigen::Index{10} * robot_.link_count()), {}});
+  }
+  /// On some hundred samples, evenly: for as coarse a question.
+  [[nodiscard]] double squared_error(const RichModel& model) const {
+    constexpr std::size_t samples = 300;
+    const std::size_t stride = std::max<std::size_t>(1, recording_.samples().size() / samples);
+    return series(robot_, rows_, model, recording_, stride).residual.squaredNorm();
   }
 
-  static constexpr std::size_t samples = 300;  // evenly: for as coarse a question
   const Robot& robot_;
   const Recording& recording_;
   RowSource rows_;
-  std::vector<std::size_t> indices_;
 };
 
 }  // namespace

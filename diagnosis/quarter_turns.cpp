@@ -1,6 +1,5 @@
 #include "shapeid/diagnosis/quarter_turns.hpp"
 
-#include <numbers>
 #include <optional>
 
 #include "shapeid/diagnosis/effects.hpp"
@@ -10,29 +9,33 @@
 namespace shapeid::diagnosis {
 namespace {
 
-constexpr double quarter = 0.5 * std::numbers::pi;
-constexpr double far_better = 0.5;  // of the squared error
-
 /// The turn with which the given model predicts best, if that is far better than upright.
 std::optional<AppliedEffect> best_turn(LoopState& state) {
   double least = far_better * state.tallied({}).given_error().sum();
   std::optional<AppliedEffect> best;
-  for (const int axis : {0, 1}) {
-    for (const double angle : {-quarter, quarter}) {
-      AppliedEffect turn = at_start(*find_effect("gravity_tilt"), 0);
-      turn.value[axis] = angle;
-      state.result.model.effects = {turn};
-      const double error = state.tallied({}).given_error().sum();
-      if (!(error < least)) continue;
-      least = error;
-      best = turn;
-    }
+  for (const AppliedEffect& turn : bases_on_their_side()) {
+    state.result.model.effects = {turn};
+    const double error = state.tallied({}).given_error().sum();
+    if (!(error < least)) continue;
+    least = error;
+    best = turn;
   }
   state.collect_effects();
   return best;
 }
 
 }  // namespace
+
+std::vector<AppliedEffect> bases_on_their_side() {
+  std::vector<AppliedEffect> turns;
+  for (const int axis : {0, 1}) {
+    for (const double angle : {-quarter_turn, quarter_turn}) {
+      turns.push_back(at_start(*find_effect("gravity_tilt"), 0));
+      turns.back().value[axis] = angle;
+    }
+  }
+  return turns;
+}
 
 void try_quarter_turns(LoopState& state) {
   if (state.robot.root != Root::fixed) return;

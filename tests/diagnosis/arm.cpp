@@ -58,6 +58,17 @@ Robot arm() {
   return robot;
 }
 
+Recording moved_as_arm(const Robot& robot, const std::vector<diagnosis::AppliedEffect>& effects) {
+  const Recording log = record({});
+  std::vector<Sample> samples = log.samples();
+  const diagnosis::RichModel truth{stacked_parameters(robot), effects};
+  const diagnosis::Viewer viewer(robot, reference::ContactTreatment::ignore, effects);
+  for (const std::size_t i : log.usable(1)) {
+    samples[i].tau = diagnosis::predict(viewer, viewer.view(log, i), truth).force;
+  }
+  return {samples, rate};
+}
+
 Recording record(const ArmLog& log) {
   std::vector<Sample> samples;
   const auto count = static_cast<int>(log.seconds * rate);

@@ -27,6 +27,10 @@ struct ArmLog {
 [[nodiscard]] diagnosis::Recording record(const ArmLog& log,
                                           const std::function<void(std::vector<Sample>&)>& change);
 
+/// The arm's motion, with the torque of another robot on a fixed base with as many joints; exact.
+[[nodiscard]] diagnosis::Recording moved_as_arm(
+    const Robot& robot, const std::vector<diagnosis::AppliedEffect>& effects);
+
 /// A log whose encoder of joint 2 sits on the motor, ahead of the joint by `lead` of the drive's
 /// torque, in position, speed and acceleration.
 [[nodiscard]] diagnosis::Recording before_a_gear(double (*lead)(double torque));

@@ -29,6 +29,7 @@ TEST(ContactReach, IsThatOfTheLongestDelayEitherWay) {
       contact_reach({delay_of_torque(-0.0042), delay_of_torque(0.0021)}, 500.0, {0.004, 0.001});
   EXPECT_DOUBLE_EQ(reach.before, 0.006) << "three samples";
   EXPECT_DOUBLE_EQ(reach.after, 0.004);
+  EXPECT_EQ(contact_reach({delay_of_torque(0.0009)}, 500.0, {}).after, 0.0);
   EXPECT_TRUE(reach.covers(none));
   EXPECT_FALSE(none.covers(reach));
   const ContactReach kept = contact_reach({delay_of_torque(0.001)}, 500.0, reach);

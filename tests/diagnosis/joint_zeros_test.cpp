@@ -62,24 +62,15 @@ TEST(JointZeros, AreNoneWhereSomethingElseIsWrong) {
   }
 }
 
-/// The arm's motion, with the torque of another robot.
-Recording torque_of(const Robot& robot, const std::vector<AppliedEffect>& effects) {
-  const Recording log = test::record({});
-  std::vector<Sample> samples = log.samples();
-  const RichModel truth{stacked_parameters(robot), effects};
-  const Viewer viewer(robot, reference::ContactTreatment::ignore, effects);
-  for (const std::size_t i : log.usable(1)) {
-    samples[i].tau = predict(viewer, viewer.view(log, i), truth).force;
-  }
-  return {samples, 100.0};
-}
-
 /// About a level first axis a base on its side is what a turned joint is: left to the tilt.
 TEST(JointZeros, OfALevelFirstAxisAreLeftToTheBase) {
   Robot robot = test::arm();
   robot.links[1].joint.axis = Eigen::Vector3d::UnitY();
-  EXPECT_EQ(zeros_of(robot, torque_of(robot, {effect("gravity_tilt", 0, {0.0, a_quarter})})), "");
-  EXPECT_NE(zeros_of(robot, torque_of(robot, {effect("encoder_offset", 1, {a_quarter})})), "");
+  EXPECT_EQ(
+      zeros_of(robot, test::moved_as_arm(robot, {effect("gravity_tilt", 0, {0.0, a_quarter})})),
+      "");
+  EXPECT_NE(zeros_of(robot, test::moved_as_arm(robot, {effect("encoder_offset", 1, {a_quarter})})),
+            "");
 }
 
 /// Stretched out, and given four times too heavy: upright links would do less harm, and predict
@@ -91,7 +82,7 @@ TEST(JointZeros, AreNoneWhereTheGivenLinksPredictNothing) {
     link.joint.placement.translation() = Eigen::Vector3d(0.3, 0.0, 0.02);
     link.inertia = from_centre(2.0, {0.3, 0.01, 0.02}, 0.01 * Eigen::Matrix3d::Identity());
   }
-  const Recording log = torque_of(robot, {});
+  const Recording log = test::moved_as_arm(robot, {});
   for (const double times : {4.0, 1e-3}) {
     Robot given = robot;
     for (Link& link : given.links) link.inertia.values *= times;
@@ -109,7 +100,7 @@ TEST(JointZeros, AreNotThoseOfCentresNearAnAxis) {
   };
   with_centre(robot, 1.0);
   with_centre(given, -1.0);
-  EXPECT_EQ(zeros_of(given, torque_of(robot, {})), "");
+  EXPECT_EQ(zeros_of(given, test::moved_as_arm(robot, {})), "");
 }
 
 }  // namespace

@@ -54,24 +54,12 @@ TEST(QuarterTurns, AreTakenOnlyWhereTheyExplainFarMore) {
   }
 }
 
-/// The arm's motion, with the torque of another robot.
-Recording moved_alike(const Robot& robot) {
-  const Recording log = test::record({});
-  std::vector<Sample> samples = log.samples();
-  const RichModel truth{stacked_parameters(robot), {}};
-  const Viewer viewer(robot, reference::ContactTreatment::ignore, {});
-  for (const std::size_t i : log.usable(1)) {
-    samples[i].tau = predict(viewer, viewer.view(log, i), truth).force;
-  }
-  return {samples, 100.0};
-}
-
 /// Where all axes are level and links are given four times too heavy, weight along the axes would
 /// do less harm.
 TEST(QuarterTurns, AreNotTakenForMassesThatAreGivenTooLarge) {
   Robot robot = test::arm();
   robot.links[1].joint.axis = Eigen::Vector3d::UnitY();
-  const Recording log = moved_alike(robot);
+  const Recording log = test::moved_as_arm(robot, {});
   for (Link& link : robot.links) link.inertia.values *= 4.0;
   const LoopSettings settings = test::arm_settings();
   LoopState state(robot, log, nullptr, settings);
