@@ -36,6 +36,16 @@ void check_excitation(const Robot& robot, const Recording& recording) {
   throw Refusal("not-excited", "no joint moves; log a motion that moves and loads every joint");
 }
 
+/// What feet push against each other is left out on a floating base: it is known from torque, and
+/// would follow that at any scale.
+Eigen::VectorXd load_without_torque(const Viewer& viewer, const View& view,
+                                    const RichModel& given) {
+  const Prediction predicted = predict(viewer, view, given);
+  if (viewer.robot().root == Root::fixed) return predicted.load.joint;
+  const Eigen::VectorXd f = carrying_forces(viewer.robot(), predicted.force, predicted.J);
+  return (predicted.force - predicted.J.transpose() * f).tail(viewer.robot().joint_count());
+}
+
 void check_torque_scale(const Robot& robot, const Recording& recording,
                         reference::ContactTreatment contacts) {
   const RichModel given{stacked_parameters(robot), {}};
@@ -44,7 +54,7 @@ void check_torque_scale(const Robot& robot, const Recording& recording,
   Eigen::VectorXd pp = Eigen::VectorXd::Zero(n), pt = pp, tt = pp;
   for (const std::size_t i : recording.usable(stride_for(recording))) {
     const View view = viewer.view(recording, i);
-    const Eigen::VectorXd load = predict(viewer, view, given).load.joint;
+    const Eigen::VectorXd load = load_without_torque(viewer, view, given);
     pp += load.cwiseAbs2();
     pt += load.cwiseProduct(view.sample.tau);
     tt += view.sample.tau.cwiseAbs2();

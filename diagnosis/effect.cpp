@@ -1,13 +1,31 @@
 #include "shapeid/diagnosis/effect.hpp"
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
 
+#include "shapeid/reference/projection.hpp"
+
 namespace shapeid::diagnosis {
+namespace {
+
+using Decomposition = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
+
+/// The x of least norm for which A x comes closest to b, without what A multiplies by less than
+/// `least`.
+Eigen::VectorXd felt(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double least) {
+  if (A.size() == 0) return Eigen::VectorXd::Zero(A.cols());
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const double most = svd.singularValues()[0];
+  if (!(most > least)) return Eigen::VectorXd::Zero(A.cols());
+  return svd.setThreshold(least / most).solve(b);
+}
+
+}  // namespace
 
 bool same_place(const AppliedEffect& a, const AppliedEffect& b) {
   return a.effect == b.effect && a.site == b.site &&
@@ -73,16 +91,30 @@ int site_count(const Robot& robot, SiteKind kind) {
   return 1;
 }
 
+Eigen::VectorXd carrying_forces(const Robot& robot, const Eigen::VectorXd& YPhi,
+                                const Eigen::MatrixXd& J) {
+  const int base = robot.base_dof();
+  if (J.rows() == 0) return Eigen::VectorXd(0);
+  return Decomposition(J.leftCols(base).transpose()).solve(YPhi.head(base));
+}
+
 PredictedLoad predicted_load(const Robot& robot, const Eigen::VectorXd& applied,
                              const Eigen::VectorXd& YPhi, const Eigen::MatrixXd& J) {
-  PredictedLoad load{Eigen::VectorXd::Zero(J.rows()), YPhi.tail(robot.joint_count()),
-                     Eigen::VectorXd::Zero(robot.joint_count())};
+  const int base = robot.base_dof(), n = robot.joint_count();
+  PredictedLoad load{Eigen::VectorXd::Zero(J.rows()), YPhi.tail(n), Eigen::VectorXd::Zero(n)};
   if (J.rows() == 0) return load;
-  using Solver = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
-  const int base = robot.base_dof();
-  load.force = base > 0 ? Solver(J.leftCols(base).transpose()).solve(YPhi.head(base)).eval()
-                        : Solver(J.transpose()).solve(YPhi - applied).eval();
-  load.joint -= J.rightCols(robot.joint_count()).transpose() * load.force;
+  const Eigen::MatrixXd JT = J.rightCols(n).transpose();
+  if (base == 0) {
+    load.force = Decomposition(JT).solve(YPhi - applied);
+  } else {
+    load.force = carrying_forces(robot, YPhi, J);
+    const Eigen::VectorXd each = Eigen::VectorXd::Ones(J.rows());
+    const Eigen::MatrixXd open =
+        reference::contact_free_basis(J.leftCols(base).transpose(), each).Q2;
+    load.force += open * felt(JT * open, load.joint - applied.tail(n) - JT * load.force,
+                              least_lever * JT.norm());
+  }
+  load.joint -= JT * load.force;
   return load;
 }
 

@@ -57,8 +57,8 @@ struct Instant {
   const Sample& sample;
   const std::vector<reference::LinkMotion>& motions;  ///< of all links, at this sample
   const Eigen::MatrixXd& Y;                           ///< regressor, dof x 10 links
-  /// Predicted joint torques of the rigid links, with contact forces from the base's balance
-  /// (predicted_load()), n. Contains no measured torque on a floating base.
+  /// Predicted joint torques of the rigid links, n, with contact forces from the base's balance.
+  /// Measured torque is only in what that leaves open (predicted_load()).
   const Eigen::VectorXd& load;
   const Eigen::VectorXd& load_rate;  ///< its change a second, n (Effect::needs_load_rate)
   const Surroundings& surroundings;
@@ -171,10 +171,18 @@ struct AppliedEffect {
 /// How many sites of a kind the robot has.
 [[nodiscard]] int site_count(const Robot& robot, SiteKind kind);
 
-/// Predicted joint torques Y Phi - J^T f. `YPhi` is without what measured contact forces carry. On
-/// a floating base the contact forces f are those of least norm that carry the base (J_base^T f =
-/// (Y Phi)_base): no measured torque is in them. On a fixed base nothing but torque tells of f, so
-/// it is fitted to the logged one.
+/// Contact forces of least norm that carry a floating base, J_base^T f = (Y Phi)_base: no measured
+/// torque is in them. `YPhi` is without what measured contact forces carry.
+[[nodiscard]] Eigen::VectorXd carrying_forces(const Robot& robot, const Eigen::VectorXd& YPhi,
+                                              const Eigen::MatrixXd& J);
+
+/// Of contact forces that push against each other those are taken for zero of which joints feel
+/// less than this part of J's norm: a torque's noise would make a hundred times itself of them.
+inline constexpr double least_lever = 0.01;
+
+/// Predicted joint torques Y Phi - J^T f. Of all contact forces f that carry the base (any, on a
+/// fixed one) these come closest to the logged torque: nothing else tells what feet push against
+/// each other.
 struct PredictedLoad {
   Eigen::VectorXd force;  ///< contact rows of J
   Eigen::VectorXd joint;  ///< n

@@ -111,42 +111,58 @@ Instant instant_of(const Viewer& viewer, const View& view, const PredictedLoad& 
 
 namespace {
 
-PredictedLoad load_of(const Viewer& viewer, const View& view, const Eigen::VectorXd& Phi) {
+Eigen::VectorXd force_of(const std::vector<AppliedEffect>& effects,
+                         const std::vector<Curve>& curves, const Instant& instant) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(instant.robot.dof());
+  for (const AppliedEffect& a : effects) {
+    if (a.effect->columns != nullptr) {
+      force += a.effect->columns(instant, a.site, a.shape) * a.value;
+    }
+  }
+  for (const Curve& curve : curves) force += force_of(curve, instant);
+  return force;
+}
+
+/// Contact forces are those that carry links and effects, and come closest to the torque with both;
+/// of effects that grow with the load, by the load that links alone make of all torque.
+PredictedLoad load_of(const Viewer& viewer, const View& view, const RichModel& model) {
   const auto load = [&](const Eigen::VectorXd& applied, const auto& at) {
-    return predicted_load(viewer.robot(), applied, at.Y * Phi - at.carried, at.J);
+    return predicted_load(viewer.robot(), applied, at.Y * model.Phi - at.carried, at.J);
   };
-  PredictedLoad now = load(logged_force(viewer, view), view);
+  const Eigen::VectorXd applied = logged_force(viewer, view);
+  PredictedLoad now = load(applied, view);
   if (view.around.size() == 2) {
     const Neighbour &before = view.around[0], &after = view.around[1];
     now.rate = (load(after.applied, after).joint - load(before.applied, before).joint) /
                (2.0 * neighbour_step(viewer.robot()));
   }
+  if (view.J.rows() == 0 || (model.effects.empty() && model.curves.empty())) return now;
+  const Eigen::VectorXd E = force_of(model.effects, model.curves, instant_of(viewer, view, now));
+  PredictedLoad all =
+      predicted_load(viewer.robot(), applied, view.Y * model.Phi - view.carried + E, view.J);
+  now.force = std::move(all.force);
+  now.joint = all.joint - E.tail(viewer.robot().joint_count());
   return now;
 }
 
 }  // namespace
 
 Prediction predict(const Viewer& viewer, const View& view, const RichModel& model) {
-  return predict(viewer, view, model, load_of(viewer, view, model.Phi));
+  return predict(viewer, view, model, load_of(viewer, view, model));
 }
 
 Prediction predict(const Viewer& viewer, const View& view, const RichModel& model,
                    const PredictedLoad& load) {
   const Instant instant = instant_of(viewer, view, load);
   Rows rows{view.Y * model.Phi - view.carried, view.J};
-  for (const AppliedEffect& a : model.effects) {
-    if (a.effect->columns != nullptr) {
-      rows.E += a.effect->columns(instant, a.site, a.shape) * a.value;
-    }
-  }
-  for (const Curve& curve : model.curves) rows.E += force_of(curve, instant);
+  rows.E += force_of(model.effects, model.curves, instant);
   viewer.transform(view, rows);
   return {rows.E, std::move(rows.J), load};
 }
 
 reference::SampleRows mass_rows(const Viewer& viewer, const View& view, const RichModel& model,
                                 const std::vector<int>& free_links) {
-  const PredictedLoad load = load_of(viewer, view, model.Phi);
+  const PredictedLoad load = load_of(viewer, view, model);
   const Instant instant = instant_of(viewer, view, load);
   const Eigen::Index sought = 10 * std::ssize(free_links);
   Rows rows{Eigen::MatrixXd(viewer.robot().dof(), sought + 1), view.J};
@@ -158,12 +174,7 @@ reference::SampleRows mass_rows(const Viewer& viewer, const View& view, const Ri
     column += 10;
   }
   rows.E.rightCols<1>() = view.Y * known - view.carried;
-  for (const AppliedEffect& a : model.effects) {
-    if (a.effect->columns != nullptr) {
-      rows.E.rightCols<1>() += a.effect->columns(instant, a.site, a.shape) * a.value;
-    }
-  }
-  for (const Curve& curve : model.curves) rows.E.rightCols<1>() += force_of(curve, instant);
+  rows.E.rightCols<1>() += force_of(model.effects, model.curves, instant);
   viewer.transform(view, rows);
   return {rows.E.leftCols(sought), logged_force(viewer, view) - rows.E.rightCols<1>(), rows.J};
 }

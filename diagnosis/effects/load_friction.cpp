@@ -25,8 +25,8 @@ Effect load_friction() {
   e.confused_with = {"coulomb_friction", "torque_gain"};
   e.separate_by = "the same slow motion with and without a known load";
   e.under_contact =
-      "the load in stance is predicted from the base's balance, which leaves the "
-      "forces between feet open";
+      "the load in stance is predicted from the base's balance, and what feet push "
+      "against each other from the torque";
   e.source = "Hamon, Gautier, Garrec, ICRA 2010";
   e.columns = columns;
   e.code.torque = "tau[j] += mu * std::abs(load[j]) * std::tanh(dq[j] / width);";

@@ -21,8 +21,8 @@ Effect torque_lag() {
   e.confused_with = {"viscous_friction (under gravity or with an inertia alone)", "torque_delay"};
   e.separate_by = "knock on the link: compare when this drive and its neighbours feel it";
   e.under_contact =
-      "seen in swing; the load in stance is predicted from the base's balance, which leaves the "
-      "forces between feet open";
+      "seen in swing; the load in stance is predicted from the base's balance, and what feet push "
+      "against each other from the torque";
   e.source = "docs/derivations/filtering.md";
   e.columns = columns;
   e.needs_load_rate = true;

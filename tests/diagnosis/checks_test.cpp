@@ -8,6 +8,7 @@
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
+#include "shapeid/tests/diagnosis/trot.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 using test::arm;
 using test::arm_settings;
 using test::record;
+using test::Trot;
 
 std::string refusal(const std::function<void()>& call) {
   try {
@@ -50,6 +52,18 @@ TEST(Checks, RobotAtRest) {
 TEST(Checks, TorqueThatIsACurrent) {
   EXPECT_EQ(check(changed(record({}), [](Sample& s) { s.tau *= 0.1; })), "torque-scale");
   EXPECT_EQ(check(changed(record({}), [](Sample& s) { s.tau *= 1.3; })), "accepted");
+}
+
+/// On feet, too, which push against each other as the torque has it at any scale.
+TEST(Checks, TorqueOfATrotThatIsACurrent) {
+  const Trot trot;
+  const auto check_scaled = [&](double factor) {
+    const Recording log = changed({trot.samples, Trot::rate}, [&](Sample& s) { s.tau *= factor; });
+    return refusal([&] { check_meaning(trot.robot, log, reference::ContactTreatment::project); });
+  };
+  for (const double factor : {0.1, 8.0}) EXPECT_EQ(check_scaled(factor), "torque-scale") << factor;
+  EXPECT_EQ(check_scaled(-1.0), "torque-sign");
+  EXPECT_EQ(check_scaled(1.3), "accepted");
 }
 
 /// A factor that differs from joint to joint is a gain of each, to be found as that.

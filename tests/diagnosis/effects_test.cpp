@@ -439,13 +439,5 @@ TEST(Transformations, ADelayKeepsContactsOfNowAndOfThen) {
   }
 }
 
-/// On a floating base the predicted load asks the motion alone.
-RC_GTEST_PROP(PredictedLoads, ContainNoMeasuredTorque, ()) {
-  const Scene scene = any_scene(Root::floating);
-  Sample other = scene.sample;
-  other.tau *= -3.0;
-  RC_ASSERT(Scene(scene.robot, other).load == scene.load);
-}
-
 }  // namespace
 }  // namespace shapeid::diagnosis

@@ -1,0 +1,116 @@
+// Loads of joints of a robot on feet: what carries the base, and what feet push against each other.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/rich_model.hpp"
+#include "shapeid/tests/support/generators.hpp"
+#include "shapeid/tests/support/scaled.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+using test::few_hundred_eps;
+
+/// A robot that stands with any forces at its feet: `carried` makes them balance its base.
+struct Standing {
+  Standing()
+      : robot(*test::robot({2, 8, Root::floating})),
+        viewer(robot, reference::ContactTreatment::project, {}),
+        model{stacked_parameters(robot), {}} {
+    view = viewer.view(*test::sample(robot), {});
+    f = *test::vector(view.J.rows(), 50.0);
+    view.carried.head<6>() = (view.Y * model.Phi - view.J.transpose() * f).head<6>();
+    size = (view.Y * model.Phi).norm() + (1.0 + view.J.norm()) * (1.0 + f.norm());
+    load_with(f);
+  }
+  /// Contacts whose forces no joint feels have none.
+  void without_what_no_joint_feels() { load_with(load().force); }
+
+  [[nodiscard]] PredictedLoad load() const { return predict(viewer, view, model).load; }
+  /// What the forces leave of the base's balance.
+  [[nodiscard]] double unbalanced(const Eigen::VectorXd& force) const {
+    return (view.Y * model.Phi - view.carried - view.J.transpose() * force).head<6>().norm();
+  }
+
+  Robot robot;
+  Viewer viewer;
+  View view;
+  RichModel model;
+  Eigen::VectorXd f;      ///< at the contacts that touch
+  Eigen::VectorXd links;  ///< the joints' torques of rigid links, n
+  double size;            ///< of the numbers that differ
+
+ private:
+  void load_with(const Eigen::VectorXd& force) {
+    links = (view.Y * model.Phi - view.J.transpose() * force).tail(robot.joint_count());
+    view.sample.tau = links;
+  }
+};
+
+/// However contacts push against each other: the torque tells, as far as joints feel it.
+RC_GTEST_PROP(PredictedLoad, IsTheTorqueOfLinksThatContactsLoadInAnyWay, ()) {
+  Standing standing;
+  const double rounding = few_hundred_eps * 20 * standing.size;
+  const PredictedLoad load = standing.load();
+  const double unfelt = least_lever * standing.view.J.norm() * standing.f.norm();
+  RC_ASSERT((load.joint - standing.links).norm() <= unfelt + rounding);
+  RC_ASSERT(standing.unbalanced(load.force) <= rounding);
+  standing.without_what_no_joint_feels();
+  RC_ASSERT((standing.load().joint - standing.links).norm() <= rounding);
+}
+
+/// No measured torque is in what the base's balance tells.
+RC_GTEST_PROP(PredictedLoad, CarriesTheBaseWhateverTheTorque, ()) {
+  Standing standing;
+  const PredictedLoad load = standing.load();
+  const Eigen::VectorXd more = *test::vector(standing.robot.joint_count(), 20.0);
+  standing.view.sample.tau += more;
+  const PredictedLoad other = standing.load();
+  const double rounding = few_hundred_eps * 20 * (standing.size + more.norm() / least_lever);
+  RC_ASSERT(standing.unbalanced(other.force) <= rounding);
+  const std::vector<bool>& touch = standing.view.sample.in_contact;
+  const double difference = (other.joint - load.joint).norm();
+  if (std::count(touch.begin(), touch.end(), true) <= 1) RC_ASSERT(difference <= rounding);
+  // Least squares go part of the way, never beyond.
+  RC_ASSERT(difference <= more.norm() + rounding);
+}
+
+/// With what effects ask for in the torque, contacts are known as well as without: friction mu of
+/// the load leaves mu times the error that would be left if it were taken for a contact's force.
+RC_GTEST_PROP(PredictedLoad, KnowsWhatEffectsAskOfTheTorque, ()) {
+  Standing standing;
+  standing.without_what_no_joint_feels();
+  const int joint = *rc::gen::inRange(0, standing.robot.joint_count());
+  const double mu = *test::real(0.01, 0.3);
+  AppliedEffect friction = at_start(*find_effect("load_friction"), joint);
+  friction.value[0] = mu;
+  const double slip = std::tanh(standing.view.sample.dq[joint] / friction.shape[0]);
+  standing.view.sample.tau[joint] += mu * std::abs(standing.links[joint]) * slip;
+  const double unaware = (standing.load().joint - standing.links).norm();
+  standing.model.effects = {friction};
+  const double aware = (standing.load().joint - standing.links).norm();
+  RC_ASSERT(aware <= mu * unaware + few_hundred_eps * 20 * standing.size);
+}
+
+/// An effect that acts on the base itself is carried by contacts.
+RC_GTEST_PROP(PredictedLoad, HasForcesOnTheBaseInItsBalance, ()) {
+  Standing standing;
+  standing.without_what_no_joint_feels();
+  AppliedEffect pull = at_start(*find_effect("external_force"), 0);
+  pull.value = *test::vector(3, 30.0);
+  const Instant instant = instant_of(standing.viewer, standing.view, standing.load());
+  const Eigen::VectorXd E = pull.effect->columns(instant, pull.site, pull.shape) * pull.value;
+  standing.view.carried.head<6>() += E.head<6>();
+  standing.model.effects = {pull};
+  const PredictedLoad load = standing.load();
+  const double size = standing.size + E.norm();
+  RC_ASSERT(test::scaled((load.joint - standing.links).norm(), size, 20) < few_hundred_eps);
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
