@@ -10,8 +10,8 @@
 #include "shapeid/app/diagnosis_logs.hpp"
 #include "shapeid/app/motion_noise.hpp"
 #include "shapeid/diagnosis/checks.hpp"
-#include "shapeid/diagnosis/contact_flags.hpp"
 #include "shapeid/diagnosis/contact_reach.hpp"
+#include "shapeid/diagnosis/contacts_in_loop.hpp"
 #include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/needed.hpp"
 #include "shapeid/diagnosis/regions.hpp"
@@ -327,14 +327,13 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   run.settings.cutoff = options.inputs.cutoff;
   Recording* reference = pointer(earlier);
   const std::vector<Recording*> along = {pointer(rough), pointer(rough_earlier), &run.test};
-  std::vector<diagnosis::Found> flags =
-      diagnosis::correct_contact_flags(robot.robot, log.recording, reference, along, run.settings);
-  diagnosis::LoopInReach in_reach =
-      diagnosis::close_loop_in_reach(robot.robot, log.recording, reference, along, run.settings);
-  run.loop = std::move(in_reach.loop);
-  note_contact_reach(in_reach.reach, run);
+  diagnosis::LoopWithContacts closed = diagnosis::close_loop_with_contacts(
+      robot.robot, log.recording, reference, along, run.settings);
+  run.loop = std::move(closed.loop);
+  std::vector<diagnosis::Found>& flags = closed.flags;
+  note_contact_reach(closed.reach, run);
   log.recording.set_correction(run.loop.correction);
-  NoiseOfMotion noise(same, same_earlier, flags, in_reach.reach);
+  NoiseOfMotion noise(same, same_earlier, flags, closed.reach);
   noise.question_laws(log.recording, run);
   for (diagnosis::Found& f : flags) {
     f.beside_unknown = diagnosis::is_beside_unknown(robot.robot, run.loop, f);

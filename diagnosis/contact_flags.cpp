@@ -48,6 +48,9 @@ Effect as_force(const char* id,
   return force;
 }
 
+Effect late_force() { return as_force("contact_late", before); }
+Effect short_force() { return as_force("contact_short", after); }
+
 class Search {
  public:
   Search(const Robot& robot, const Recording& log, const Recording* reference,
@@ -113,10 +116,27 @@ class Search {
   }
 
   LoopState state_;
-  Effect late_ = as_force("contact_late", before), short_ = as_force("contact_short", after);
+  Effect late_ = late_force(), short_ = short_force();
 };
 
 }  // namespace
+
+bool flag_stands(const Robot& robot, const Recording& log, const Recording* reference,
+                 const LoopSettings& settings, const LoopResult& loop, const Found& flag) {
+  LoopState state(robot, log, reference, settings);
+  state.result = loop;
+  state.correct();
+  const Effect force =
+      flag.effect.effect == find_effect("contact_late") ? late_force() : short_force();
+  std::vector<AppliedEffect> effects = state.result.model.effects;
+  effects.push_back(at_start(force, flag.effect.site));
+  effects.back().shape[0] = flag.effect.value[0] / beyond;
+  const BlockFits fits = state.tallied(effects);
+  std::vector<Term> terms = state.terms_of_model(fits, effects.size() - 1);
+  const Eigen::VectorXd without = fits.held_out(terms);
+  terms.push_back(term_of(robot, fits.tally(), effects.size() - 1));
+  return gain_of(without, fits.held_out(terms)).t > state.rule().least_t;
+}
 
 bool pushes(const Recording& log, const Eigen::Vector3d& force) {
   Eigen::Vector3d down = Eigen::Vector3d::Zero();

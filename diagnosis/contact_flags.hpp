@@ -19,6 +19,13 @@ namespace shapeid::diagnosis {
                                                        const std::vector<Recording*>& along,
                                                        const LoopSettings& settings);
 
+/// Whether the force of a flag that was found, beside masses alone, still explains more than chance
+/// beside all that `loop` found later. `log`, `reference` (may be null) and what `settings` point
+/// to: as the loop saw them, but for this flag, which is as it was.
+[[nodiscard]] bool flag_stands(const Robot& robot, const Recording& log, const Recording* reference,
+                               const LoopSettings& settings, const LoopResult& loop,
+                               const Found& flag);
+
 /// Whether a force at a foot (base axes) is one that the ground can have: on the log's mean it does
 /// not pull.
 [[nodiscard]] bool pushes(const Recording& log, const Eigen::Vector3d& force);

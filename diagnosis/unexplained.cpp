@@ -21,7 +21,7 @@ constexpr std::size_t blocks = 30, folds = 6;
 // squares of independent noise, but not fewer than two.
 constexpr double least_gain_t = 2.0, usual_gain_t = 2.5;
 // Logs without any structure in which chance makes one of all curves that are tried.
-constexpr double false_alarms = 0.003;
+constexpr double curve_false_alarms = 0.003;
 
 /// Edges so that every bin holds as many samples.
 std::vector<double> quantiles(std::vector<double> x) {
@@ -190,9 +190,10 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
   const std::ptrdiff_t joints = robot.joint_count();
   const auto curves =
       static_cast<double>(joints * (2 * joints + 4 + std::ssize(recording.extra())));
-  const CurveRule rule{limit_for(usual_gain_t, blocks),
-                       least_squares_sum(false_alarms / curves, waves - 1) - 2.0 * (waves - 1),
-                       recording.independent_share(stride)};
+  const CurveRule rule{
+      limit_for(usual_gain_t, blocks),
+      least_squares_sum(curve_false_alarms / curves, waves - 1) - 2.0 * (waves - 1),
+      recording.independent_share(stride)};
   const std::vector<std::vector<double>> extras = held_columns(recording);
   constexpr std::size_t fewest = 10 * bins;
   for (int j = 0; j < robot.joint_count(); ++j) {

@@ -114,21 +114,6 @@ RC_GTEST_PROP(ContactFlags, AreTheSameAsAnEffectAndCorrectedInTheLog, ()) {
   }
 }
 
-/// A foot's flag comes so much (s) after the touch, and goes so much before the foot does.
-Recording told(const Trot& trot, std::size_t foot, double late, double early) {
-  const std::vector<Sample>& samples = trot.samples;
-  std::vector<Sample> told = samples;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (!samples[i].in_contact[foot]) continue;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      const double after = samples[i].time - samples[k].time;
-      if (samples[k].in_contact[foot] || after > late || after < -early) continue;
-      told[i].in_contact[foot] = false;
-    }
-  }
-  return {std::move(told), Trot::rate};
-}
-
 void expect_found(const Trot& trot, Recording log, const std::string& id, double time) {
   const std::vector<Found> found =
       correct_contact_flags(trot.robot, log, nullptr, {}, trot.settings());
@@ -142,10 +127,10 @@ void expect_found(const Trot& trot, Recording log, const std::string& id, double
 
 TEST(ContactFlags, AreFoundOnATrotWhereTheyAreWrong) {
   const Trot trot;
-  Recording right = told(trot, 2, 0.0, 0.0);
+  Recording right = trot.told(2, 0.0, 0.0);
   EXPECT_TRUE(correct_contact_flags(trot.robot, right, nullptr, {}, trot.settings()).empty());
-  expect_found(trot, told(trot, 2, 0.016, 0.0), "contact_late@RR_foot", 0.016);
-  expect_found(trot, told(trot, 1, 0.0, 0.024), "contact_short@FL_foot", 0.024);
+  expect_found(trot, trot.told(2, 0.016, 0.0), "contact_late@RR_foot", 0.016);
+  expect_found(trot, trot.told(1, 0.0, 0.024), "contact_short@FL_foot", 0.024);
 }
 
 /// All inertias and torques six times as large: the same robot in other units. Forces were believed
@@ -155,7 +140,7 @@ TEST(ContactFlags, AreFoundOnAHeavyRobotAsOnALightOne) {
   Trot trot;
   for (Link& link : trot.robot.links) link.inertia.values *= times;
   for (Sample& s : trot.samples) s.tau *= times;
-  expect_found(trot, told(trot, 2, 0.016, 0.0), "contact_late@RR_foot", 0.016);
+  expect_found(trot, trot.told(2, 0.016, 0.0), "contact_late@RR_foot", 0.016);
 }
 
 TEST(ContactFlags, TheGroundCannotPull) {
@@ -172,7 +157,7 @@ TEST(ContactFlags, TheGroundCannotPull) {
 TEST(ContactFlags, AContactThatWouldPullHasNoName) {
   const Trot trot;
   const LoopSettings settings = trot.settings();
-  LoopState state(trot.robot, told(trot, 2, 0.0, 0.0), nullptr, settings);
+  LoopState state(trot.robot, trot.told(2, 0.0, 0.0), nullptr, settings);
   state.fit_masses();
   const auto claim = [&](const std::string& id, int site, double up) {
     const AppliedEffect a = test::effect(id, site, {1.0, 0.5, up});

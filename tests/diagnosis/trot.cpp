@@ -1,5 +1,7 @@
 #include "shapeid/tests/diagnosis/trot.hpp"
 
+#include <utility>
+
 #include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/models/robot_yaml.hpp"
 #include "shapeid/models/simbody/random.hpp"
@@ -37,6 +39,19 @@ diagnosis::LoopSettings Trot::settings_for_base() const {
   settings.expected_mass = robot.links[0].inertia.mass();
   settings.size.head(10) = reference::natural_sizes(settings.shapes, settings.expected_mass);
   return settings;
+}
+
+diagnosis::Recording Trot::told(std::size_t foot, double late, double early) const {
+  std::vector<Sample> told = samples;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!samples[i].in_contact[foot]) continue;
+    for (const Sample& other : samples) {
+      const double after = samples[i].time - other.time;
+      if (other.in_contact[foot] || after > late || after < -early) continue;
+      told[i].in_contact[foot] = false;
+    }
+  }
+  return {std::move(told), rate};
 }
 
 }  // namespace shapeid::test

@@ -2,9 +2,11 @@
 // searched with.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "shapeid/diagnosis/loop.hpp"
+#include "shapeid/diagnosis/recording.hpp"
 #include "shapeid/models/simbody/simulation.hpp"
 
 namespace shapeid::test {
@@ -16,6 +18,9 @@ struct Trot {
   [[nodiscard]] diagnosis::LoopSettings settings() const;
   /// The base's is sought.
   [[nodiscard]] diagnosis::LoopSettings settings_for_base() const;
+
+  /// A foot's flag comes so much (s) after the touch, and goes so much before the foot does.
+  [[nodiscard]] diagnosis::Recording told(std::size_t foot, double late, double early) const;
 
   static constexpr double rate = 500.0;  // Hz
   Robot robot;
