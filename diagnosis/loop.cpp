@@ -216,11 +216,6 @@ class Loop {
     result_.refit_seconds += seconds_since(start);
   }
 
-  [[nodiscard]] double mass_over_given(int link) const {
-    return result_.model.Phi[Eigen::Index{10} * link] /
-           state_.robot.links[static_cast<std::size_t>(link)].inertia.mass();
-  }
-
   /// Weight and inertia are of one mass. Noise of the accelerometer makes the one that accelerates
   /// too small; constant forces, near the base, then stand for the weight that is missing, and with
   /// more numbers than the noise has they predict a little better. So if the base has less than
@@ -232,8 +227,12 @@ class Loop {
     constexpr int base = 0;
     const auto& free = state_.settings.shapes.free_links;
     const bool sought = std::count(free.begin(), free.end(), base) > 0;
-    const double mass = mass_over_given(base);
-    if (state_.robot.root != Root::floating || !sought || !(mass < hardly_any)) return;
+    const double off_by = state_.mass_off_by(base);
+    const double mass = result_.model.Phi[Eigen::Index{10} * base];
+    if (state_.robot.root != Root::floating || !sought ||
+        !(mass < hardly_any * state_.robot.links[base].inertia.mass())) {
+      return;
+    }
     const AppliedEffect noise = at_start(*find_effect("accel_noise"), base);
     const Effect& force = *find_effect("external_force");
     const auto is_force = [&](const Found& f) { return f.effect.effect == &force; };
@@ -255,10 +254,10 @@ class Loop {
     screen();
     refit(state_);
     prune_transformations();
-    const bool better = has_place_of(result_.model.effects, noise) &&
-                        std::abs(mass_over_given(base) - 1.0) < std::abs(mass - 1.0);
+    const bool better =
+        has_place_of(result_.model.effects, noise) && state_.mass_off_by(base) < off_by;
     if (better) {
-      result_.mass_beside_forces = before.model.Phi[Eigen::Index{10} * base];
+      result_.mass_beside_forces = mass;
     } else {
       result_ = before;
       banned_ = banned;

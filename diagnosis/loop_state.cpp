@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/filter_error.hpp"
@@ -131,6 +132,13 @@ SelectionRule LoopState::rule() const {
   SelectionRule rule = settings.rule;
   rule.most_force = std::min(rule.most_force, gravity * std::max(mass, settings.expected_mass));
   return rule;
+}
+
+double LoopState::mass_off_by(int link) const {
+  const double over_given = result.model.Phi[Eigen::Index{10} * link] /
+                            robot.links[static_cast<std::size_t>(link)].inertia.mass();
+  if (!(over_given > 0.0)) return std::numeric_limits<double>::infinity();
+  return std::max(over_given, 1.0 / over_given);
 }
 
 void LoopState::set_masses(const Fit& fit) {

@@ -45,6 +45,9 @@ struct LoopState {
   void collect_effects();
   /// The settings' rule, for this robot: no constant force exceeds its weight.
   [[nodiscard]] SelectionRule rule() const;
+  /// The factor by which the link's mass, as the free number that it is in the search, is too large
+  /// or too small beside the given one; infinity if it is none.
+  [[nodiscard]] double mass_off_by(int link) const;
   /// From a fit whose first term is the masses.
   void set_masses(const Fit& fit);
 
