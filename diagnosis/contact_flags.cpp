@@ -121,6 +121,11 @@ class Search {
 
 }  // namespace
 
+bool has_contact_flags(const Recording& log, const LoopSettings& settings) {
+  return !log.samples().empty() && !log[0].in_contact.empty() &&
+         settings.rows.contacts == ContactTreatment::project;
+}
+
 bool flag_stands(const Robot& robot, const Recording& log, const Recording* reference,
                  const LoopSettings& settings, const LoopResult& loop, const Found& flag) {
   LoopState state(robot, log, reference, settings);
@@ -156,9 +161,7 @@ std::vector<Found> correct_contact_flags(const Robot& robot, Recording& log, Rec
                                          const std::vector<Recording*>& along,
                                          const LoopSettings& settings) {
   std::vector<Found> all;
-  const bool has_flags = !log.samples().empty() && !log[0].in_contact.empty() &&
-                         settings.rows.contacts == ContactTreatment::project;
-  if (!has_flags) return all;
+  if (!has_contact_flags(log, settings)) return all;
   const auto most = 2 * robot.contacts.size();  // each begins and ends
   while (all.size() < most) {
     const std::optional<Found> found = Search(robot, log, reference, settings).strongest(all);

@@ -9,6 +9,9 @@
 
 namespace shapeid::diagnosis {
 
+/// Whether the log says what touches, and the loop uses it.
+[[nodiscard]] bool has_contact_flags(const Recording& log, const LoopSettings& settings);
+
 /// contact_late and contact_short where they are among the strongest of all hypotheses beside
 /// masses, one after the other, each once. What is found is corrected in `log`, `reference` (may be
 /// null) and the logs `along` (null ones are passed over), so that the contact's force is projected

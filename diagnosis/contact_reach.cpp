@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapeid/diagnosis/contact_flags.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 
 namespace shapeid::diagnosis {
@@ -25,10 +26,8 @@ LoopInReach close_loop_in_reach(const Robot& robot, Recording& log, Recording* r
                                 const std::vector<Recording*>& along,
                                 const LoopSettings& settings) {
   constexpr int most = 3;
-  const bool has_contacts = settings.rows.contacts == reference::ContactTreatment::project &&
-                            !log.samples().empty() && !log[0].in_contact.empty();
   LoopInReach result{close_loop(robot, log, reference, settings), {}};
-  for (int turn = 1; turn < most && has_contacts; ++turn) {
+  for (int turn = 1; turn < most && has_contact_flags(log, settings); ++turn) {
     const ContactReach needed = contact_reach(result.loop.found, log.rate(), result.reach);
     if (result.reach.covers(needed)) break;
     result.reach = needed;

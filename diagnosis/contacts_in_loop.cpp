@@ -9,74 +9,85 @@
 namespace shapeid::diagnosis {
 namespace {
 
-/// Logs, some of them null, as they were before any contact was made longer.
-class Originals {
+class LoopsAroundFlags {
  public:
-  explicit Originals(const std::vector<Recording*>& logs) {
-    for (const Recording* log : logs) {
-      logs_.push_back(log != nullptr ? std::optional(*log) : std::nullopt);
+  LoopsAroundFlags(const Robot& robot, Recording& log, Recording* reference,
+                   const std::vector<Recording*>& along, const LoopSettings& settings)
+      : robot_(robot), log_(log), reference_(reference), along_(along), settings_(settings) {
+    places_ = {&log, reference};
+    places_.insert(places_.end(), along.begin(), along.end());
+    if (!has_contact_flags(log, settings)) return;
+    for (const Recording* place : places_) {
+      originals_.push_back(place != nullptr ? std::optional(*place) : std::nullopt);
     }
   }
 
-  /// With these flags corrected, in the order of the construction.
-  [[nodiscard]] std::vector<std::optional<Recording>> with(const std::vector<Found>& flags) const {
-    std::vector<std::optional<Recording>> logs = logs_;
+  LoopWithContacts run() {
+    result_.flags = correct_contact_flags(robot_, log_, reference_, along_, settings_);
+    while (true) {
+      LoopInReach closed = close_loop_in_reach(robot_, log_, reference_, along_, settings_);
+      result_.loop = std::move(closed.loop);
+      result_.reach = closed.reach;
+      std::size_t fallen = 0;
+      while (fallen < result_.flags.size() && stands(fallen)) ++fallen;
+      if (fallen == result_.flags.size()) return std::move(result_);
+      result_.flags = flags_without(fallen);
+      std::vector<std::optional<Recording>> logs = logs_with(result_.flags);
+      for (std::size_t i = 0; i < places_.size(); ++i) {
+        if (places_[i] != nullptr) *places_[i] = std::move(*logs[i]);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::vector<Found> flags_without(std::size_t k) const {
+    std::vector<Found> flags = result_.flags;
+    flags.erase(flags.begin() + static_cast<std::ptrdiff_t>(k));
+    return flags;
+  }
+
+  /// The logs as they were given, with these flags corrected, in the order of the places.
+  [[nodiscard]] std::vector<std::optional<Recording>> logs_with(
+      const std::vector<Found>& flags) const {
+    std::vector<std::optional<Recording>> logs = originals_;
     for (std::optional<Recording>& log : logs) {
       if (log) correct_contact_flags(*log, flags);
     }
     return logs;
   }
 
- private:
-  std::vector<std::optional<Recording>> logs_;
-};
+  [[nodiscard]] bool stands(std::size_t k) const {
+    std::vector<std::optional<Recording>> logs = logs_with(flags_without(k));
+    for (std::optional<Recording>& log : logs) {
+      if (log) log->extend_contacts(result_.reach.before, result_.reach.after);
+    }
+    const auto in_place_of = [&](const Recording* of) -> const Recording* {
+      const auto place = std::find(places_.begin(), places_.end(), of) - places_.begin();
+      return of != nullptr ? &*logs[static_cast<std::size_t>(place)] : nullptr;
+    };
+    LoopSettings settings = settings_;
+    settings.rough = in_place_of(settings_.rough);
+    settings.rough_reference = in_place_of(settings_.rough_reference);
+    return flag_stands(robot_, *in_place_of(&log_), in_place_of(reference_), settings, result_.loop,
+                       result_.flags[k]);
+  }
 
-std::vector<Found> without(std::vector<Found> flags, std::size_t k) {
-  flags.erase(flags.begin() + static_cast<std::ptrdiff_t>(k));
-  return flags;
-}
+  const Robot& robot_;
+  Recording& log_;
+  Recording* reference_;
+  const std::vector<Recording*>& along_;
+  const LoopSettings& settings_;
+  std::vector<Recording*> places_;                   ///< of all logs, some null
+  std::vector<std::optional<Recording>> originals_;  ///< what was there, if it has flags
+  LoopWithContacts result_;
+};
 
 }  // namespace
 
 LoopWithContacts close_loop_with_contacts(const Robot& robot, Recording& log, Recording* reference,
                                           const std::vector<Recording*>& along,
                                           const LoopSettings& settings) {
-  std::vector<Recording*> places = {&log, reference};
-  places.insert(places.end(), along.begin(), along.end());
-  const Originals originals(places);
-  // Where the logs of these settings are among the places.
-  const auto place_of = [&](const Recording* of) {
-    return static_cast<std::size_t>(std::find(places.begin(), places.end(), of) - places.begin());
-  };
-  LoopWithContacts result;
-  result.flags = correct_contact_flags(robot, log, reference, along, settings);
-  while (true) {
-    LoopInReach in_reach = close_loop_in_reach(robot, log, reference, along, settings);
-    result.loop = std::move(in_reach.loop);
-    result.reach = in_reach.reach;
-    const auto stands = [&](std::size_t k) {
-      std::vector<std::optional<Recording>> logs = originals.with(without(result.flags, k));
-      LoopSettings these = settings;
-      const auto pointer = [&](std::size_t place) {
-        if (place == places.size() || !logs[place]) return static_cast<Recording*>(nullptr);
-        logs[place]->extend_contacts(result.reach.before, result.reach.after);
-        return &*logs[place];
-      };
-      if (these.rough != nullptr) these.rough = pointer(place_of(settings.rough));
-      if (these.rough_reference != nullptr)
-        these.rough_reference = pointer(place_of(settings.rough_reference));
-      const Recording *seen = pointer(0), *earlier = pointer(1);
-      return flag_stands(robot, *seen, earlier, these, result.loop, result.flags[k]);
-    };
-    std::size_t fallen = 0;
-    while (fallen < result.flags.size() && stands(fallen)) ++fallen;
-    if (fallen == result.flags.size()) return result;
-    result.flags = without(result.flags, fallen);
-    std::vector<std::optional<Recording>> logs = originals.with(result.flags);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (places[i] != nullptr) *places[i] = std::move(*logs[i]);
-    }
-  }
+  return LoopsAroundFlags(robot, log, reference, along, settings).run();
 }
 
 }  // namespace shapeid::diagnosis

@@ -28,6 +28,7 @@ std::vector<Sample> late_imu(std::vector<Sample> samples, std::size_t late) {
 
 std::vector<std::string> names(const std::vector<Found>& found) {
   std::vector<std::string> list;
+  list.reserve(found.size());
   for (const Found& f : found) list.push_back(f.id);
   return list;
 }
