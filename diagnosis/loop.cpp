@@ -305,7 +305,7 @@ class Loop {
         if (!worst || gains[i].t < gains[*worst].t) worst = i;
       }
       if (!worst) return;
-      take_back(*worst);
+      take_back(*worst, is_worth(gains[*worst]));
     }
   }
 
@@ -313,12 +313,16 @@ class Loop {
     return gain.t > keep_t && gain.share > 0.0;
   }
 
-  void take_back(std::size_t i) {
+  /// If it is `worth` having and of no credible size, it may come in once more: beside what is
+  /// found later it may be of another size.
+  void take_back(std::size_t i, bool worth = false) {
     if (result_.found[i].effect.effect == find_effect("accel_noise")) {
       result_.mass_beside_forces.reset();
       forces_.clear();
     }
-    banned_.push_back(result_.found[i].effect);
+    const AppliedEffect& effect = result_.found[i].effect;
+    const bool once_more = worth && !has_place_of(too_large_, effect);
+    (once_more ? too_large_ : banned_).push_back(effect);
     result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
     state_.collect_effects();
   }
@@ -355,7 +359,8 @@ class Loop {
   LoopState state_;
   LoopResult& result_ = state_.result;
   std::vector<AppliedEffect> banned_;
-  std::vector<AppliedEffect> forces_;  ///< whose place the accelerometer's noise has taken
+  std::vector<AppliedEffect> too_large_;  ///< taken back once, of no credible size
+  std::vector<AppliedEffect> forces_;     ///< whose place the accelerometer's noise has taken
   std::optional<Candidate> large_;
   int round_ = 0;
   int moments_describe_ = 0;  ///< searches in which moments came in that are no loads
