@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/rich_model.hpp"
+#include "shapeid/models/robot_yaml.hpp"
+#include "shapeid/models/urdf.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -16,13 +21,20 @@ namespace {
 
 using test::few_hundred_eps;
 
+/// What sums of numbers of this size may be off by.
+double rounding_of(double size) {
+  return few_hundred_eps * std::numeric_limits<double>::epsilon() * 20 * size;
+}
+
 /// A robot that stands with any forces at its feet: `carried` makes them balance its base.
 struct Standing {
-  Standing()
-      : robot(*test::robot({2, 8, Root::floating})),
+  Standing() : Standing(*test::robot({5, 10, Root::floating})) {}
+  explicit Standing(const Robot& r) : Standing(r, touching(r)) {}
+  Standing(const Robot& r, Sample sample)
+      : robot(r),
         viewer(robot, reference::ContactTreatment::project, {}),
         model{stacked_parameters(robot), {}} {
-    view = viewer.view(*test::sample(robot), {});
+    view = viewer.view(std::move(sample), {});
     f = *test::vector(view.J.rows(), 50.0);
     view.carried.head<6>() = (view.Y * model.Phi - view.J.transpose() * f).head<6>();
     size = (view.Y * model.Phi).norm() + (1.0 + view.J.norm()) * (1.0 + f.norm());
@@ -46,6 +58,12 @@ struct Standing {
   double size;            ///< of the numbers that differ
 
  private:
+  /// All contacts more often than some: only several push against each other.
+  [[nodiscard]] static Sample touching(const Robot& robot) {
+    Sample sample = *test::sample(robot);
+    if (*rc::gen::inRange(0, 3) > 0) sample.in_contact.assign(robot.contacts.size(), true);
+    return sample;
+  }
   void load_with(const Eigen::VectorXd& force) {
     links = (view.Y * model.Phi - view.J.transpose() * force).tail(robot.joint_count());
     view.sample.tau = links;
@@ -55,13 +73,44 @@ struct Standing {
 /// However contacts push against each other: the torque tells, as far as joints feel it.
 RC_GTEST_PROP(PredictedLoad, IsTheTorqueOfLinksThatContactsLoadInAnyWay, ()) {
   Standing standing;
-  const double rounding = few_hundred_eps * 20 * standing.size;
+  const double rounding = rounding_of(standing.size / least_lever);
   const PredictedLoad load = standing.load();
-  const double unfelt = least_lever * standing.view.J.norm() * standing.f.norm();
+  const double felt = standing.view.J.rightCols(standing.robot.joint_count()).norm();
+  const double unfelt = least_lever * felt * standing.f.norm();
+  RC_CLASSIFY(standing.view.J.rows() > 6, "more forces than the base's balance tells");
   RC_ASSERT((load.joint - standing.links).norm() <= unfelt + rounding);
   RC_ASSERT(standing.unbalanced(load.force) <= rounding);
   standing.without_what_no_joint_feels();
   RC_ASSERT((standing.load().joint - standing.links).norm() <= rounding);
+}
+
+Robot quadruped() {
+  const std::string files = SHAPEID_SOURCE_DIR "/models/robots/quadruped.";
+  Robot robot = read_urdf(files + "urdf").robot;
+  static_cast<void>(read_robot_yaml(files + "robot.yaml", robot));
+  return robot;
+}
+
+/// Two feet that push against each other do so along the line between them.
+RC_GTEST_PROP(PredictedLoad, IsKnownOnTwoFeetWhateverTheyPush, ()) {
+  const Robot robot = quadruped();
+  Sample sample = *test::sample(robot);
+  sample.in_contact = {true, false, false, true};
+  const Standing standing(robot, sample);
+  const auto foot = [&](std::size_t c) -> Eigen::Vector3d {
+    const Contact& contact = robot.contacts[c];
+    return standing.view.motions[static_cast<std::size_t>(contact.link)].pose *
+           contact.frame.translation();
+  };
+  Eigen::VectorXd against(6);
+  against.head<3>() = (foot(3) - foot(0)).normalized();
+  against.tail<3>() = -against.head<3>();
+  const Eigen::MatrixXd JT = standing.view.J.rightCols(robot.joint_count()).transpose();
+  RC_PRE((JT * against).norm() > 2.0 * least_lever * JT.norm());
+  RC_ASSERT(test::scaled((standing.load().joint - standing.links).norm(),
+                         standing.size / least_lever, 20) < few_hundred_eps);
+  RC_ASSERT(test::scaled((standing.load().force - standing.f).norm(), standing.size / least_lever,
+                         20) < few_hundred_eps);
 }
 
 /// No measured torque is in what the base's balance tells.
@@ -71,7 +120,7 @@ RC_GTEST_PROP(PredictedLoad, CarriesTheBaseWhateverTheTorque, ()) {
   const Eigen::VectorXd more = *test::vector(standing.robot.joint_count(), 20.0);
   standing.view.sample.tau += more;
   const PredictedLoad other = standing.load();
-  const double rounding = few_hundred_eps * 20 * (standing.size + more.norm() / least_lever);
+  const double rounding = rounding_of((standing.size + more.norm()) / least_lever);
   RC_ASSERT(standing.unbalanced(other.force) <= rounding);
   const std::vector<bool>& touch = standing.view.sample.in_contact;
   const double difference = (other.joint - load.joint).norm();
@@ -83,7 +132,7 @@ RC_GTEST_PROP(PredictedLoad, CarriesTheBaseWhateverTheTorque, ()) {
 /// With what effects ask for in the torque, contacts are known as well as without: friction mu of
 /// the load leaves mu times the error that would be left if it were taken for a contact's force.
 RC_GTEST_PROP(PredictedLoad, KnowsWhatEffectsAskOfTheTorque, ()) {
-  Standing standing;
+  Standing standing(quadruped());
   standing.without_what_no_joint_feels();
   const int joint = *rc::gen::inRange(0, standing.robot.joint_count());
   const double mu = *test::real(0.01, 0.3);
@@ -94,12 +143,12 @@ RC_GTEST_PROP(PredictedLoad, KnowsWhatEffectsAskOfTheTorque, ()) {
   const double unaware = (standing.load().joint - standing.links).norm();
   standing.model.effects = {friction};
   const double aware = (standing.load().joint - standing.links).norm();
-  RC_ASSERT(aware <= mu * unaware + few_hundred_eps * 20 * standing.size);
+  RC_ASSERT(aware <= mu * unaware + rounding_of(standing.size / least_lever));
 }
 
 /// An effect that acts on the base itself is carried by contacts.
 RC_GTEST_PROP(PredictedLoad, HasForcesOnTheBaseInItsBalance, ()) {
-  Standing standing;
+  Standing standing(quadruped());
   standing.without_what_no_joint_feels();
   AppliedEffect pull = at_start(*find_effect("external_force"), 0);
   pull.value = *test::vector(3, 30.0);
