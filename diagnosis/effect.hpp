@@ -177,12 +177,13 @@ struct AppliedEffect {
                                               const Eigen::MatrixXd& J);
 
 /// Of contact forces that push against each other those are taken for zero of which joints feel
-/// less than this part of J's norm: a torque's noise would make a hundred times itself of them.
+/// less than this part of the norm of J's joint columns: a torque's noise would make a hundred
+/// times itself of them.
 inline constexpr double least_lever = 0.01;
 
 /// Predicted joint torques Y Phi - J^T f. Of all contact forces f that carry the base (any, on a
 /// fixed one) these come closest to the logged torque: nothing else tells what feet push against
-/// each other.
+/// each other. `applied` is S^T tau, dof; `YPhi` is without what measured contact forces carry.
 struct PredictedLoad {
   Eigen::VectorXd force;  ///< contact rows of J
   Eigen::VectorXd joint;  ///< n
