@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
@@ -40,10 +41,10 @@ void check_excitation(const Robot& robot, const Recording& recording) {
 /// would follow that at any scale.
 Eigen::VectorXd load_without_torque(const Viewer& viewer, const View& view,
                                     const RichModel& given) {
-  const Prediction predicted = predict(viewer, view, given);
-  if (viewer.robot().root == Root::fixed) return predicted.load.joint;
-  const Eigen::VectorXd f = carrying_forces(viewer.robot(), predicted.force, predicted.J);
-  return (predicted.force - predicted.J.transpose() * f).tail(viewer.robot().joint_count());
+  if (viewer.robot().root == Root::fixed) return predict(viewer, view, given).load.joint;
+  const Eigen::VectorXd carried = view.Y * given.Phi - view.carried;
+  const Eigen::VectorXd f = carrying_forces(viewer.robot(), carried, view.J);
+  return (carried - view.J.transpose() * f).tail(viewer.robot().joint_count());
 }
 
 void check_torque_scale(const Robot& robot, const Recording& recording,

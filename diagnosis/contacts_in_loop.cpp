@@ -26,6 +26,8 @@ class LoopsAroundFlags {
     result_.flags = correct_contact_flags(robot_, log_, reference_, along_, settings_);
     while (true) {
       LoopInReach closed = close_loop_in_reach(robot_, log_, reference_, along_, settings_);
+      closed.loop.screening_seconds += result_.loop.screening_seconds;
+      closed.loop.refit_seconds += result_.loop.refit_seconds;
       result_.loop = std::move(closed.loop);
       result_.reach = closed.reach;
       std::size_t fallen = 0;

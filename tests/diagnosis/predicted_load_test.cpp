@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/rich_model.hpp"
-#include "shapeid/models/robot_yaml.hpp"
-#include "shapeid/models/urdf.hpp"
+#include "shapeid/tests/diagnosis/trot.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -84,16 +82,9 @@ RC_GTEST_PROP(PredictedLoad, IsTheTorqueOfLinksThatContactsLoadInAnyWay, ()) {
   RC_ASSERT((standing.load().joint - standing.links).norm() <= rounding);
 }
 
-Robot quadruped() {
-  const std::string files = SHAPEID_SOURCE_DIR "/models/robots/quadruped.";
-  Robot robot = read_urdf(files + "urdf").robot;
-  static_cast<void>(read_robot_yaml(files + "robot.yaml", robot));
-  return robot;
-}
-
 /// Two feet that push against each other do so along the line between them.
 RC_GTEST_PROP(PredictedLoad, IsKnownOnTwoFeetWhateverTheyPush, ()) {
-  const Robot robot = quadruped();
+  const Robot robot = test::quadruped();
   Sample sample = *test::sample(robot);
   sample.in_contact = {true, false, false, true};
   const Standing standing(robot, sample);
@@ -132,7 +123,7 @@ RC_GTEST_PROP(PredictedLoad, CarriesTheBaseWhateverTheTorque, ()) {
 /// With what effects ask for in the torque, contacts are known as well as without: friction mu of
 /// the load leaves mu times the error that would be left if it were taken for a contact's force.
 RC_GTEST_PROP(PredictedLoad, KnowsWhatEffectsAskOfTheTorque, ()) {
-  Standing standing(quadruped());
+  Standing standing(test::quadruped());
   standing.without_what_no_joint_feels();
   const int joint = *rc::gen::inRange(0, standing.robot.joint_count());
   const double mu = *test::real(0.01, 0.3);
@@ -148,7 +139,7 @@ RC_GTEST_PROP(PredictedLoad, KnowsWhatEffectsAskOfTheTorque, ()) {
 
 /// An effect that acts on the base itself is carried by contacts.
 RC_GTEST_PROP(PredictedLoad, HasForcesOnTheBaseInItsBalance, ()) {
-  Standing standing(quadruped());
+  Standing standing(test::quadruped());
   standing.without_what_no_joint_feels();
   AppliedEffect pull = at_start(*find_effect("external_force"), 0);
   pull.value = *test::vector(3, 30.0);

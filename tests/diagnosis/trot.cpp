@@ -10,10 +10,14 @@
 
 namespace shapeid::test {
 
-Trot::Trot() {
+Robot quadruped() {
   const std::string files = SHAPEID_SOURCE_DIR "/models/robots/quadruped.";
-  robot = read_urdf(files + "urdf").robot;
+  Robot robot = read_urdf(files + "urdf").robot;
   static_cast<void>(read_robot_yaml(files + "robot.yaml", robot));
+  return robot;
+}
+
+Trot::Trot() : robot(quadruped()) {
   SimulationOptions options;
   options.duration = 6.0;
   Random random(7);

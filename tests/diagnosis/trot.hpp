@@ -11,6 +11,9 @@
 
 namespace shapeid::test {
 
+/// The bundled quadruped, as its files have it.
+[[nodiscard]] Robot quadruped();
+
 struct Trot {
   Trot();
 
