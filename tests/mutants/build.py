@@ -4,11 +4,6 @@ import subprocess
 
 import rewrite
 
-# They link the four libraries, or call the command, which does. Left out, for what they take to build and to
-# run: blind and experiments; and house, which links nothing.
-SUBJECTS = ("inertia", "orders", "robot", "shapes", "motion", "physics", "masses", "division", "identify",
-            "recovery", "simulation", "fast", "certificate", "diagnosis", "hostile", "app", "track")
-
 
 def write(path, text):
     """Only where it differs, so that little is compiled again."""
@@ -36,16 +31,16 @@ def tree(root, copy, numbered):
     source = (here / "switch.cpp").read_text().replace('"switch.hpp"', '"shapeid/models/mutant_switch.hpp"')
     write(copy / "models/mutant_switch.cpp", source.encode())
     kept = set(names) | {"models/mutant_switch.hpp", "models/mutant_switch.cpp"}
-    for folder in ("models", "reference", "fast", "proofs", "tests"):  # sources are found by their folder
+    for folder in ("models", "reference", "fast", "proofs", "diagnosis", "app", "tests"):  # sources are found by their folder
         for path in (copy / folder).rglob("*.cpp"):
             if str(path.relative_to(copy)) not in kept:
                 path.unlink()
 
 
-def programs(root, preset, jobs):
-    """Builds, and returns the test programs."""
+def programs(root, preset, subjects, jobs):
+    """Builds, and returns the test programs of these subjects."""
     subprocess.run(["cmake", "--preset", preset], cwd=root, check=True, stdout=subprocess.DEVNULL)
-    targets = [f"test_{subject}" for subject in SUBJECTS]
+    targets = [f"test_{subject}" for subject in subjects]
     subprocess.run(["cmake", "--build", "--preset", preset, "-j", str(jobs), "--target", *targets], cwd=root,
                    check=True)
     return [root / "build" / preset / "tests" / target for target in targets]

@@ -1,4 +1,4 @@
-"""All places of the four folders, kept by the text of each source: parsing them takes minutes."""
+"""All places of an area's folders, kept by the text of each source: parsing them takes minutes."""
 import dataclasses
 import hashlib
 import json
@@ -6,8 +6,6 @@ import multiprocessing
 import pathlib
 
 import places
-
-FOLDERS = ("models", "reference", "fast", "proofs/certificate")
 
 
 def of_source(task):
@@ -20,14 +18,14 @@ def of_source(task):
     return [places.Place(**p) for p in json.loads(record.read_text())]
 
 
-def collect(root, commands, kept, jobs):
-    """Places of every source of the four folders, in the order of their names. `commands` is a
+def collect(root, folders, commands, kept, jobs):
+    """Places of every source of `folders`, in the order of their names. `commands` is a
     compile_commands.json."""
     kept.mkdir(parents=True, exist_ok=True)
     tasks = []
     for entry in json.loads(commands.read_text()):
         name = str(pathlib.Path(entry["file"]).relative_to(root))
-        if str(pathlib.Path(name).parent) in FOLDERS:
+        if str(pathlib.Path(name).parent) in folders:
             tasks.append((root, name, places.arguments(entry), kept))
     unique = {task[1]: task for task in tasks}
     with multiprocessing.Pool(jobs) as pool:

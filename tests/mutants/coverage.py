@@ -1,4 +1,4 @@
-"""Lines and branches of the four folders that the same tests come past."""
+"""Lines and branches of an area's folders that the same tests come past."""
 import collections
 import json
 import subprocess
@@ -6,15 +6,14 @@ import sys
 
 import build
 import campaign
-import collect
-
-SUMMARY = "build/mutants/coverage.json"
 
 
-def measure(root, jobs):
-    """Builds the preset `coverage`, runs the tests, and keeps what gcov says of each source."""
+
+def measure(root, area, kept, jobs):
+    """Builds the preset `coverage`, runs the tests, and keeps in the file `kept` what gcov says of each
+    source."""
     folder = root / "build/coverage"
-    programs = build.programs(root, "coverage", jobs)
+    programs = build.programs(root, "coverage", area.subjects, jobs)
     for counts in folder.rglob("*.gcda"):
         counts.unlink()
 
@@ -24,23 +23,23 @@ def measure(root, jobs):
             print(f"{program.name} fails, at {test} first; its counts are taken all the same", file=sys.stderr)
 
     campaign.in_parallel(run, programs, jobs)
-    filters = [word for name in collect.FOLDERS for word in ("--filter", f"{root}/{name}/[a-z_0-9]+[.]cpp")]
+    filters = [word for name in area.folders for word in ("--filter", f"{root}/{name}/[a-z_0-9]+[.]cpp")]
     # Threads that count at once leave a counter wrong, now and then below zero, which gcovr stumbles over.
     subprocess.run(["gcovr", "--root", str(root), *filters, "--exclude-throw-branches",
-                    "--gcov-ignore-parse-errors", "--json-summary", str(root / SUMMARY), str(folder)],
+                    "--gcov-ignore-parse-errors", "--json-summary", str(kept), str(folder)],
                    cwd=folder, check=True)
-    summary = json.loads((root / SUMMARY).read_text())
+    summary = json.loads(kept.read_text())
     summary["commit"] = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=root, check=True,
                                        capture_output=True, text=True).stdout.strip()
-    (root / SUMMARY).write_text(json.dumps(summary))
+    kept.write_text(json.dumps(summary))
 
 
-def section(root):
+def section(kept):
     """A table, or what is missing."""
-    if not (root / SUMMARY).exists():
+    if not kept.exists():
         return "Not measured (`./run mutants --coverage`)."
     sums = collections.defaultdict(collections.Counter)
-    summary = json.loads((root / SUMMARY).read_text())
+    summary = json.loads(kept.read_text())
     for file in summary["files"]:
         name = file["filename"].rsplit("/", 1)[0]
         for kind in ("line", "branch"):

@@ -1,4 +1,4 @@
-"""docs/mutants.md: how many mutants died, and why the others did not."""
+"""A page of docs: how many mutants died, and why the others did not."""
 import collections
 import math
 import pathlib
@@ -85,19 +85,20 @@ def fresh_section(root, fresh, explained, options):
             f"Its survivors:\n\n{survivors(root, alive, explained)}")
 
 
-def written(judged, fresh, places, root, options, commit, tests, failing):
+def written(area, judged, fresh, places, root, options, commit, tests, failing):
     explained = reasons()
     alive = [(p, v) for p, v in judged if v["verdict"] != "killed"]
     dead = len(judged) - len(alive)
     equal = argued_equal(root, alive, explained)
     killed = [v for _, v in judged if v["verdict"] == "killed"]
     ways = collections.Counter(v["how"].split()[0] for v in killed)
-    text = (HERE / "page.md.in").read_text()
+    text = (HERE / f"{area.page}.in").read_text()
     values = {
-        "command": f"./run mutants --count {options.count} --seed {options.seed} --budget {options.budget:g}" +
+        "command": "./run mutants" + (" --diagnosis" if options.diagnosis else "") +
+                   f" --count {options.count} --seed {options.seed} --budget {options.budget:g}" +
                    (f" --fresh {options.fresh} --fresh-seed {options.fresh_seed} --seen "
                     f"{' '.join(map(str, options.seen))}" if options.fresh else ""),
-        "commit": commit,
+        "commit": commit, "budget": f"{options.budget:g}",
         "places": f"{len(places):,}", "count": str(len(judged)), "tests": f"{len(tests):,}",
         "failing": ", ".join(failing) or "none",
         "died": share(dead, len(judged)), "without_equal": share(dead, len(judged) - equal),
@@ -110,7 +111,7 @@ def written(judged, fresh, places, root, options, commit, tests, failing):
         "by_operator": table("operator", lambda place: place.operator, judged),
         "survivors": survivors(root, alive, explained),
         "fresh": fresh_section(root, fresh, explained, options),
-        "coverage": coverage.section(root),
+        "coverage": coverage.section(root / "build" / area.work / "coverage.json"),
     }
     for name, value in values.items():
         text = text.replace(f"@{name}@", value)
