@@ -126,8 +126,9 @@ bool has_contact_flags(const Recording& log, const LoopSettings& settings) {
          settings.rows.contacts == ContactTreatment::project;
 }
 
-bool flag_stands(const Robot& robot, const Recording& log, const Recording* reference,
-                 const LoopSettings& settings, const LoopResult& loop, const Found& flag) {
+std::optional<Gain> gain_beside(const Robot& robot, const Recording& log,
+                                const Recording* reference, const LoopSettings& settings,
+                                const LoopResult& loop, const Found& flag) {
   LoopState state(robot, log, reference, settings);
   state.result = loop;
   state.correct();
@@ -140,7 +141,8 @@ bool flag_stands(const Robot& robot, const Recording& log, const Recording* refe
   std::vector<Term> terms = state.terms_of_model(fits, effects.size() - 1);
   const Eigen::VectorXd without = fits.held_out(terms);
   terms.push_back(term_of(robot, fits.tally(), effects.size() - 1));
-  return gain_of(without, fits.held_out(terms)).t > state.rule().least_t;
+  const Gain gain = gain_of(without, fits.held_out(terms));
+  return gain.t > state.rule().least_t ? std::optional(gain) : std::nullopt;
 }
 
 bool pushes(const Recording& log, const Eigen::Vector3d& force) {

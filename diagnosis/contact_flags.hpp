@@ -3,8 +3,10 @@
 // column's.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "shapeid/diagnosis/fits.hpp"
 #include "shapeid/diagnosis/loop.hpp"
 
 namespace shapeid::diagnosis {
@@ -22,12 +24,13 @@ namespace shapeid::diagnosis {
                                                        const std::vector<Recording*>& along,
                                                        const LoopSettings& settings);
 
-/// Whether the force of a flag that was found, beside masses alone, still explains more than chance
-/// beside all that `loop` found later. `log`, `reference` (may be null) and what `settings` point
-/// to: as the loop saw them, but for this flag, which is as it was.
-[[nodiscard]] bool flag_stands(const Robot& robot, const Recording& log, const Recording* reference,
-                               const LoopSettings& settings, const LoopResult& loop,
-                               const Found& flag);
+/// What the force of a flag that was found, beside masses alone, explains beside all that `loop`
+/// found later; none if that is no more than chance. `log`, `reference` (may be null) and what
+/// `settings` point to: as the loop saw them, but for this flag, which is as it was.
+[[nodiscard]] std::optional<Gain> gain_beside(const Robot& robot, const Recording& log,
+                                              const Recording* reference,
+                                              const LoopSettings& settings, const LoopResult& loop,
+                                              const Found& flag);
 
 /// Whether a force at a foot (base axes) is one that the ground can have: on the log's mean it does
 /// not pull.

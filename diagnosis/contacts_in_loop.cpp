@@ -31,7 +31,7 @@ class LoopsAroundFlags {
       result_.loop = std::move(closed.loop);
       result_.reach = closed.reach;
       std::size_t fallen = 0;
-      while (fallen < result_.flags.size() && stands(fallen)) ++fallen;
+      while (fallen < result_.flags.size() && asked_again(fallen)) ++fallen;
       if (fallen == result_.flags.size()) return std::move(result_);
       result_.flags = flags_without(fallen);
       std::vector<std::optional<Recording>> logs = logs_with(result_.flags);
@@ -58,7 +58,8 @@ class LoopsAroundFlags {
     return logs;
   }
 
-  [[nodiscard]] bool stands(std::size_t k) const {
+  /// Whether flag k still explains more than chance; then what it explains is written down.
+  [[nodiscard]] bool asked_again(std::size_t k) {
     std::vector<std::optional<Recording>> logs = logs_with(flags_without(k));
     for (std::optional<Recording>& log : logs) {
       if (log) log->extend_contacts(result_.reach.before, result_.reach.after);
@@ -70,8 +71,13 @@ class LoopsAroundFlags {
     LoopSettings settings = settings_;
     settings.rough = in_place_of(settings_.rough);
     settings.rough_reference = in_place_of(settings_.rough_reference);
-    return flag_stands(robot_, *in_place_of(&log_), in_place_of(reference_), settings, result_.loop,
-                       result_.flags[k]);
+    Found& flag = result_.flags[k];
+    const std::optional<Gain> gain = gain_beside(
+        robot_, *in_place_of(&log_), in_place_of(reference_), settings, result_.loop, flag);
+    if (!gain) return false;
+    flag.gain = gain->share;
+    flag.t = gain->t;
+    return true;
   }
 
   const Robot& robot_;

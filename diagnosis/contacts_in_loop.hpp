@@ -12,7 +12,9 @@ namespace shapeid::diagnosis {
 struct LoopWithContacts {
   LoopResult loop;
   ContactReach reach;
-  std::vector<Found> flags;  ///< contact_late and contact_short, not among what the loop found
+  /// contact_late and contact_short, not among what the loop found; their gain is that of having
+  /// one, all others and all that the loop found in.
+  std::vector<Found> flags;
 };
 
 /// correct_contact_flags() and close_loop_in_reach(). A flag was found beside masses alone: if its

@@ -56,10 +56,16 @@ TEST(ContactsInLoop, AFlagThatIsLateStaysCorrectedBesideALateImu) {
   const Recording told = trot.told(2, 0.016, 0.0);
   const Recording declared(late_imu(told.samples(), 5), Trot::rate);
   Recording log = declared, other = declared;
+  const std::vector<Found> at_first =
+      correct_contact_flags(trot.robot, log, nullptr, {}, trot.settings_for_base());
+  log = declared;
   const LoopWithContacts closed =
       close_loop_with_contacts(trot.robot, log, nullptr, {&other}, trot.settings_for_base());
   ASSERT_EQ(closed.flags.size(), 1U);
   EXPECT_EQ(closed.flags[0].id, "contact_late@RR_foot");
+  ASSERT_EQ(at_first.at(0).id, "contact_late@RR_foot");
+  EXPECT_GT(closed.flags[0].gain, at_first[0].gain) << "a larger share of what the delay leaves";
+  EXPECT_GT(closed.flags[0].t, at_first[0].t);
   EXPECT_EQ(test::found_ids(closed.loop), std::vector<std::string>{"imu_delay@all"});
   Recording corrected = declared;
   correct_contact_flags(corrected, closed.flags);
