@@ -68,7 +68,8 @@ def untouched(text):
     # The sources are formatted: a template's bracket follows its name at once, a relation has blanks.
     for bracket in re.finditer(r"[A-Za-z0-9_]<(?=[^<=\s])", text):
         ranges.append((bracket.start(), matching(text, bracket.end() - 1, "<", ">")))
-    for word in re.finditer(r"\b(?:throw|case|using|#include)\b[^;:{]*|\bconstexpr\b[^;{]*", text):
+    for word in re.finditer(r"\b(?:throw|case|using|#include)\b[^;:{]*"
+                            r"|\bconstexpr\b(?:[^;{]*=\s*\{[^;]*|[^;{]*)", text):
         ranges.append(word.span())
     for comment in re.finditer(r"//[^\n]*", text):
         ranges.append(comment.span())
