@@ -293,9 +293,11 @@ class Finder:
             self.propose(start, end, "expression", inner[inner.index("("):], "call", "`abs` dropped")
 
     def keeps_type(self, cursor, name):
-        """The call that is swapped in gives the same type: not in templates, nor of all columns at once."""
+        """The call that is swapped in gives the same type: not in templates, nor of all columns at once,
+        nor of std::norm."""
         if name.lower().endswith(("norm", "coeff")):
-            return self.arithmetic(cursor)
+            called = list(cursor.get_children())[:1]
+            return self.arithmetic(cursor) and [c.kind for c in called] == [Kind.MEMBER_REF_EXPR]
         if name in ("rows", "cols"):
             owners = [o for member in list(cursor.get_children())[:1] for o in member.get_children()]
             return any("Eigen::" in o.type.get_canonical().spelling for o in owners)
