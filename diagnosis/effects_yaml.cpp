@@ -57,11 +57,15 @@ AppliedEffect read_place(const YamlInput& file, const YAML::Node& node, const Ro
   return at_start(*effect, *site);
 }
 
+/// What is known may lie beyond where it is sought (friction of a Franka Panda is published with a
+/// width of 0.39 rad/s); what lies far beyond is a unit gone wrong.
 void check_shape(const YamlInput& file, const YAML::Node& node, const ShapeNumber& shape,
                  double value) {
-  if (value >= shape.lower && value <= shape.upper) return;
+  constexpr double beyond = 10.0;
+  const double least = shape.lower / beyond, most = shape.upper * beyond;
+  if (value >= least && value <= most) return;
   file.refuse(node, fmt::format("{} is {:g}", shape.name, value),
-              fmt::format("{:g} to {:g} {}", shape.lower, shape.upper, shape.unit));
+              fmt::format("{:g} to {:g} {}", least, most, shape.unit));
 }
 
 /// Limits of columns are of what is believed when they are sought; a number that is known may be

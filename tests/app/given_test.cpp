@@ -348,8 +348,19 @@ TEST_F(Given, EffectsBeyondTheirRange) {
   expect_wrong("{effect: torque_delay, site: all, values: {d: -1e300}}", "d is -1e+300");
   expect_wrong("{effect: coulomb_friction, site: FR_knee, values: {width: 0.05, c: -0.6}}",
                "c is -0.6; at least 0");
-  expect_wrong("{effect: coulomb_friction, site: FR_knee, values: {width: 50, c: 0.6}}",
-               "width is 50");
+  const auto friction = [](double width) {
+    return fmt::format("{{effect: coulomb_friction, site: FR_knee, values: {{width: {}, c: 0.6}}}}",
+                       width);
+  };
+  expect_wrong(friction(3.01), "width is 3.01; 0.0003 to 3 rad/s");
+  expect_wrong(friction(0.00029), "width is 0.00029");
+  for (const double known : {2.99, 0.00031}) {  // wider and narrower than what diagnose seeks
+    scratch_file("known.yaml", "effects:\n  - " + friction(known) + "\n");
+    EXPECT_EQ(shapeid(fmt::format("identify {} --log given.csv --divisions 0 --effects known.yaml",
+                                  quadruped_files))
+                  .status,
+              0);
+  }
   expect_wrong("{effect: rotor_inertia, site: FR_knee, values: {I: -1}}", "I is -1; at least 0");
   scratch_file("wrong.yaml", "effects: []\n---\neffects: []\n");
   expect_refused(fmt::format("identify {} --log given.csv --effects wrong.yaml", quadruped_files),
