@@ -30,8 +30,9 @@ Spectrum spectrum(const std::vector<double>& time, const Eigen::VectorXd& y, dou
   while (f < highest) {
     std::complex<double> sum = 0.0;
     for (std::size_t i = 0; i < time.size(); ++i) {
-      sum += std::polar(y[static_cast<Eigen::Index>(i)],
-                        2.0 * std::numbers::pi * f * (time[i] - time.front()));
+      // Not polar(y, phase), which is defined for y >= 0 alone.
+      sum += y[static_cast<Eigen::Index>(i)] *
+             std::polar(1.0, 2.0 * std::numbers::pi * f * (time[i] - time.front()));
     }
     result.power.push_back(std::norm(sum) / static_cast<double>(time.size()));
     f += result.step;
