@@ -16,7 +16,7 @@ struct Spectrum {
   double every = 1.0;         ///< how many periods more the next one has
   std::vector<double> power;  ///< of unit variance in y: one on average
 
-  /// The first frequency that is no smaller.
+  /// Which frequency is the last that is no larger, or the first; at most as many as there are.
   [[nodiscard]] std::size_t at(double frequency) const;
   /// Of the power at frequencies `from` to `to`, of which there must be some.
   [[nodiscard]] double mean(std::size_t from, std::size_t to) const;

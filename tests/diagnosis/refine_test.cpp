@@ -1,0 +1,103 @@
+// Grids over the numbers that columns do not depend on linearly.
+#include "shapeid/diagnosis/refine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapeid/diagnosis/rich_model.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+Effect with_shape(std::vector<ShapeNumber> numbers) {
+  Effect effect;
+  effect.id = "some_law";
+  effect.shape = std::move(numbers);
+  return effect;
+}
+
+/// In the logarithm as far from zero as the values of one number are from each other: relative.
+constexpr double off_by_rounding = 1e-14;
+
+TEST(ShapeVariants, GoFromTheLeastToTheMostInEqualRatios) {
+  const Effect effect = with_shape({{"width", "rad/s", 0.01, 2.56, 0.3}});
+  const std::vector<AppliedEffect> variants = shape_variants(at_start(effect, 3), 0);
+  ASSERT_EQ(variants.size(), 10U);
+  EXPECT_EQ(variants[0].shape[0], 0.3) << "the present one first";
+  for (std::size_t i = 1; i < variants.size(); ++i) {
+    EXPECT_NEAR(variants[i].shape[0] / (0.01 * std::pow(2.0, static_cast<double>(i) - 1.0)), 1.0,
+                off_by_rounding);
+    EXPECT_EQ(variants[i].site, 3);
+    EXPECT_EQ(variants[i].effect, &effect);
+  }
+}
+
+/// Each pass looks one step of the last one to either side.
+TEST(ShapeVariants, ZoomInAboutThePresentOne) {
+  const Effect effect = with_shape({{"width", "rad/s", 0.01, 2.56, 0.3}});
+  double step = std::log(2.0);
+  for (int pass = 1; pass < 4; ++pass) {
+    const std::vector<AppliedEffect> variants = shape_variants(at_start(effect, 0), pass);
+    EXPECT_NEAR(std::log(variants[1].shape[0] / 0.3), -step, off_by_rounding) << pass;
+    EXPECT_NEAR(std::log(variants[9].shape[0] / 0.3), step, off_by_rounding) << pass;
+    EXPECT_NEAR(variants[5].shape[0], 0.3, off_by_rounding) << pass;
+    step /= 4.0;
+  }
+}
+
+TEST(ShapeVariants, StayWithinTheirLimits) {
+  const Effect effect = with_shape({{"width", "rad/s", 0.1, 0.4, 0.11}});
+  const std::vector<AppliedEffect> variants = shape_variants(at_start(effect, 0), 1);
+  EXPECT_EQ(variants[1].shape[0], 0.1);
+  EXPECT_GT(variants[9].shape[0], 0.11);
+  for (const AppliedEffect& v : variants) EXPECT_LE(v.shape[0], 0.4);
+}
+
+TEST(ShapeVariants, OfANumberThatScreeningPlacedAreNearIt) {
+  ShapeNumber period{"N", "1/turn", 1.0, 1000.0, 10.0};
+  period.nearby = 0.02;
+  const Effect effect = with_shape({period});
+  AppliedEffect found = at_start(effect, 0);
+  found.shape[0] = 87.0;
+  const std::vector<AppliedEffect> variants = shape_variants(found, 0);
+  EXPECT_NEAR(variants[1].shape[0], 87.0 * 0.98, 87.0 * off_by_rounding);
+  EXPECT_NEAR(variants[9].shape[0], 87.0 * 1.02, 87.0 * off_by_rounding);
+}
+
+/// Five values each where there are two numbers, in every combination, and the present ones.
+TEST(ShapeVariants, OfTwoNumbersAreCombined) {
+  const Effect effect = with_shape({{"a", "1", 1.0, 16.0, 3.0}, {"b", "1", 0.01, 100.0, 1.0}});
+  const std::vector<AppliedEffect> variants = shape_variants(at_start(effect, 0), 0);
+  ASSERT_EQ(variants.size(), 36U);
+  const auto has = [&](double a, double b) {
+    return std::any_of(variants.begin(), variants.end(), [&](const AppliedEffect& v) {
+      return std::abs(v.shape[0] / a - 1.0) < off_by_rounding &&
+             std::abs(v.shape[1] / b - 1.0) < off_by_rounding;
+    });
+  };
+  for (const double a : {3.0, 1.0, 2.0, 4.0, 8.0, 16.0}) {
+    for (const double b : {1.0, 0.01, 0.1, 10.0, 100.0}) EXPECT_TRUE(has(a, b)) << a << ' ' << b;
+  }
+}
+
+/// Passes find a number to a thousandth wherever it is: each grid has it between two values.
+TEST(ShapeVariants, CloseInOnANumber) {
+  const Effect effect = with_shape({{"width", "rad/s", 0.003, 0.3, 0.05}});
+  for (const double sought : {0.003, 0.0047, 0.11, 0.29, 0.3}) {
+    AppliedEffect best = at_start(effect, 0);
+    for (int pass = 0; pass < 5; ++pass) {
+      const std::vector<AppliedEffect> variants = shape_variants(best, pass);
+      const auto off = [&](const AppliedEffect& v) {
+        return std::abs(std::log(v.shape[0] / sought));
+      };
+      best = *std::min_element(variants.begin(), variants.end(),
+                               [&](const auto& a, const auto& b) { return off(a) < off(b); });
+    }
+    EXPECT_NEAR(best.shape[0] / sought, 1.0, 2e-3) << sought;
+  }
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
