@@ -66,6 +66,8 @@ TEST(ContactsInLoop, AFlagThatIsLateStaysCorrectedBesideALateImu) {
   ASSERT_EQ(at_first.at(0).id, "contact_late@RR_foot");
   EXPECT_GT(closed.flags[0].gain, at_first[0].gain) << "a larger share of what the delay leaves";
   EXPECT_GT(closed.flags[0].t, at_first[0].t);
+  EXPECT_NEAR(closed.flags[0].standard_error[0] / closed.flags[0].effect.value[0], 0.25, 1e-12)
+      << "times are looked at in steps of one and a half: half of such a step";
   EXPECT_EQ(test::found_ids(closed.loop), std::vector<std::string>{"imu_delay@all"});
   Recording corrected = declared;
   correct_contact_flags(corrected, closed.flags);

@@ -85,6 +85,32 @@ TEST(Fits, OnlyNumbersThatShowAreCounted) {
   EXPECT_EQ(shown({2}), 1) << "nothing that is tried is less than one chance";
 }
 
+/// A mean of N numbers of unit variance, held by a prior as sure as N r of them: it moves with the
+/// noise by sqrt(N) / (N + N r) alone. (In every block the noise is as large and adds up to
+/// nothing.)
+TEST(Fits, WhatThePriorHoldsMovesLessWithTheNoise) {
+  constexpr double of_block = 1000.0, blocks = 20.0, count = of_block * blocks;
+  Tally tally;
+  tally.inertial = 1;
+  tally.width = 2;
+  for (int b = 0; b < 20; ++b) {
+    Block block;
+    block.samples = 1000;
+    block.sums = Eigen::Vector2d(of_block, of_block).asDiagonal();
+    tally.blocks.push_back(block);
+  }
+  tally.freedom = count + 1.0;
+  for (const double ratio : {1e-9, 0.5, 50.0}) {
+    const double size = 1.0 / std::sqrt(count * ratio);
+    BlockFits fits(tally, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, size), 8);
+    fits.set_prior(1.0);
+    const Fit fit = fits.fit({{"mean", {0}, {false}, 0}});
+    EXPECT_EQ(fit.freedom, count);
+    EXPECT_NEAR(fit.standard_error[0] * std::sqrt(count) * (1.0 + ratio), 1.0, 1e-6) << ratio;
+    EXPECT_EQ(fit.between_blocks[0], 0.0);
+  }
+}
+
 TEST(Fits, ZeroOverAnErrorOfZeroIsNoEvidence) {
   const Eigen::ArrayXd errors =
       errors_from_zero(Eigen::Vector4d(0.0, -3.0, 0.0, 2.0), Eigen::Vector4d(0.0, 1.5, 1.0, 0.0));

@@ -108,6 +108,16 @@ TEST(Turned, FollowsTheWaySinceTheJointTurnedRound) {
   EXPECT_NEAR(log.turned(110, 0), (1.0 + whole) * std::exp(-1.0) - 1.0, 1e-12);
 }
 
+TEST(Turned, OfAJointThatStandsStillIsNothing) {
+  std::vector<Sample> samples(50);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].time = 0.01 * static_cast<double>(i);
+    samples[i].q = samples[i].dq = samples[i].ddq = samples[i].tau = Eigen::VectorXd::Ones(1);
+  }
+  const Recording log(std::move(samples), 100.0);
+  for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ(log.turned(i, 0), 0.0);
+}
+
 /// A change since a reference log is no length of a link: what a robot is built of stays.
 TEST(Candidates, WhatIsBuiltInDoesNotComeSinceAReferenceLog) {
   const LoopResult result =

@@ -95,6 +95,12 @@ TEST(TorqueHeader, PredictsWhatTheModelPredicts) {
   EXPECT_LT(test::scaled_difference(got, wanted, 20), test::few_hundred_eps);
 }
 
+TEST(TorqueHeader, SaysWhichNumberIsWhichJoint) {
+  const Robot robot = test::arm();
+  const std::string header = torque_header(robot, {stacked_parameters(robot), {}, {}});
+  EXPECT_NE(header.find("//   0 joint1\n//   1 joint2\n//   2 joint3\n"), std::string::npos);
+}
+
 /// With the motion before and after, a lag too; what a payload weighs is no part of the load that
 /// lags and rubs, in the library and so here.
 void expect_lag_follows_the_rigid_links(Root root) {
