@@ -72,12 +72,11 @@ void check_torque_scale(const Robot& robot, const Recording& recording,
     ++telling;
     if (scale < 0.0) {
       ++against;
-    } else if (scale > far) {
-      ++above;
-    } else if (scale < 1.0 / far) {
-      ++below;
+      continue;
     }
-    typical += std::log(std::max(std::abs(scale), 1e-9));
+    if (scale > far) ++above;
+    if (scale < 1.0 / far) ++below;
+    typical += std::log(scale);
   }
   if (telling == 0) return;
   if (against == telling) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
 #include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::diagnosis {
@@ -31,6 +32,19 @@ TEST(Catalogue, EveryFileIsRegisteredOnce) {
 TEST(Catalogue, PageIsTheCatalogue) {
   EXPECT_TRUE(test::text_of(SHAPEID_SOURCE_DIR "/docs/effects.md") == catalogue_page())
       << "renew it: ./run shapeid diagnose --list > docs/effects.md";
+}
+
+/// What floats has an accelerometer; what stands on a fixed base has none.
+TEST(Catalogue, PlacesAreTheRobots) {
+  Robot robot = test::arm();
+  for (const Root root : {Root::fixed, Root::floating}) {
+    robot.root = root;
+    EXPECT_EQ(site_count(robot, SiteKind::accelerometer), root == Root::floating ? 1 : 0);
+    EXPECT_EQ(site_count(robot, SiteKind::joint), 3);
+    EXPECT_EQ(site_count(robot, SiteKind::link), 4);
+    EXPECT_EQ(site_count(robot, SiteKind::contact), 0);
+    EXPECT_EQ(site_count(robot, SiteKind::whole), 1);
+  }
 }
 
 TEST(Catalogue, EveryEffectSaysWhatItIs) {

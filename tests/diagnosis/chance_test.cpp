@@ -37,6 +37,18 @@ TEST(Chance, SquaresOfEvenCountsHaveAClosedForm) {
   }
 }
 
+/// The same of many, whose sum's logarithm is that of its largest term and what the others add.
+TEST(Chance, SquaresOfManyNumbersHaveAClosedForm) {
+  for (const int half : {150, 600}) {
+    const double x = least_squares_sum(0.01, 2 * half);
+    double tail = 0.0;
+    for (int i = 0; i < half; ++i) {
+      tail += std::exp(-0.5 * x + i * std::log(0.5 * x) - std::lgamma(i + 1.0));
+    }
+    EXPECT_NEAR(tail, 0.01, 1e-6) << half;  // rounding of exponents of a thousand
+  }
+}
+
 TEST(Chance, BandOfTwoPassesIsThatOfTheFilter) {
   constexpr double cutoff = 7.0, rate = 1000.0, step = 0.01;
   const Butterworth filter(2, cutoff, rate);

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "shapeid/models/shape.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
@@ -66,6 +69,23 @@ TEST(LoadPlaces, TheRoomIsAMetreBeyondTheLinkAndItsChildren) {
   EXPECT_TRUE(own.upper.isApprox(child.cwiseMax(centre).cwiseMax(0.0) + beyond));
   for (const Eigen::Vector3d& p : first_places(own)) {
     EXPECT_TRUE((p.array() >= own.lower.array()).all() && (p.array() <= own.upper.array()).all());
+  }
+  // Of a link that is given without mass no centre is known.
+  robot.links[1].inertia.values.setZero();
+  const Box massless = room_for_load(robot, 1);
+  EXPECT_TRUE(massless.lower.isApprox(child.cwiseMin(0.0) - beyond));
+  EXPECT_TRUE(massless.upper.isApprox(child.cwiseMax(0.0) + beyond));
+}
+
+/// From any side they are the same: what is first where axes point one way is so where they point
+/// the other.
+TEST(LoadPlaces, AreAsManyOnEitherSide) {
+  const Box turned{-room.upper, -room.lower};
+  const std::vector<Eigen::Vector3d> places = first_places(room), others = first_places(turned);
+  ASSERT_EQ(places.size(), others.size());
+  for (const Eigen::Vector3d& p : places) {
+    const auto here = [&](const Eigen::Vector3d& q) { return (p + q).norm() < 1e-12; };
+    EXPECT_TRUE(std::any_of(others.begin(), others.end(), here)) << p.transpose();
   }
 }
 

@@ -43,6 +43,7 @@ TEST(Loop, FindsNothingInCleanLogs) {
   for (std::uint32_t seed = 1; seed <= 5; ++seed) {
     const LoopResult result = loop_of({{}, 20.0, 0.02, seed});
     EXPECT_EQ(found_ids(result), Ids{}) << "seed " << seed;
+    EXPECT_GT(result.hypotheses, 50U) << "of three joints and links";
     EXPECT_NEAR(result.error_end, 1.0, 0.2) << "weights are one over the variance that is left";
   }
 }

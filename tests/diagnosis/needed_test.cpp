@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "shapeid/diagnosis/unnoticed.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
@@ -49,7 +51,23 @@ TEST(NeededRotors, ABodyDoesNotGrowHeavyForARotor) {
   EXPECT_FALSE(rotor.name_stands()) << "larger links would do as well";
   EXPECT_NEAR(rotor.effect.value[0], truth, 0.1 * truth);
   ASSERT_EQ(d.after.model.effects.size(), d.after.effect_error.size());
+  EXPECT_EQ(d.after.model.effects.size(), d.loop.found.size()) << "those that stay";
   EXPECT_EQ(d.after.model.effects.back().value, rotor.effect.value);
+}
+
+/// Beside a rotor that was found another one may lack: none comes in twice.
+TEST(NeededRotors, AreNoneThatTheModelHas) {
+  const AppliedEffect first = test::effect("rotor_inertia", 0, {3.0});
+  const Recording log = test::record({{first, test::effect("rotor_inertia", 1, {2.0})}});
+  const LoopSettings settings = test::arm_settings();
+  const Robot robot = test::arm();
+  LoopResult loop = test::loop_of(log);
+  loop.found = {{first, "rotor_inertia@joint1", Eigen::VectorXd::Constant(1, 0.1)}};
+  loop.model.effects = {first};
+  Consistent bodies = make_consistent(robot, log, nullptr, settings, loop);
+  add_needed_rotors(robot, log, nullptr, settings, loop, bodies);
+  EXPECT_EQ(test::found_ids(loop),
+            (std::vector<std::string>{"rotor_inertia@joint1", "rotor_inertia@joint2"}));
 }
 
 /// Such links fit worse than free numbers do, and of all that these hide the rotor mends it.
@@ -63,6 +81,7 @@ TEST(NeededCauses, WhatBodiesLackIsFoundAmongWhatFreeNumbersHide) {
   EXPECT_GT(rotor.gain, 0.0);
   EXPECT_FALSE(rotor.name_stands()) << "larger links would do as well";
   EXPECT_EQ(std::count(d.loop.hidden.begin(), d.loop.hidden.end(), rotor.id), 0);
+  EXPECT_TRUE(rotor.ambiguous_with.empty()) << rotor.ambiguous_with.front();
   ASSERT_EQ(d.after.model.effects.size(), 1U);
   EXPECT_EQ(d.after.model.effects[0].value, rotor.effect.value);
 }

@@ -104,6 +104,35 @@ RC_GTEST_PROP(PredictedLoad, IsKnownOnTwoFeetWhateverTheyPush, ()) {
                          20) < few_hundred_eps);
 }
 
+/// In other units of length forces are others, and the torques are the same.
+RC_GTEST_PROP(PredictedLoad, DoesNotHangOnTheUnitOfLevers, ()) {
+  Standing standing;
+  const double unit = *rc::gen::element(1e-3, 0.1, 64.0, 1e3);
+  const Eigen::VectorXd torque = *test::vector(standing.robot.dof(), 20.0);
+  const Eigen::VectorXd YPhi = standing.view.Y * standing.model.Phi;
+  const Eigen::MatrixXd J = standing.view.J;
+  const PredictedLoad one = predicted_load(standing.robot, torque, YPhi, J);
+  const PredictedLoad other = predicted_load(standing.robot, torque, YPhi, unit * J);
+  const double size = standing.size + torque.norm();
+  RC_ASSERT((one.joint - other.joint).norm() <= rounding_of(size / least_lever));
+}
+
+/// On a fixed base every row tells of the contacts' forces: they are those of least squares.
+RC_GTEST_PROP(PredictedLoad, OfAFixedBaseIsByAllItsRows, ()) {
+  Standing standing;
+  Robot fixed = standing.robot;
+  fixed.root = Root::fixed;
+  const Eigen::Index n = fixed.joint_count();
+  const Eigen::MatrixXd J = standing.view.J.rightCols(n);
+  const Eigen::VectorXd torque = *test::vector(n, 20.0), YPhi = *test::vector(n, 20.0);
+  const PredictedLoad load = predicted_load(fixed, torque, YPhi, J);
+  const double rounding =
+      rounding_of((1.0 + J.norm()) * (torque.norm() + YPhi.norm() + J.norm() * load.force.norm()));
+  RC_ASSERT((load.joint - (YPhi - J.transpose() * load.force)).norm() <= rounding);
+  // What is left is at right angles to all that contacts can do.
+  RC_ASSERT((J * (load.joint - torque)).norm() <= rounding);
+}
+
 /// No measured torque is in what the base's balance tells.
 RC_GTEST_PROP(PredictedLoad, CarriesTheBaseWhateverTheTorque, ()) {
   Standing standing;

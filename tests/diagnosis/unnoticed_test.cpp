@@ -111,6 +111,20 @@ TEST(Unnoticed, WhatWasFoundIsNotUnnoticed) {
   EXPECT_LT(said / added, 1.6);
 }
 
+/// The same where the rotor's standard error is a small part of it: not the error, the rotor
+/// itself.
+TEST(Unnoticed, HasAllThatALinkTookOfARotorThatIsSeenWell) {
+  const std::vector<AppliedEffect> truth = {effect("rotor_inertia", 2, {0.003})};
+  const Recording log = record({truth, 20.0, 0.02});
+  const Fitted untold(log, 3), told(log, 3, truth);
+  const double rotor = told.model.model.effects[0].value[0];
+  ASSERT_GT(rotor, 3.0 * told.model.effect_error[0][0]);
+  const double moved = untold.model.model.Phi[30 + Iyy] - told.model.model.Phi[30 + Iyy];
+  const double said = std::sqrt(std::pow(untold.unnoticed.error[30 + Iyy], 2) -
+                                std::pow(untold.model.Phi_error[30 + Iyy], 2));
+  EXPECT_NEAR(said / std::abs(moved), 1.0, 0.3);
+}
+
 TEST(Unnoticed, NeverIsTheErrorSmallerThanTheStandardError) {
   const Fitted fitted(record({{effect("viscous_friction", 1, {0.3})}}), 2);
   for (Eigen::Index p = 0; p < 40; ++p) {
