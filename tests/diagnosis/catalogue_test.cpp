@@ -60,6 +60,7 @@ TEST(Catalogue, EveryEffectSaysWhatItIs) {
     for (const Parameter& p : e.parameters) {
       EXPECT_FALSE(p.unit.empty());
       EXPECT_GT(p.size, 0.0);
+      EXPECT_GE(p.limit, p.size) << p.name;
       EXPECT_TRUE(names.insert(p.name).second) << p.name;
     }
     for (const ShapeNumber& s : e.shape) {
