@@ -16,7 +16,8 @@ using test::scaled;
 
 void expect_error(const Eigen::VectorXd& values, double squared) {
   const double error = sum_with_error(values).error;
-  EXPECT_LT(scaled(error * error - squared, values.squaredNorm(), values.size()), few_hundred_eps)
+  EXPECT_LT(scaled(std::abs(error * error - squared), values.squaredNorm(), values.size()),
+            few_hundred_eps)
       << values.transpose();
 }
 
@@ -104,8 +105,8 @@ RC_GTEST_PROP(Gain, SwappedChangesItsSign, ()) {
   const Gain there = gain_of(before, after), back = gain_of(after, before);
   // The surer of two ways to ask: of a loss it is the less sure one.
   RC_ASSERT(there.t >= -back.t);
-  RC_ASSERT(scaled(there.share * before.sum() - (before - after).sum(), before.sum(), n) <
-            few_hundred_eps);
+  const double off = std::abs(there.share * before.sum() - (before - after).sum());
+  RC_ASSERT(scaled(off, before.sum(), n) < few_hundred_eps);
   RC_ASSERT(gain_of(8.0 * before, 8.0 * after).t == there.t);  // the unit does not matter
 }
 

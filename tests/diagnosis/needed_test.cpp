@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/diagnosis/unnoticed.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
@@ -53,6 +54,21 @@ TEST(NeededRotors, ABodyDoesNotGrowHeavyForARotor) {
   ASSERT_EQ(d.after.model.effects.size(), d.after.effect_error.size());
   EXPECT_EQ(d.after.model.effects.size(), d.loop.found.size()) << "those that stay";
   EXPECT_EQ(d.after.model.effects.back().value, rotor.effect.value);
+}
+
+/// One link sought: the only rotor that is tried stays.
+TEST(NeededRotors, OfOneJointIsTriedOnce) {
+  const Robot robot = test::arm();
+  const Recording log = test::record({{test::effect("rotor_inertia", 0, {3.0})}});
+  LoopSettings settings = test::arm_settings();
+  settings.shapes = generous_regions(robot, {1});
+  settings.expected_mass = 2.0;
+  LoopResult loop = close_loop(robot, log, nullptr, settings);
+  Consistent bodies = make_consistent(robot, log, nullptr, settings, loop);
+  ASSERT_TRUE(is_far_from_given(robot, bodies, bodies.Phi_error, 1));
+  add_needed_rotors(robot, log, nullptr, settings, loop, bodies);
+  EXPECT_EQ(test::found_ids(loop), std::vector<std::string>{"rotor_inertia@joint1"});
+  EXPECT_FALSE(is_far_from_given(robot, bodies, bodies.Phi_error, 1));
 }
 
 /// Beside a rotor that was found another one may lack: none comes in twice.

@@ -123,7 +123,8 @@ RC_GTEST_PROP(PredictedLoad, OfAFixedBaseIsByAllItsRows, ()) {
   Robot fixed = standing.robot;
   fixed.root = Root::fixed;
   const Eigen::Index n = fixed.joint_count();
-  const Eigen::MatrixXd J = standing.view.J.rightCols(n);
+  Eigen::MatrixXd J = standing.view.J.rightCols(n);
+  if (J.rows() > 0) J.row(0) *= 1e-3;  // also what joints hardly feel
   const Eigen::VectorXd torque = *test::vector(n, 20.0), YPhi = *test::vector(n, 20.0);
   const PredictedLoad load = predicted_load(fixed, torque, YPhi, J);
   const double rounding =

@@ -125,6 +125,21 @@ TEST(Unnoticed, HasAllThatALinkTookOfARotorThatIsSeenWell) {
   EXPECT_NEAR(said / std::abs(moved), 1.0, 0.3);
 }
 
+/// And where noise hides it, its standard error.
+TEST(Unnoticed, HasTheErrorOfARotorThatIsNotSeen) {
+  const std::vector<AppliedEffect> truth = {effect("rotor_inertia", 2, {0.003})};
+  const Recording log = record({truth, 20.0, 2.0});
+  const Fitted untold(log, 3), told(log, 3, truth);
+  const double rotor = told.model.model.effects[0].value[0], s = told.model.effect_error[0][0];
+  ASSERT_GT(s, 3.0 * 0.003);
+  const double moved = untold.model.model.Phi[30 + Iyy] - told.model.model.Phi[30 + Iyy];
+  const double added = std::abs(moved / rotor) * std::hypot(rotor, s);
+  const double said = std::sqrt(std::pow(untold.unnoticed.error[30 + Iyy], 2) -
+                                std::pow(untold.model.Phi_error[30 + Iyy], 2));
+  EXPECT_EQ(untold.effect_at(30 + Iyy), "rotor_inertia@joint3");
+  EXPECT_GT(said / added, 0.6);
+}
+
 TEST(Unnoticed, NeverIsTheErrorSmallerThanTheStandardError) {
   const Fitted fitted(record({{effect("viscous_friction", 1, {0.3})}}), 2);
   for (Eigen::Index p = 0; p < 40; ++p) {
