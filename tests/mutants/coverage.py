@@ -37,7 +37,7 @@ def measure(root, area, kept, jobs):
 def section(kept):
     """A table, or what is missing."""
     if not kept.exists():
-        return "Not measured (`./run mutants --coverage`)."
+        return "Not measured (`--coverage`)."
     sums = collections.defaultdict(collections.Counter)
     summary = json.loads(kept.read_text())
     for file in summary["files"]:
