@@ -98,16 +98,16 @@ TEST(Gain, ABlockThatBothFitExactlyTellsNothing) {
 
 RC_GTEST_PROP(Gain, SwappedChangesItsSign, ()) {
   const auto n = *rc::gen::inRange<Eigen::Index>(2, 20);
-  Eigen::VectorXd before(n), after(n);
-  for (Eigen::VectorXd* errors : {&before, &after}) {
+  Eigen::VectorXd one(n), other(n);
+  for (Eigen::VectorXd* errors : {&one, &other}) {
     for (double& error : *errors) error = 0.01 * *rc::gen::inRange(1, 1000);
   }
-  const Gain there = gain_of(before, after), back = gain_of(after, before);
+  const Gain there = gain_of(one, other), back = gain_of(other, one);
   // The surer of two ways to ask: of a loss it is the less sure one.
   RC_ASSERT(there.t >= -back.t);
-  const double off = std::abs(there.share * before.sum() - (before - after).sum());
-  RC_ASSERT(scaled(off, before.sum(), n) < few_hundred_eps);
-  RC_ASSERT(gain_of(8.0 * before, 8.0 * after).t == there.t);  // the unit does not matter
+  const double off = std::abs(there.share * one.sum() - (one - other).sum());
+  RC_ASSERT(scaled(off, one.sum(), n) < few_hundred_eps);
+  RC_ASSERT(gain_of(8.0 * one, 8.0 * other).t == there.t);  // the unit does not matter
 }
 
 /// Two fits with 10 numbers' freedom left, whose error goes from 30 to 20: 10 over 2 a number.

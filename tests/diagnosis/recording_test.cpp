@@ -34,8 +34,8 @@ Sample cubics(double t) {
 }
 
 Recording of_cubics() {
-  std::vector<Sample> samples;
-  for (int i = 0; i < 60; ++i) samples.push_back(cubics(i / rate_hz));
+  std::vector<Sample> samples(60);
+  for (int i = 0; i < 60; ++i) samples[static_cast<std::size_t>(i)] = cubics(i / rate_hz);
   return {std::move(samples), rate_hz};
 }
 

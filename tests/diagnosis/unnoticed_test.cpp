@@ -83,7 +83,7 @@ TEST(Unnoticed, CoversEveryEffectOfTheCatalogue) {
     bool beyond = false;
     for (Eigen::Index p = 0; p < 10; ++p) {
       if (!fitted.model.data.determined[static_cast<std::size_t>(p)]) continue;
-      const Eigen::Index number = 10 * link + p;
+      const Eigen::Index number = Eigen::Index{10} * link + p;
       EXPECT_LT(fitted.wrong(number), errors * fitted.unnoticed.error[number])
           << hypothesis_id(robot, a) << ", number " << p;
       beyond = beyond || fitted.wrong(number) > 5.0 * fitted.model.Phi_error[number];
