@@ -78,11 +78,11 @@ Recording record(const ArmLog& log) {
   const diagnosis::RichModel truth{stacked_parameters(robot), log.effects};
   const diagnosis::Viewer viewer(robot, reference::ContactTreatment::ignore, log.effects);
   std::mt19937 generator(log.seed);
-  std::normal_distribution<double> noise(0.0, log.noise);
+  std::normal_distribution<double> normal;  // of a spread of zero it is undefined
   for (const std::size_t i : bare.usable(1)) {
     const diagnosis::View view = viewer.view(bare, i);
     samples[i].tau = diagnosis::predict(viewer, view, truth).force;
-    for (double& tau : samples[i].tau) tau += noise(generator);
+    for (double& tau : samples[i].tau) tau += log.noise * normal(generator);
   }
   // Samples at the ends have no torque: they are no part of the log.
   const std::vector<std::size_t> usable = bare.usable(1);
