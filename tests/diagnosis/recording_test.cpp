@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "shapeid/models/robot.hpp"
+#include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -47,7 +47,7 @@ TEST(Recording, ACubicIsItselfBetweenItsSamples) {
     const Sample got = log.shifted(30, steps / rate_hz);
     const Sample wanted = cubics((30 + steps) / rate_hz);
     const auto expect = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-      EXPECT_LT((a - b).norm(), 1e-13 * (1.0 + b.norm())) << steps;  // sums of four terms
+      EXPECT_LT(test::scaled_difference(a, b, 4), test::few_hundred_eps) << steps;
     };
     EXPECT_NEAR(got.time, wanted.time, 1e-12);
     expect(got.q, wanted.q);

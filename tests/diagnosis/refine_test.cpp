@@ -18,7 +18,7 @@ Effect with_shape(std::vector<ShapeNumber> numbers) {
   return effect;
 }
 
-/// In the logarithm as far from zero as the values of one number are from each other: relative.
+/// Of logarithms of a few units, and relative of what they are of: some ten roundings.
 constexpr double off_by_rounding = 1e-14;
 
 TEST(ShapeVariants, GoFromTheLeastToTheMostInEqualRatios) {

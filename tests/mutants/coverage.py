@@ -8,7 +8,6 @@ import build
 import campaign
 
 
-
 def measure(root, area, kept, jobs):
     """Builds the preset `coverage`, runs the tests, and keeps in the file `kept` what gcov says of each
     source."""

@@ -71,7 +71,7 @@ def argued_equal(root, alive, explained):
 def fresh_section(root, fresh, explained, options):
     """What the second sample says, or that there is none."""
     if not fresh:
-        return "None was drawn (`./run mutants --fresh 200`)."
+        return "None was drawn (`--fresh 200`)."
     alive = [(p, v) for p, v in fresh if v["verdict"] != "killed"]
     checked = sum(v.get("check", False) for _, v in fresh if v["verdict"] == "killed")
     asked = "all were asked about" if len(fresh) == options.drawn else (

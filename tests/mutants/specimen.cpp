@@ -1,4 +1,4 @@
-// What self_test changes: something of every kind that the sources of the four folders hold, and a
+// What self_test changes: something of every kind that the sources hold, and a
 // program that says what all of it gives, so that every change shows. main() is not changed.
 #include <Eigen/Core>
 #include <algorithm>
