@@ -19,6 +19,21 @@ double Contenders::parameters() const {
   return sum;
 }
 
+Chosen Contenders::usual() const {
+  Chosen list;
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    const Candidate& c = candidates_[k];
+    if (c.members.empty() && c.effect.effect->is_usual && !c.effect.since_reference) {
+      list.push_back(k);
+    }
+  }
+  return list;
+}
+
+bool Contenders::is_hidden(std::size_t k, const Chosen& others) const {
+  return !hidden_too_ && fits_.promises(terms(others), {candidates_[k].term}).front().hidden();
+}
+
 std::vector<Term> Contenders::terms(const Chosen& chosen) const {
   std::vector<Term> list = {masses_};
   for (const std::size_t k : chosen) list.push_back(candidates_[k].term);

@@ -29,6 +29,10 @@ class Contenders {
       : fits_(fits), masses_(masses), candidates_(candidates), hidden_too_(hidden_too) {}
 
   [[nodiscard]] const Candidate& operator[](std::size_t k) const { return candidates_[k]; }
+  /// Of the effects that are usually fitted, those that always act, at each place.
+  [[nodiscard]] Chosen usual() const;
+  /// Whether the data cannot tell k from masses and the others, and that is asked.
+  [[nodiscard]] bool is_hidden(std::size_t k, const Chosen& others) const;
   /// Parameters of all together; groups have none of their own.
   [[nodiscard]] double parameters() const;
 

@@ -130,6 +130,9 @@ struct Effect {
   bool sought_first = false;
   /// What the robot is built of: it is not among what may have come since a reference log.
   bool built_in = false;
+  /// Fitted as a rule, whatever the drive: what the found model is compared with (usual.hpp), and
+  /// where a second search for causes begins.
+  bool is_usual = false;
   /// The columns use Instant::load_rate, which costs two more instants each.
   bool needs_load_rate = false;
   /// Instead of columns.

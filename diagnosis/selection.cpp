@@ -9,6 +9,7 @@
 #include "shapeid/diagnosis/credibility.hpp"
 #include "shapeid/diagnosis/fits_around.hpp"
 #include "shapeid/diagnosis/verdicts.hpp"
+#include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -29,16 +30,63 @@ class Search {
         credibility_(fits, contenders_, rule) {}
 
   Selection run() {
-    do {
-      while (std::ssize(accepted_) < rule_.most_terms && advance()) {
-      }
-    } while (prune());
-    simplify();
+    go_on();
+    try_from_usual();
     finish();
     return std::move(result_);
   }
 
  private:
+  /// From what is accepted, until nothing changes.
+  void go_on() {
+    do {
+      while (std::ssize(accepted_) < rule_.most_terms && advance()) {
+      }
+    } while (prune());
+    simplify();
+  }
+
+  /// One law that looks like the sum of several causes (a drag, of friction at all joints) comes in
+  /// first, and then none of them is worth enough beside it. So the search begins once more where a
+  /// roboticist would: with all that is usually fitted, of which stays what would be accepted
+  /// beside the rest. That counts if it predicts better by more than chance.
+  void try_from_usual() {
+    const Chosen start = usual_that_stays();
+    if (std::ranges::all_of(start, [this](std::size_t k) { return is_accepted(k); })) return;
+    const Chosen accepted = std::exchange(accepted_, start);
+    const auto came_with = std::exchange(came_with_, {});
+    const Selection result = result_;
+    dropped_.clear();
+    go_on();
+    const Gain gain = gain_of(fits_.held_out(contenders_.terms(accepted)),
+                              fits_.held_out(contenders_.terms(accepted_)));
+    if (gain.t > separable) return;
+    accepted_ = accepted;
+    came_with_ = came_with;
+    result_ = result;
+  }
+
+  [[nodiscard]] bool is_accepted(std::size_t k) const {
+    return std::count(accepted_.begin(), accepted_.end(), k) > 0;
+  }
+
+  [[nodiscard]] Chosen usual_that_stays() const {
+    const double least_t = limit_for(rule_.least_t, fits_.held_blocks());
+    Chosen chosen = contenders_.usual();
+    while (true) {
+      chosen = pruned(chosen, least_t);
+      const auto worse = std::ranges::find_if(chosen, [&](std::size_t k) {
+        Chosen others = chosen;
+        std::erase(others, k);
+        return contenders_.is_hidden(k, others) ||
+               !credibility_.credible(k, others, fits_.fit(contenders_.terms(others)),
+                                      fits_.fit(contenders_.terms(others, k)));
+      });
+      if (worse == chosen.end()) return chosen;
+      chosen.erase(worse);
+    }
+  }
+
   /// Accepts the best that passes; false if there is none.
   bool advance() {
     std::vector<Eigen::VectorXd> errors;
@@ -127,11 +175,11 @@ class Search {
   /// believed (a delay and the lags of all drives may cancel), and without ripples that came with
   /// those of other joints and are nothing by themselves; these first, and of them the one that
   /// gains least.
-  [[nodiscard]] Chosen pruned(Chosen chosen) const {
+  [[nodiscard]] Chosen pruned(Chosen chosen, double least_t = keep_t) const {
     while (!chosen.empty()) {
       const Fit all = fits_.fit(contenders_.terms(chosen));
       const FitsAround now(fits_, contenders_.terms(chosen));
-      std::pair<bool, double> least = {true, keep_t};  // believed, and standard errors of gain
+      std::pair<bool, double> least = {true, least_t};  // believed, and standard errors of gain
       std::size_t worst = chosen.size();
       Eigen::Index column = contenders_.first_column();
       for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -169,7 +217,7 @@ class Search {
     const Chosen before = accepted_;
     accepted_ = pruned(before);
     for (const std::size_t k : before) {
-      if (std::count(accepted_.begin(), accepted_.end(), k) == 0) dropped_.push_back(k);
+      if (!is_accepted(k)) dropped_.push_back(k);
     }
     return accepted_.size() < before.size();
   }

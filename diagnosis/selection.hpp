@@ -80,6 +80,7 @@ struct Verdict {
 };
 
 struct Selection {
+  /// From masses alone, then, if that search counts, from what is usually fitted.
   std::vector<SelectionStep> steps;
   std::vector<Verdict> accepted;     ///< what remained at the end
   std::vector<Scored> last_ranking;  ///< of what was not accepted

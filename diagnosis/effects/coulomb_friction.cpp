@@ -23,6 +23,7 @@ Effect coulomb_friction() {
   e.under_contact = "seen in swing; in stance only its part that no contact force can balance";
   e.source = "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994)";
   e.columns = columns;
+  e.is_usual = true;
   e.code.torque = "tau[j] += c * std::tanh(dq[j] / width);";
   return e;
 }

@@ -23,6 +23,7 @@ Effect rotor_inertia() {
   e.source = "Featherstone, Rigid Body Dynamics Algorithms (2008), 9.6";
   e.built_in = true;
   e.columns = columns;
+  e.is_usual = true;
   e.code.torque = "tau[j] += I * ddq[j];";
   return e;
 }

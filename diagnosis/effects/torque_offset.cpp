@@ -23,6 +23,7 @@ Effect torque_offset() {
   e.under_contact = "seen in swing; in stance only its part that no contact force can balance";
   e.source = "Gautier, Khalil, Restrepo, ICRA 1995";
   e.columns = columns;
+  e.is_usual = true;
   e.code.torque = "tau[j] += o;";
   return e;
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapeid/diagnosis/contenders.hpp"
 #include "shapeid/models/shape.hpp"
 #include "shapeid/tests/diagnosis/planted.hpp"
 
@@ -302,6 +303,97 @@ TEST(Selection, FindsTheOneCauseOfWhatCameInAsSeveral) {
     log.add_noise();
     EXPECT_EQ(accepted(log.selection(rule)), second > 30.0 ? drives : Numbers{all});
   }
+}
+
+/// Friction of eight drives, and a law that shares so much of its square with their sum: that one
+/// comes in first, and beside it no drive is worth enough.
+struct ManyDrives {
+  ManyDrives(unsigned seed, bool is_usual, double share) : log(seed) {
+    Effect friction = law("friction");
+    friction.is_usual = is_usual;
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(Planted::rows, 1);
+    for (int site = 0; site < 8; ++site) {
+      const Eigen::MatrixXd column = log.normal(1);
+      drives.push_back(log.add(friction, column, site));
+      sum += column / std::sqrt(8.0);
+    }
+    drag = log.add(law("drag"), std::sqrt(share) * sum + std::sqrt(1.0 - share) * log.normal(1));
+  }
+  Planted log;
+  Numbers drives;
+  std::size_t drag = 0;
+};
+
+TEST(Selection, FindsTheUsualCausesOfWhatCameInAsOne) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    for (const bool is_usual : {true, false}) {
+      ManyDrives of(seed, is_usual, 0.7);
+      for (const std::size_t k : of.drives) of.log.plant(k, one_number(Planted::size_of(12.0)));
+      of.log.add_noise();
+      const Selection s = of.log.selection();
+      const Numbers found = accepted(s);
+      if (is_usual) {
+        EXPECT_EQ(found, of.drives) << seed;
+      } else {
+        EXPECT_EQ(std::ranges::count(found, of.drag), 1) << seed;
+      }
+      // The ranking beside masses alone is that of the first search.
+      ASSERT_FALSE(s.steps.empty());
+      EXPECT_EQ(s.steps.front().accepted.candidate, of.drag);
+    }
+  }
+}
+
+/// Usual causes are no better than others: what they do not predict better stays.
+TEST(Selection, TheUsualCausesDoNotTakeTheTrueOnesPlace) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    ManyDrives of(seed, true, 0.7);
+    of.log.plant(of.drag, one_number(Planted::size_of(30.0)));
+    of.log.add_noise();
+    EXPECT_EQ(accepted(of.log.selection()), Numbers{of.drag}) << seed;
+  }
+}
+
+/// Nor what they predict no better but by chance: eight of them here, where nothing asks for one
+/// cause in the place of several.
+TEST(Selection, TheUsualCausesHaveToPredictBetter) {
+  SelectionRule rule;
+  rule.rivals = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    ManyDrives of(seed, true, 0.985);
+    of.log.plant(of.drag, one_number(Planted::size_of(30.0)));
+    of.log.add_noise();
+    const Selection s = of.log.selection(rule);
+    EXPECT_EQ(accepted(s), Numbers{of.drag}) << seed;
+    // The ranking is the first search's, too: of the drives.
+    EXPECT_EQ(s.last_ranking.size(), of.drives.size());
+    EXPECT_EQ(s.steps.size(), 1U);
+  }
+}
+
+/// What masses contain is not begun with, nor what came since a reference log.
+TEST(Selection, TheSecondSearchBeginsWithWhatIsAsked) {
+  Effect usual = law("usual");
+  usual.is_usual = true;
+  Planted log(2);
+  const std::size_t twin = log.add(usual, log.normal(1));
+  log.candidates()[twin].term.columns = {log.masses().columns[3]};
+  log.plant(twin, one_number(1000.0));
+  log.add_noise();
+  EXPECT_EQ(accepted(log.selection()), Numbers{});
+  const BlockFits fits_of_log = log.fits();
+  EXPECT_TRUE(Contenders(fits_of_log, log.masses(), log.candidates()).is_hidden(twin, {}));
+  EXPECT_FALSE(Contenders(fits_of_log, log.masses(), log.candidates(), true).is_hidden(twin, {}));
+
+  Planted with_reference(3);
+  const std::size_t came = with_reference.add(usual, with_reference.normal(1), 0);
+  const std::size_t always = with_reference.add(usual, with_reference.normal(1), 1);
+  with_reference.add(law("other"), with_reference.normal(1));
+  with_reference.add_group({came, always});
+  with_reference.candidates()[came].effect.since_reference = true;
+  const BlockFits fits = with_reference.fits();
+  EXPECT_EQ(Contenders(fits, with_reference.masses(), with_reference.candidates()).usual(),
+            Numbers{always});
 }
 
 /// Where the two are not alike they are two.
