@@ -49,18 +49,21 @@ class Search {
   /// One law that looks like the sum of several causes (a drag, of friction at all joints) comes in
   /// first, and then none of them is worth enough beside it. So the search begins once more where a
   /// roboticist would: with all that is usually fitted, of which stays what would be accepted
-  /// beside the rest. That counts if it predicts better by more than chance.
+  /// beside the rest, now and in the end. That counts if it gains what a single law has to.
   void try_from_usual() {
-    const Chosen start = usual_that_stays();
+    const double enough = limit_for(rule_.least_t, fits_.held_blocks());
+    const Chosen usual = contenders_.usual();
+    const Chosen start = worthy(pruned(usual, enough), usual);
     if (std::ranges::all_of(start, [this](std::size_t k) { return is_accepted(k); })) return;
     const Chosen accepted = std::exchange(accepted_, start);
     const auto came_with = std::exchange(came_with_, {});
     const Selection result = result_;
     dropped_.clear();
     go_on();
+    accepted_ = worthy(accepted_, start);
     const Gain gain = gain_of(fits_.held_out(contenders_.terms(accepted)),
                               fits_.held_out(contenders_.terms(accepted_)));
-    if (gain.t > separable) return;
+    if (gain.t > enough) return;
     accepted_ = accepted;
     came_with_ = came_with;
     result_ = result;
@@ -70,20 +73,24 @@ class Search {
     return std::count(accepted_.begin(), accepted_.end(), k) > 0;
   }
 
-  [[nodiscard]] Chosen usual_that_stays() const {
-    const double least_t = limit_for(rule_.least_t, fits_.held_blocks());
-    Chosen chosen = contenders_.usual();
+  [[nodiscard]] bool would_be_accepted(std::size_t k, const Chosen& others) const {
+    const std::vector<Term> without = contenders_.terms(others),
+                            with = contenders_.terms(others, k);
+    const Gain gain = credibility_.gain_by(k, fits_.held_out(without), fits_.held_out(with));
+    return credibility_.passes({k, gain.share, gain.t, {}}) && !contenders_.is_hidden(k, others) &&
+           credibility_.credible(k, others, fits_.fit(without), fits_.fit(with));
+  }
+
+  /// Without those of `asked` that would not be accepted beside the rest.
+  [[nodiscard]] Chosen worthy(Chosen chosen, const Chosen& asked) const {
     while (true) {
-      chosen = pruned(chosen, least_t);
-      const auto worse = std::ranges::find_if(chosen, [&](std::size_t k) {
+      const auto unworthy = std::ranges::find_if(chosen, [&](std::size_t k) {
         Chosen others = chosen;
         std::erase(others, k);
-        return contenders_.is_hidden(k, others) ||
-               !credibility_.credible(k, others, fits_.fit(contenders_.terms(others)),
-                                      fits_.fit(contenders_.terms(others, k)));
+        return std::ranges::count(asked, k) > 0 && !would_be_accepted(k, others);
       });
-      if (worse == chosen.end()) return chosen;
-      chosen.erase(worse);
+      if (unworthy == chosen.end()) return chosen;
+      chosen.erase(unworthy);
     }
   }
 
