@@ -1,8 +1,10 @@
 #include "shapeid/diagnosis/loop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "shapeid/diagnosis/best_round.hpp"
 #include "shapeid/diagnosis/candidates.hpp"
@@ -14,6 +16,7 @@
 #include "shapeid/diagnosis/quarter_turns.hpp"
 #include "shapeid/diagnosis/refit.hpp"
 #include "shapeid/diagnosis/take_selection.hpp"
+#include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -28,18 +31,22 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 class Loop {
  public:
   Loop(const Robot& robot, const Recording& log, const Recording* reference,
-       const LoopSettings& settings)
-      : state_(robot, log, reference, settings) {}
+       const LoopSettings& settings, bool from_usual)
+      : state_(robot, log, reference, settings), from_usual_(from_usual) {}
 
-  LoopResult run() {
+  /// Causes, before their names are questioned.
+  void find_causes() {
     try_quarter_turns(state_);
     state_.fit_masses();
-    do {
-      do {
-        seek();
-      } while (!all_transformations_stay());
+    seek_until_all_stay();
+  }
+
+  LoopResult run() {
+    question_names(state_);
+    while (ban_mere_moments()) {
+      seek_until_all_stay();
       question_names(state_);
-    } while (ban_mere_moments());
+    }
     for (Found& f : result_.found) {
       std::vector<std::string>& names = f.ambiguous_with;
       names.insert(names.end(), f.exchangeable.begin(), f.exchangeable.end());
@@ -50,7 +57,38 @@ class Loop {
     return std::move(result_);
   }
 
+  /// Whether in some round a search that begins with what is usually fitted came to more.
+  [[nodiscard]] bool has_other_way() const { return has_other_way_; }
+
+  /// Whether this predicts better, by what a single law has to gain, with the weights of either.
+  [[nodiscard]] bool is_better_than(Loop& other) {
+    const Eigen::VectorXd own = result_.weight;
+    return std::ranges::all_of(std::array{own, other.result_.weight}, [&](const auto& weight) {
+      const Eigen::VectorXd without = other.held_out_with(weight), with = held_out_with(weight);
+      return gain_of(without, with).t > limit_for(state_.rule().least_t, with.size());
+    });
+  }
+
+  /// What another search took is told as well.
+  void add_seconds_of(const Loop& other) {
+    result_.screening_seconds += other.result_.screening_seconds;
+    result_.refit_seconds += other.result_.refit_seconds;
+  }
+
  private:
+  [[nodiscard]] Eigen::VectorXd held_out_with(const Eigen::VectorXd& weight) {
+    const Eigen::VectorXd own = std::exchange(result_.weight, weight);
+    const Eigen::VectorXd error = state_.held_out_of_model();
+    result_.weight = own;
+    return error;
+  }
+
+  void seek_until_all_stay() {
+    do {
+      seek();
+    } while (!all_transformations_stay());
+  }
+
   [[nodiscard]] std::vector<std::string> ids() const {
     std::vector<std::string> list;
     for (const Found& f : result_.found) list.push_back(f.id);
@@ -132,7 +170,9 @@ class Loop {
     // From the beginning each time: what was accepted with worse weights has to prove itself again.
     SelectionRule rule = state_.rule();
     rule.hidden_too = masses_want_more(fits, {fixed}, rule.least_t);
+    rule.from_usual = from_usual_;
     const Selection selection = select(fits, fixed, list, rule);
+    has_other_way_ = has_other_way_ || selection.usual_is_better;
     note_large_transformation(fits, fixed, list, selection);
     result_.prior = choose_prior(fits, chosen_terms(fixed, list, selection));
     take_selection(fits, fixed, list, selection, state_);
@@ -358,6 +398,7 @@ class Loop {
 
   LoopState state_;
   LoopResult& result_ = state_.result;
+  bool from_usual_, has_other_way_ = false;
   std::vector<AppliedEffect> banned_;
   std::vector<AppliedEffect> too_large_;  ///< taken back once, of no credible size
   std::vector<AppliedEffect> forces_;     ///< whose place the accelerometer's noise has taken
@@ -370,7 +411,17 @@ class Loop {
 
 LoopResult close_loop(const Robot& robot, const Recording& log, const Recording* reference,
                       const LoopSettings& settings) {
-  return Loop(robot, log, reference, settings).run();
+  Loop loop(robot, log, reference, settings, false);
+  loop.find_causes();
+  if (!loop.has_other_way()) return loop.run();
+  // Weights follow from what is found, so the other way is gone to its end before both are
+  // compared: what is better in a round need not be better in the end.
+  Loop other(robot, log, reference, settings, true);
+  other.find_causes();
+  const bool is_better = other.is_better_than(loop);
+  Loop& taken = is_better ? other : loop;
+  taken.add_seconds_of(is_better ? loop : other);
+  return taken.run();
 }
 
 }  // namespace shapeid::diagnosis

@@ -49,7 +49,7 @@ class Search {
   /// One law that looks like the sum of several causes (a drag, of friction at all joints) comes in
   /// first, and then none of them is worth enough beside it. So the search begins once more where a
   /// roboticist would: with all that is usually fitted, of which stays what would be accepted
-  /// beside the rest, now and in the end. That counts if it gains what a single law has to.
+  /// beside the rest, now and in the end.
   void try_from_usual() {
     const double enough = limit_for(rule_.least_t, fits_.held_blocks());
     const Chosen usual = contenders_.usual();
@@ -61,12 +61,15 @@ class Search {
     dropped_.clear();
     go_on();
     accepted_ = worthy(accepted_, start);
-    const Gain gain = gain_of(fits_.held_out(contenders_.terms(accepted)),
-                              fits_.held_out(contenders_.terms(accepted_)));
-    if (gain.t > enough) return;
-    accepted_ = accepted;
-    came_with_ = came_with;
-    result_ = result;
+    const bool is_better = gain_of(fits_.held_out(contenders_.terms(accepted)),
+                                   fits_.held_out(contenders_.terms(accepted_)))
+                               .t > separable;
+    if (!is_better || !rule_.from_usual) {
+      accepted_ = accepted;
+      came_with_ = came_with;
+      result_ = result;
+    }
+    result_.usual_is_better = is_better;
   }
 
   [[nodiscard]] bool is_accepted(std::size_t k) const {

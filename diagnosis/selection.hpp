@@ -41,6 +41,9 @@ struct SelectionRule {
   /// N: constant forces beyond this are not believed. Some are nearly hidden by contacts, or by
   /// each other.
   double most_force = std::numeric_limits<double>::infinity();
+  /// Where a search that begins with what is usually fitted predicts better by more than chance,
+  /// that one counts.
+  bool from_usual = false;
   /// What the data cannot tell from masses is asked, too. It is accepted only if masses that stay
   /// as near to the given ones as the prior has it cannot say the same.
   bool hidden_too = false;
@@ -82,6 +85,7 @@ struct Verdict {
 struct Selection {
   /// From masses alone, then, if that search counts, from what is usually fitted.
   std::vector<SelectionStep> steps;
+  bool usual_is_better = false;      ///< see SelectionRule::from_usual; also where that is not set
   std::vector<Verdict> accepted;     ///< what remained at the end
   std::vector<Scored> last_ranking;  ///< of what was not accepted
   std::vector<Scored> wrong_signs;   ///< evidence of something else

@@ -27,6 +27,20 @@ struct MeasuredRow {
   }
 };
 
+/// What goes along with a row and is not interpolated, as in MeasuredRow.
+struct Stamp {
+  double time;
+  std::vector<int> contacts;
+  std::vector<double> extra;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive("time", time);
+    archive("contacts", contacts);
+    archive("extra", extra);
+  }
+};
+
 /// A row of the regular grid.
 struct GridRow {
   bool starts_segment = false;  ///< the first one, or the first after a gap
@@ -76,17 +90,6 @@ class Resampler {
     }
   };
   using Track = std::deque<Point>;
-  struct Flags {
-    double time;
-    std::vector<int> contacts;
-    std::vector<double> extra;
-    template <class Archive>
-    void state(Archive& archive) {
-      archive("time", time);
-      archive("contacts", contacts);
-      archive("extra", extra);
-    }
-  };
   enum class State { ready, wait, gap };
   struct Look {
     State state;
@@ -102,7 +105,7 @@ class Resampler {
   double rate_;
   Eigen::VectorXd longest_step_;
   std::vector<Track> tracks_;
-  std::deque<Flags> flags_;
+  std::deque<Stamp> flags_;
   double newest_ = 0.0;
   bool any_ = false, finished_ = false;
   bool starts_segment_ = true;

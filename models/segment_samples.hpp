@@ -56,17 +56,6 @@ class SegmentSamples {
   }
 
  private:
-  struct Stamp {
-    double time;
-    std::vector<int> contacts;
-    std::vector<double> extra;
-    template <class Archive>
-    void state(Archive& archive) {
-      archive("time", time);
-      archive("contacts", contacts);
-      archive("extra", extra);
-    }
-  };
   void drain();
   void differentiate();
   void settle(FlaggedSample sample);

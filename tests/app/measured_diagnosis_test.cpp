@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -34,6 +35,34 @@ TEST(MeasuredDiagnosis, ADelayThatWasTooLargeAtFirstIsSoughtAgain) {
   ASSERT_NE(delay, findings.end()) << findings.dump(2);
   EXPECT_GT((*delay)["value"].get<double>(), 0.014);
   EXPECT_LT((*delay)["value"].get<double>(), 0.018);
+}
+
+/// A double pendulum of direct drives: drag, an encoder's offset and more come in before the dry
+/// friction of both drives, none of which stands then. The search that begins with what is usually
+/// fitted ends elsewhere: on the other runs 0.189 N m, where the first one has 0.225 and the usual
+/// fit 0.189 to 0.192.
+TEST(MeasuredDiagnosis, FrictionIsFoundByTheSearchThatBeginsWithIt) {
+  const std::string folder =
+      (data_folder() / "double_pendulum").string() + "/design_A.0__20220815_";
+  if (!std::filesystem::exists(folder + "00.csv.gz")) {
+    GTEST_SKIP() << folder << "00.csv.gz is not there (set SHAPEID_DATA)";
+  }
+  const CommandRun run = shapeid(fmt::format(
+      "diagnose --robot {1}/double_pendulum.urdf --mapping {1}/double_pendulum.mapping.yaml "
+      "--log {0}00.csv.gz --also {0}02.csv.gz {0}04.csv.gz "
+      "--test {0}01.csv.gz {0}03.csv.gz {0}05.csv.gz --cutoff 8 --json",
+      folder, (std::filesystem::path(SHAPEID_SOURCE_DIR) / "docs" / "examples").string()));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto result = nlohmann::json::parse(run.out);
+  double square = 0.0;
+  for (const double joint : result["heldout_rms_after"]) square += joint * joint;
+  EXPECT_LT(std::sqrt(square), 0.2);
+  for (const std::string joint : {"shoulder", "elbow"}) {
+    const bool found = std::ranges::any_of(result["findings"], [&joint](const auto& f) {
+      return f["effect"] == "coulomb_friction" && f["site"] == joint;
+    });
+    EXPECT_TRUE(found) << joint << result["findings"].dump(2);
+  }
 }
 
 }  // namespace

@@ -324,19 +324,30 @@ struct ManyDrives {
   std::size_t drag = 0;
 };
 
+SelectionRule from_usual() {
+  SelectionRule rule;
+  rule.from_usual = true;
+  return rule;
+}
+
 TEST(Selection, FindsTheUsualCausesOfWhatCameInAsOne) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     for (const bool is_usual : {true, false}) {
       ManyDrives of(seed, is_usual, 0.7);
       for (const std::size_t k : of.drives) of.log.plant(k, one_number(Planted::size_of(12.0)));
       of.log.add_noise();
-      const Selection s = of.log.selection();
+      const Selection s = of.log.selection(from_usual());
       const Numbers found = accepted(s);
+      EXPECT_EQ(s.usual_is_better, is_usual) << seed;
       if (is_usual) {
         EXPECT_EQ(found, of.drives) << seed;
       } else {
         EXPECT_EQ(std::ranges::count(found, of.drag), 1) << seed;
       }
+      // It is said, too, where it does not count.
+      const Selection first = of.log.selection();
+      EXPECT_EQ(first.usual_is_better, is_usual) << seed;
+      EXPECT_EQ(std::ranges::count(accepted(first), of.drag), 1) << seed;
       // The ranking beside masses alone is that of the first search.
       ASSERT_FALSE(s.steps.empty());
       EXPECT_EQ(s.steps.front().accepted.candidate, of.drag);
@@ -350,14 +361,16 @@ TEST(Selection, TheUsualCausesDoNotTakeTheTrueOnesPlace) {
     ManyDrives of(seed, true, 0.7);
     of.log.plant(of.drag, one_number(Planted::size_of(30.0)));
     of.log.add_noise();
-    EXPECT_EQ(accepted(of.log.selection()), Numbers{of.drag}) << seed;
+    const Selection s = of.log.selection(from_usual());
+    EXPECT_EQ(accepted(s), Numbers{of.drag}) << seed;
+    EXPECT_FALSE(s.usual_is_better);
   }
 }
 
 /// Nor what they predict no better but by chance: eight of them here, where nothing asks for one
 /// cause in the place of several.
 TEST(Selection, TheUsualCausesHaveToPredictBetter) {
-  SelectionRule rule;
+  SelectionRule rule = from_usual();
   rule.rivals = 0;
   for (unsigned seed = 1; seed <= 5; ++seed) {
     ManyDrives of(seed, true, 0.985);
@@ -380,7 +393,7 @@ TEST(Selection, TheSecondSearchBeginsWithWhatIsAsked) {
   log.candidates()[twin].term.columns = {log.masses().columns[3]};
   log.plant(twin, one_number(1000.0));
   log.add_noise();
-  EXPECT_EQ(accepted(log.selection()), Numbers{});
+  EXPECT_EQ(accepted(log.selection(from_usual())), Numbers{});
   const BlockFits fits_of_log = log.fits();
   EXPECT_TRUE(Contenders(fits_of_log, log.masses(), log.candidates()).is_hidden(twin, {}));
   EXPECT_FALSE(Contenders(fits_of_log, log.masses(), log.candidates(), true).is_hidden(twin, {}));
