@@ -78,7 +78,7 @@ class Loop {
  private:
   [[nodiscard]] Eigen::VectorXd held_out_with(const Eigen::VectorXd& weight) {
     const Eigen::VectorXd own = std::exchange(result_.weight, weight);
-    const Eigen::VectorXd error = state_.held_out_of_model();
+    Eigen::VectorXd error = state_.held_out_of_model();
     result_.weight = own;
     return error;
   }

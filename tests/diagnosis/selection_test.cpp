@@ -384,6 +384,27 @@ TEST(Selection, TheUsualCausesHaveToPredictBetter) {
   }
 }
 
+/// What it began with has to be worth accepting in the end, too, beside the cause that it stood
+/// for: not only worth keeping.
+TEST(Selection, TheUsualCausesAreAskedAgainInTheEnd) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    ManyDrives of(seed, true, 0.7);
+    for (const std::size_t k : of.drives) of.log.plant(k, one_number(Planted::size_of(12.0)));
+    const Eigen::MatrixXd column = of.log.normal(1);
+    const std::size_t cause = of.log.add(law("cause"), column);
+    Effect friction = law("friction");
+    friction.is_usual = true;
+    const std::size_t alike = of.log.add(friction, 0.8 * column + 0.6 * of.log.normal(1), 8);
+    of.log.plant(cause, one_number(Planted::size_of(50.0)));
+    of.log.plant(alike, one_number(Planted::size_of(4.0)));
+    of.log.add_noise();
+    const Selection s = of.log.selection(from_usual());
+    EXPECT_TRUE(s.usual_is_better) << seed;
+    EXPECT_EQ(std::ranges::count(accepted(s), alike), 0) << seed;
+    EXPECT_EQ(std::ranges::count(accepted(s), cause), 1) << seed;
+  }
+}
+
 /// What masses contain is not begun with, nor what came since a reference log.
 TEST(Selection, TheSecondSearchBeginsWithWhatIsAsked) {
   Effect usual = law("usual");
