@@ -66,7 +66,8 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
       continue;
     }
     const Eigen::VectorXd instead = around.with(contenders_[rival].term);
-    if (!gains_something(gain_of(without, instead)) || !as_good_as(error, instead)) continue;
+    if (!gains_something(gain_of(without, instead))) continue;
+    if (!as_good_as(error, instead) && !costs_its_numbers(rival, k, error, instead)) continue;
     const Fit own = fit_of(rival, others);
     // Something came since the reference log, and loads do. One that is a body is a load, whatever
     // the signs of its free numbers, and a cause of its own also where these contain k. (Of what
@@ -90,6 +91,21 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
     }
   }
   return verdict;
+}
+
+/// Whether a vector in the place of k is worse by no more than what its further numbers cost that
+/// say nothing: up to the squares of three standard errors of each. A number of nothing costs a
+/// little in every block, and blocks that agree are no evidence (of a tilt about the axis of the
+/// first joint for its encoder's offset: three thousandths of the error, three standard errors).
+bool Verdicts::costs_its_numbers(std::size_t rival, std::size_t k, const Eigen::VectorXd& error,
+                                 const Eigen::VectorXd& instead) const {
+  const std::size_t numbers = contenders_[rival].term.columns.size();
+  const std::size_t own = contenders_[k].term.columns.size();
+  if (numbers <= own || !any_direction_is_one(*contenders_[rival].effect.effect)) return false;
+  constexpr double three_errors = 9.0;
+  const double square_of_noise = error.sum() / std::max(1.0, fits_.tally().freedom);
+  return instead.sum() - error.sum() <=
+         three_errors * square_of_noise * static_cast<double>(numbers - own);
 }
 
 /// Whether a rival that contains k does as well without the part that contains it: a spring

@@ -26,6 +26,9 @@ class Verdicts {
  private:
   [[nodiscard]] Verdict one(std::size_t k, const Chosen& others,
                             const Eigen::VectorXd& error) const;
+  [[nodiscard]] bool costs_its_numbers(std::size_t rival, std::size_t k,
+                                       const Eigen::VectorXd& error,
+                                       const Eigen::VectorXd& instead) const;
   [[nodiscard]] bool does_without(std::size_t k, std::size_t rival, const Chosen& others,
                                   const Eigen::VectorXd& error) const;
   void name_common_causes(const Chosen& accepted, const Eigen::VectorXd& error,

@@ -83,6 +83,25 @@ TEST(Verdicts, NameAVectorThatContainsAFinding) {
   EXPECT_EQ(verdicts(log, {one})[0].ambiguous, Chosen{rival});
 }
 
+/// Likewise in every log: its further number says nothing, and what that costs is no evidence, be
+/// it that all blocks agree. Where the two differ it is none of them.
+TEST(Verdicts, NameAVectorWhateverItsFurtherNumberCosts) {
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    for (const double difference : {0.0, 0.1}) {
+      Planted log(seed);
+      const Eigen::MatrixXd offset = log.normal(1);
+      Eigen::MatrixXd tilt(Planted::rows, 2);
+      tilt << offset + difference * log.normal(1), log.normal(1);
+      const std::size_t one = log.add(law("offset"), offset);
+      const std::size_t rival = log.add(law("tilt", 2, "rad"), tilt);
+      log.plant(one, number(Planted::size_of(200.0)));
+      log.add_noise();
+      EXPECT_EQ(verdicts(log, {one})[0].ambiguous, difference > 0.0 ? Chosen{} : Chosen{rival})
+          << seed;
+    }
+  }
+}
+
 /// A spring contains an offset. Where only the offset is there it is not named; where its stiffness
 /// alone looks like the offset it is a cause of its own.
 TEST(Verdicts, NameWhatContainsAFindingOnlyIfItDoesWithout) {
