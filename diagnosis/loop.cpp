@@ -41,6 +41,7 @@ class Loop {
     seek_until_all_stay();
   }
 
+  /// What these are called, and what is said of them.
   LoopResult run() {
     question_names(state_);
     while (ban_mere_moments()) {
