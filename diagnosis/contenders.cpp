@@ -31,7 +31,7 @@ Chosen Contenders::usual() const {
 }
 
 bool Contenders::is_hidden(std::size_t k, const Chosen& others) const {
-  return !hidden_too_ && fits_.promises(terms(others), {candidates_[k].term}).front().hidden();
+  return fits_.promises(terms(others), {candidates_[k].term}).front().hidden();
 }
 
 std::vector<Term> Contenders::terms(const Chosen& chosen) const {

@@ -31,7 +31,7 @@ class Contenders {
   [[nodiscard]] const Candidate& operator[](std::size_t k) const { return candidates_[k]; }
   /// Of the effects that are usually fitted, those that always act, at each place.
   [[nodiscard]] Chosen usual() const;
-  /// Whether k is not asked at all, because the data cannot tell it from masses and the others.
+  /// Whether the data cannot tell k from masses and the others.
   [[nodiscard]] bool is_hidden(std::size_t k, const Chosen& others) const;
   /// Parameters of all together; groups have none of their own.
   [[nodiscard]] double parameters() const;

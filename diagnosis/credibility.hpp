@@ -40,6 +40,8 @@ class Credibility {
   /// larger t of both counts. Fewer blocks mean a wider limit; t is in proportion to that of all.
   [[nodiscard]] Gain gain_by(std::size_t k, const Eigen::VectorXd& before,
                              const Eigen::VectorXd& after) const;
+  /// Standard errors by which held-out blocks have to gain.
+  [[nodiscard]] double limit() const { return limit_; }
   /// Held-out blocks gain enough by it.
   [[nodiscard]] bool passes(const Scored& s) const { return s.t > limit_ && s.gain > 0.0; }
 

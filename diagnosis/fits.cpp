@@ -104,6 +104,10 @@ void BlockFits::assign_folds(int stretches) {
   }
 }
 
+double BlockFits::square_of_noise(double error) const {
+  return error / std::max(1.0, tally_.freedom);
+}
+
 int BlockFits::fold_of(std::size_t block) const { return fold_[block]; }
 
 const Eigen::MatrixXd& BlockFits::sums(int left_out, std::size_t from) const {

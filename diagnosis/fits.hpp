@@ -86,6 +86,10 @@ class BlockFits {
     return static_cast<Eigen::Index>(tally_.blocks.size() - first_block_);
   }
 
+  /// Of one number, where so much squared error is left. What differs by less is no evidence, be it
+  /// so in every block.
+  [[nodiscard]] double square_of_noise(double error) const;
+
   /// All blocks in; deviations for inertial columns.
   [[nodiscard]] Fit fit(const std::vector<Term>& terms) const;
   /// Weighted squared error of every block that can be held out, each predicted by the fit without

@@ -10,12 +10,6 @@ namespace {
 constexpr double weakest = 1.0, strongest = 1000.0;
 constexpr double as_if_nothing_held = 1e-4;
 
-// What differs by less than the square of one number's noise is no evidence, be it so in every
-// block.
-double square_of_noise(const BlockFits& fits, double error) {
-  return error / std::max(1.0, fits.tally().freedom);
-}
-
 }  // namespace
 
 double choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
@@ -32,7 +26,7 @@ double choose_prior(BlockFits& fits, const std::vector<Term>& terms) {
   const auto best = std::min_element(
       errors.begin(), errors.end(), [](const auto& a, const auto& b) { return a.sum() < b.sum(); });
   constexpr double told_apart = 1.0;  // standard errors, as usual in cross-validation
-  const double noise = square_of_noise(fits, best->sum());
+  const double noise = fits.square_of_noise(best->sum());
   for (std::size_t i = 0; i < priors.size(); ++i) {
     const double worse = errors[i].sum() - best->sum();
     if (!(worse > noise) || gain_of(errors[i], *best).t < told_apart) chosen = priors[i];
@@ -47,7 +41,7 @@ bool masses_want_more(BlockFits fits, const std::vector<Term>& terms, double lea
   const Eigen::VectorXd within = fits.held_out(terms);
   fits.set_prior(as_if_nothing_held);
   const Eigen::VectorXd beyond = fits.held_out(terms);
-  return within.sum() - beyond.sum() > square_of_noise(fits, beyond.sum()) &&
+  return within.sum() - beyond.sum() > fits.square_of_noise(beyond.sum()) &&
          gain_of(within, beyond).t > least_t;
 }
 

@@ -9,7 +9,6 @@
 #include "shapeid/diagnosis/credibility.hpp"
 #include "shapeid/diagnosis/fits_around.hpp"
 #include "shapeid/diagnosis/verdicts.hpp"
-#include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -51,9 +50,8 @@ class Search {
   /// roboticist would: with all that is usually fitted, of which stays what would be accepted
   /// beside the rest, now and in the end.
   void try_from_usual() {
-    const double enough = limit_for(rule_.least_t, fits_.held_blocks());
     const Chosen usual = contenders_.usual();
-    const Chosen start = worthy(pruned(usual, enough), usual);
+    const Chosen start = worthy(pruned(usual, credibility_.limit()), usual);
     if (std::ranges::all_of(start, [this](std::size_t k) { return is_accepted(k); })) return;
     const Chosen accepted = std::exchange(accepted_, start);
     const auto came_with = std::exchange(came_with_, {});
@@ -80,7 +78,8 @@ class Search {
     const std::vector<Term> without = contenders_.terms(others),
                             with = contenders_.terms(others, k);
     const Gain gain = credibility_.gain_by(k, fits_.held_out(without), fits_.held_out(with));
-    return credibility_.passes({k, gain.share, gain.t, {}}) && !contenders_.is_hidden(k, others) &&
+    return credibility_.passes({k, gain.share, gain.t, {}}) &&
+           (rule_.hidden_too || !contenders_.is_hidden(k, others)) &&
            credibility_.credible(k, others, fits_.fit(without), fits_.fit(with));
   }
 

@@ -51,9 +51,7 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
   const FitsAround around(fits_, contenders_.terms(others));
   const Eigen::VectorXd& without = around.error();
   const Gain gain = credibility_.gain_by(k, without, error);
-  const bool hidden =
-      fits_.promises(contenders_.terms(others), {contenders_[k].term}).front().hidden();
-  Verdict verdict{k, gain.share, gain.t, true, hidden, false, {}};
+  Verdict verdict{k, gain.share, gain.t, true, contenders_.is_hidden(k, others), false, {}};
   const std::optional<std::size_t> in_both = contenders_.acting_in_both(k);
   if (in_both && !contenders_.is_among(*in_both, others)) {
     const Eigen::VectorXd instead = around.with(contenders_[*in_both].term);
@@ -103,9 +101,8 @@ bool Verdicts::costs_its_numbers(std::size_t rival, std::size_t k, const Eigen::
   const std::size_t own = contenders_[k].term.columns.size();
   if (numbers <= own || !any_direction_is_one(*contenders_[rival].effect.effect)) return false;
   constexpr double three_errors = 9.0;
-  const double square_of_noise = error.sum() / std::max(1.0, fits_.tally().freedom);
   return instead.sum() - error.sum() <=
-         three_errors * square_of_noise * static_cast<double>(numbers - own);
+         three_errors * fits_.square_of_noise(error.sum()) * static_cast<double>(numbers - own);
 }
 
 /// Whether a rival that contains k does as well without the part that contains it: a spring

@@ -417,7 +417,6 @@ TEST(Selection, TheSecondSearchBeginsWithWhatIsAsked) {
   EXPECT_EQ(accepted(log.selection(from_usual())), Numbers{});
   const BlockFits fits_of_log = log.fits();
   EXPECT_TRUE(Contenders(fits_of_log, log.masses(), log.candidates()).is_hidden(twin, {}));
-  EXPECT_FALSE(Contenders(fits_of_log, log.masses(), log.candidates(), true).is_hidden(twin, {}));
 
   Planted with_reference(3);
   const std::size_t came = with_reference.add(usual, with_reference.normal(1), 0);
