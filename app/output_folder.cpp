@@ -18,6 +18,7 @@ OutputFolder::OutputFolder(const std::string& folder) : folder_(folder) {
 
 void OutputFolder::write(const std::vector<OutputFile>& files) const {
   std::vector<FileText> texts;
+  texts.reserve(files.size());
   for (const OutputFile& file : files) {
     texts.push_back({(folder_ / file.name).string(), file.content});
   }

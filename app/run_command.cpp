@@ -47,6 +47,7 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
   const std::vector<const CLI::App*> verbs = app.get_subcommands({});
   if (argc < 2 || verbs.empty() || *argv[1] == '-') return;
   std::vector<std::string> names;
+  names.reserve(verbs.size());
   for (const CLI::App* verb : verbs) names.push_back(verb->get_name());
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
   throw InputError(fmt::format("there is no verb \"{}\"", argv[1]),
@@ -79,6 +80,7 @@ int run_command(CLI::App& app, int argc, char** argv) {
     check_verb(app, argc, argv);
     const std::vector<std::string> words = with_leading_digits(argc, argv);
     std::vector<const char*> pointers;
+    pointers.reserve(words.size());
     for (const std::string& word : words) pointers.push_back(word.c_str());
     app.parse(argc, pointers.data());
     return finish_output();

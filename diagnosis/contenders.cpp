@@ -30,8 +30,8 @@ Chosen Contenders::usual() const {
   return list;
 }
 
-bool Contenders::is_hidden(std::size_t k, const Chosen& others) const {
-  return fits_.promises(terms(others), {candidates_[k].term}).front().hidden();
+bool Contenders::is_contained(std::size_t k, const Chosen& others) const {
+  return fits_.promises(terms(others), {candidates_[k].term}).front().contained();
 }
 
 std::vector<Term> Contenders::terms(const Chosen& chosen) const {
@@ -118,9 +118,8 @@ Shortlist Contenders::shortlist(const Chosen& chosen, int length, const Chosen& 
     const auto of_one_place =
         std::count_if(list.listed.begin(), list.listed.end(),
                       [&](std::size_t other) { return same_place(open[i], other); });
-    const bool hidden = promises[i].hidden();
-    if (hidden) list.hidden.push_back(open[i]);
-    if (hidden && !hidden_too_) continue;
+    if (promises[i].hidden()) list.hidden.push_back(open[i]);
+    if (promises[i].contained() && !contained_too_) continue;
     if (std::ssize(list.listed) < length && of_one_place < most_of_one_place) {
       list.listed.push_back(open[i]);
     }

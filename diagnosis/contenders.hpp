@@ -17,22 +17,22 @@ using Chosen = std::vector<std::size_t>;
 
 struct Shortlist {
   Chosen listed;  ///< the most promising first
-  Chosen hidden;  ///< the data cannot tell them from masses and what is chosen
+  Chosen hidden;  ///< the data can hardly tell them from masses and what is chosen
 };
 
 /// All arguments of the constructor must outlive this.
 class Contenders {
  public:
-  /// `hidden_too`: what the data cannot tell from masses is listed as well.
+  /// `contained_too`: what the data cannot tell from masses is listed as well.
   Contenders(const BlockFits& fits, const Term& masses, const std::vector<Candidate>& candidates,
-             bool hidden_too = false)
-      : fits_(fits), masses_(masses), candidates_(candidates), hidden_too_(hidden_too) {}
+             bool contained_too = false)
+      : fits_(fits), masses_(masses), candidates_(candidates), contained_too_(contained_too) {}
 
   [[nodiscard]] const Candidate& operator[](std::size_t k) const { return candidates_[k]; }
   /// Of the effects that are usually fitted, those that always act, at each place.
   [[nodiscard]] Chosen usual() const;
   /// Whether the data cannot tell k from masses and the others.
-  [[nodiscard]] bool is_hidden(std::size_t k, const Chosen& others) const;
+  [[nodiscard]] bool is_contained(std::size_t k, const Chosen& others) const;
   /// Parameters of all together; groups have none of their own.
   [[nodiscard]] double parameters() const;
 
@@ -72,7 +72,7 @@ class Contenders {
   const BlockFits& fits_;
   const Term& masses_;
   const std::vector<Candidate>& candidates_;
-  bool hidden_too_;
+  bool contained_too_;
 };
 
 /// Numbers `from` and the following n of a fit.

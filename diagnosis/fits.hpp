@@ -106,8 +106,11 @@ class BlockFits {
   /// what share of the term's columns the others leave free: 0 for one that they already contain.
   struct Promise {
     double gain = 0.0, free_share = 0.0;
-    /// The data cannot tell it from the others.
+    /// The others say nearly the same: its numbers may be as large as they like.
     [[nodiscard]] bool hidden() const { return free_share < 1e-4; }
+    /// The data cannot tell it from the others: that columns differ by a thousandth of their length
+    /// is no evidence, for measured motion does not make them better than that.
+    [[nodiscard]] bool contained() const { return free_share < 1e-6; }
   };
   [[nodiscard]] std::vector<Promise> promises(const std::vector<Term>& terms,
                                               const std::vector<Term>& candidates) const;

@@ -170,7 +170,7 @@ class Loop {
     const std::vector<Candidate> list = listed(fits);
     // From the beginning each time: what was accepted with worse weights has to prove itself again.
     SelectionRule rule = state_.rule();
-    rule.hidden_too = masses_want_more(fits, {fixed}, rule.least_t);
+    rule.contained_too = masses_want_more(fits, {fixed}, rule.least_t);
     rule.from_usual = from_usual_;
     const Selection selection = select(fits, fixed, list, rule);
     has_other_way_ = has_other_way_ || selection.usual_is_better;

@@ -25,7 +25,7 @@ class Search {
          const SelectionRule& rule)
       : fits_(fits),
         rule_(rule),
-        contenders_(fits, masses, candidates, rule.hidden_too),
+        contenders_(fits, masses, candidates, rule.contained_too),
         credibility_(fits, contenders_, rule) {}
 
   Selection run() {
@@ -79,7 +79,7 @@ class Search {
                             with = contenders_.terms(others, k);
     const Gain gain = credibility_.gain_by(k, fits_.held_out(without), fits_.held_out(with));
     return credibility_.passes({k, gain.share, gain.t, {}}) &&
-           (rule_.hidden_too || !contenders_.is_hidden(k, others)) &&
+           (rule_.contained_too || !contenders_.is_contained(k, others)) &&
            credibility_.credible(k, others, fits_.fit(without), fits_.fit(with));
   }
 

@@ -46,7 +46,7 @@ struct SelectionRule {
   bool from_usual = false;
   /// What the data cannot tell from masses is asked, too. It is accepted only if masses that stay
   /// as near to the given ones as the prior has it cannot say the same.
-  bool hidden_too = false;
+  bool contained_too = false;
 };
 
 /// What no longer gains this many standard errors, all else in, is dropped again.
@@ -89,7 +89,7 @@ struct Selection {
   std::vector<Verdict> accepted;     ///< what remained at the end
   std::vector<Scored> last_ranking;  ///< of what was not accepted
   std::vector<Scored> wrong_signs;   ///< evidence of something else
-  std::vector<std::size_t> hidden;   ///< the data cannot tell them from masses and what is fitted
+  std::vector<std::size_t> hidden;   ///< BlockFits::Promise::hidden beside masses and accepted ones
   Eigen::VectorXd error_end;         ///< per held-out block
   Fit fit;                           ///< masses, then accepted in their order
 };

@@ -23,8 +23,6 @@ constexpr double least_of_both = 1.2;
 // Neighbouring blocks are correlated, and errors from so few are uncertain: they count as half as
 // many. (Among 36 clean logs one in six had a law of more than 4.5 standard errors between blocks.)
 constexpr Eigen::Index blocks_for_one = 2;
-// As for names: the data cannot see less.
-constexpr double least_free_share = 1e-4;
 
 }  // namespace
 
@@ -62,7 +60,7 @@ std::vector<std::size_t> StrangerLaws::shortlist(const std::vector<Term>& beside
     const bool is_taken = std::any_of(taken.begin(), taken.end(), [&](std::size_t other) {
       return law(other).joint == law(s).joint;
     });
-    if (!is_taken && promises[s].free_share > least_free_share) order.push_back(s);
+    if (!is_taken && !promises[s].hidden()) order.push_back(s);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return promises[a].gain > promises[b].gain;

@@ -51,7 +51,7 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
   const FitsAround around(fits_, contenders_.terms(others));
   const Eigen::VectorXd& without = around.error();
   const Gain gain = credibility_.gain_by(k, without, error);
-  Verdict verdict{k, gain.share, gain.t, true, contenders_.is_hidden(k, others), false, {}};
+  Verdict verdict{k, gain.share, gain.t, true, contenders_.is_contained(k, others), false, {}};
   const std::optional<std::size_t> in_both = contenders_.acting_in_both(k);
   if (in_both && !contenders_.is_among(*in_both, others)) {
     const Eigen::VectorXd instead = around.with(contenders_[*in_both].term);

@@ -23,7 +23,7 @@ Violation why_on_known_links(const BodyModel& model) {
 }
 
 Violation why_malformed(const BodyModel& model, const Robot& robot) {
-  if (model.known.size() != 10 * robot.link_count()) {
+  if (model.known.size() != Eigen::Index{10} * robot.link_count()) {
     return fmt::format("known parameters have {} entries, the robot needs {}", model.known.size(),
                        10 * robot.link_count());
   }
@@ -60,7 +60,7 @@ Eigen::VectorXd shape_volumes(const BodyModel& model) {
 Eigen::VectorXd all_parameters(const BodyModel& model, const Eigen::VectorXd& Phi_free) {
   Eigen::VectorXd Phi = model.known;
   for (std::size_t i = 0; i < model.free_links.size(); ++i) {
-    Phi.segment<10>(10 * model.free_links[i]) +=
+    Phi.segment<10>(Eigen::Index{10} * model.free_links[i]) +=
         Phi_free.segment<10>(10 * static_cast<Eigen::Index>(i));
   }
   return Phi;

@@ -78,8 +78,9 @@ double noise_left_over_taken(double cutoff, double rate) {
   // Sums over the band, as fine as the filter's edge asks for.
   const double step = std::min(0.5 * rate / 1000.0, 0.01 * cutoff);
   double left = 0.0, taken = 0.0;
-  for (double f = 0.5 * step; f < 0.5 * rate; f += step) {
-    const double gain = std::pow(filter.gain(f), 2);  // of both passes
+  const int steps = static_cast<int>(std::ceil(0.5 * rate / step - 0.5));
+  for (int i = 0; i < steps; ++i) {
+    const double gain = std::pow(filter.gain((i + 0.5) * step), 2);  // of both passes
     left += gain * gain;
     taken += (1.0 - gain) * (1.0 - gain);
   }

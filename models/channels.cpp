@@ -21,6 +21,7 @@ constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
 
 std::vector<std::string> with_axes(const std::string& quantity) {
   std::vector<std::string> names;
+  names.reserve(axes.size());
   for (const char* axis : axes) names.push_back(quantity + "." + axis);
   return names;
 }
@@ -131,7 +132,7 @@ void declare_torque(const std::optional<Mapping>& mapping, const std::string& pa
                     const Robot& robot, ChannelPlan& plan) {
   const TorqueKind kind = mapping && mapping->torque ? *mapping->torque : TorqueKind::joint;
   for (int j = 0; j < robot.joint_count(); ++j) {
-    Channel& tau = plan.channels[static_cast<std::size_t>(plan.tau + j)];
+    Channel& tau = plan.channels[static_cast<std::size_t>(plan.tau) + static_cast<std::size_t>(j)];
     const std::string& joint = robot.joint(j).name;
     if (!(mapping && mapping->torque) && tau.from != tau.name &&
         sounds_like_current_or_motor(tau.from)) {
@@ -213,6 +214,7 @@ ChannelPlan plan_channels(const LogTable& log, const Robot& robot,
 
   const auto per_joint = [&](const std::string& quantity) {
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(robot.joint_count()));
     for (int j = 0; j < robot.joint_count(); ++j) {
       names.push_back(quantity + "." + robot.joint(j).name);
     }

@@ -97,7 +97,7 @@ BodyModel default_shapes(const Robot& robot, const std::vector<int>& free_links)
   const auto last = std::unique(model.free_links.begin(), model.free_links.end());
   model.free_links.erase(last, model.free_links.end());
   for (const int i : model.free_links) {
-    model.known.segment<10>(10 * i).setZero();
+    model.known.segment<10>(Eigen::Index{10} * i).setZero();
     const Link& link = robot.links.at(static_cast<std::size_t>(i));
     for (Shape& shape : of_size("a shape of link " + link.name, [&] { return shapes_of(link); })) {
       model.shapes.push_back({i, std::move(shape), std::to_string(model.shapes.size())});

@@ -121,7 +121,7 @@ class LineSource {
   bool next(std::string& line) {
     line.clear();
     while (true) {
-      const auto end = std::find(begin_, end_, '\n');
+      const auto* const end = std::find(begin_, end_, '\n');
       line.append(begin_, end);
       refuse_long(line.size(), {path_, number_ + 1});
       if (end != end_) {

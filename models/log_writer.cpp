@@ -80,7 +80,7 @@ void LogWriter::write(const std::vector<double>& values) {
     if (std::isinf(value)) throw Defect("an infinity in a log");
     if (!std::isnan(value)) {
       std::array<char, 32> digits;  // the longest shortest double has 24 characters
-      const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+      auto* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
       line.append(digits.data(), end);
     }
     line.push_back(',');

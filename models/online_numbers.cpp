@@ -26,7 +26,7 @@ void check_online(const OnlineNumbers& numbers) {
 }
 
 Eigen::VectorXd online_weight(const Eigen::VectorXd& given, Eigen::Index dof) {
-  const Eigen::VectorXd weight = given.size() > 0 ? given : Eigen::VectorXd::Ones(dof).eval();
+  Eigen::VectorXd weight = given.size() > 0 ? given : Eigen::VectorXd::Ones(dof).eval();
   if (weight.size() == dof && (weight.array() > 0.0).all() && weight.allFinite()) return weight;
   throw InputError("the weight is not a positive number for each of the robot's equations",
                    "one entry a generalised coordinate, 1 / sigma^2");

@@ -65,7 +65,7 @@ void refuse_moments_without_mass(Order order, const InertialParameters& body) {
 }  // namespace
 
 Order order_named(std::string_view name) {
-  const auto found = std::find(order_names.begin(), order_names.end(), name);
+  const auto* const found = std::find(order_names.begin(), order_names.end(), name);
   if (found == order_names.end()) {
     throw InputError(fmt::format("no order of inertial parameters is called {}", name),
                      fmt::format("choose one of {}", fmt::join(order_names, ", ")));

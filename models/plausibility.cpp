@@ -185,8 +185,9 @@ void Plausibility::judge_slope(int j) const {
   if (!(s.xy * s.xy > correlated * correlated * s.xx * s.yy)) return;
   const double slope = s.xy / s.xx;
   if (near(slope, 1.0)) return;
-  std::string wrong = fmt::format("is {:.3g} times the derivative of {}", slope,
-                                  plan_.channels[static_cast<std::size_t>(plan_.q + j)].from);
+  std::string wrong = fmt::format(
+      "is {:.3g} times the derivative of {}", slope,
+      plan_.channels[static_cast<std::size_t>(plan_.q) + static_cast<std::size_t>(j)].from);
   std::string right = "give rad/s and rad (m/s and m) of the same joint, and seconds";
   if (near(slope, -1.0)) right = "give both the same sign (mapping: sign: -1)";
   if (near(slope, 1.0 / degree)) wrong += ": its unit looks like degrees per second";

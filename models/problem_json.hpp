@@ -10,7 +10,7 @@
 namespace shapeid {
 
 /// Numbers are written as the shortest decimals that read back to the same double.
-[[nodiscard]] std::string problem_to_json(const StatedProblem& problem);
+[[nodiscard]] std::string problem_to_json(const StatedProblem& stated);
 [[nodiscard]] std::string problem_to_json(const MassProblem& problem);
 /// `name` stands for the file in messages. Throws InputError: not JSON, wrong version, a key that
 /// is missing, unknown or there twice, sizes that disagree, numbers that are not finite.

@@ -69,7 +69,7 @@ Violation why_malformed(const Robot& robot) {
 Eigen::VectorXd stacked_parameters(const Robot& robot) {
   Eigen::VectorXd Phi(10 * robot.link_count());
   for (int i = 0; i < robot.link_count(); ++i) {
-    Phi.segment<10>(10 * i) = robot.links[static_cast<std::size_t>(i)].inertia.values;
+    Phi.segment<10>(Eigen::Index{10} * i) = robot.links[static_cast<std::size_t>(i)].inertia.values;
   }
   return Phi;
 }

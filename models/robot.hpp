@@ -127,11 +127,11 @@ struct Robot {
     return links[static_cast<std::size_t>(j) + 1].joint;
   }
 
-  /// Where the URDF link `name` went; empty if there is none.
-  [[nodiscard]] std::optional<LinkSite> find_site(const std::string& name) const;
-  /// Index of the lumped link that the URDF link `name` belongs to; empty if there is none.
-  [[nodiscard]] std::optional<int> find_link(const std::string& name) const;
-  [[nodiscard]] std::optional<int> find_joint(const std::string& name) const;
+  /// Where the URDF link `wanted` went; empty if there is none.
+  [[nodiscard]] std::optional<LinkSite> find_site(const std::string& wanted) const;
+  /// Index of the lumped link that the URDF link `wanted` belongs to; empty if there is none.
+  [[nodiscard]] std::optional<int> find_link(const std::string& wanted) const;
+  [[nodiscard]] std::optional<int> find_joint(const std::string& wanted) const;
 };
 
 /// Empty if indices, axes, poses and inertias are as promised above.

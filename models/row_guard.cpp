@@ -144,7 +144,7 @@ void RowGuard::judge_outliers(std::size_t at) {
       const double other = held_[k].row.values[i];
       if (!std::isnan(other)) around[count++] = other;
     }
-    const auto middle = around.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    auto* const middle = around.begin() + static_cast<std::ptrdiff_t>(count / 2);
     std::nth_element(around.begin(), middle, around.begin() + static_cast<std::ptrdiff_t>(count));
     const double distance = std::abs(value - *middle);
     const double most = std::max(far * ordinary_[i], harmless * largest_[i]);

@@ -125,7 +125,7 @@ BodyModel read_shapes_yaml(const std::string& path, const Robot& robot) {
     std::vector<Shape>& shapes = said[static_cast<std::size_t>(i)].shapes;
     if (shapes.empty()) continue;
     model.free_links.push_back(i);
-    model.known.segment<10>(10 * i).setZero();
+    model.known.segment<10>(Eigen::Index{10} * i).setZero();
     for (Shape& shape : shapes) {
       model.shapes.push_back({i, std::move(shape), std::to_string(model.shapes.size())});
     }

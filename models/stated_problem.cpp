@@ -18,7 +18,7 @@ Violation why_misplaced(const Region& region, const char* what, const StatedProb
 }  // namespace
 
 Violation why_malformed(const StatedProblem& p) {
-  if (const Violation why = why_malformed(p.masses)) return why;
+  if (Violation why = why_malformed(p.masses)) return why;
   if (!(p.masses.mass_bound >= 0.0 && std::isfinite(p.masses.mass_bound))) {
     return "the mass bound is negative or not finite";
   }
@@ -37,10 +37,10 @@ Violation why_malformed(const StatedProblem& p) {
     }
   }
   for (const Region& region : p.regions) {
-    if (const Violation why = why_misplaced(region, "a region", p)) return why;
+    if (Violation why = why_misplaced(region, "a region", p)) return why;
   }
   for (const Region& shape : p.shapes) {
-    if (const Violation why = why_misplaced(shape, "a shape", p)) return why;
+    if (Violation why = why_misplaced(shape, "a shape", p)) return why;
   }
   if (!p.shapes.empty() && static_cast<Eigen::Index>(p.shapes.size()) != p.masses.shapes()) {
     return fmt::format("{} shapes are stated, U has {} columns", p.shapes.size(),

@@ -28,10 +28,10 @@ void fill_column(Bytes& bytes, int decades, Eigen::Index first, Eigen::Index j,
 MassProblem any_problem(Bytes& bytes, int decades) {
   const int links = bytes.count(1, 2), rows = bytes.count(0, 12), shapes = bytes.count(0, 8);
   MassProblem p;
-  p.Y = Eigen::MatrixXd::Zero(rows, 10 * links);
+  p.Y = Eigen::MatrixXd::Zero(rows, Eigen::Index{10} * links);
   p.F.resize(rows);
   p.W.resize(rows);
-  p.U = Eigen::MatrixXd::Zero(10 * links, shapes);
+  p.U = Eigen::MatrixXd::Zero(Eigen::Index{10} * links, shapes);
   p.V.resize(shapes);
   switch (bytes.count(0, 2)) {
     case 0:

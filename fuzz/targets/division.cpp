@@ -52,16 +52,17 @@ test::ModelWithRows any_case(fuzz::Bytes& bytes) {
   test::ModelWithRows result;
   BodyModel& model = result.model;
   const int links = bytes.count(1, 2);
+  const Eigen::Index numbers = Eigen::Index{10} * links;
   for (int i = 0; i < links; ++i) {
     model.free_links.push_back(i);
     for (int shapes = bytes.count(1, 3); shapes > 0; --shapes) {
       model.shapes.push_back({i, any_shape(bytes), std::to_string(model.shapes.size())});
     }
   }
-  model.known = Eigen::VectorXd::Zero(10 * links);
+  model.known = Eigen::VectorXd::Zero(numbers);
   MassProblem& p = result.problem;
   const int rows = bytes.count(1, 18);
-  p.Y.resize(rows, 10 * links);
+  p.Y.resize(rows, numbers);
   p.F.resize(rows);
   p.W.resize(rows);
   for (int i = 0; i < rows; ++i) {

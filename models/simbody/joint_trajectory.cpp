@@ -80,6 +80,7 @@ void simulate_joint_trajectory(const Robot& robot, const JointTrajectoryOptions&
   const SimbodyRobot simbody(robot);
   Random random(options.seed);
   std::vector<MultiSine> motions;
+  motions.reserve(static_cast<std::size_t>(robot.joint_count()));
   for (int j = 0; j < robot.joint_count(); ++j) {
     motions.push_back(draw(robot.joint(j), options, random));
   }

@@ -99,16 +99,16 @@ Multibody::Multibody(const Robot& robot) : floating_(robot.root == Root::floatin
   }
 }
 
-void Multibody::set(SimTK::State& state, const RobotState& s) const {
-  const Eigen::Matrix3d R = s.base.linear();
+void Multibody::set(SimTK::State& state, const RobotState& robot_state) const {
+  const Eigen::Matrix3d R = robot_state.base.linear();
   if (floating_) {
-    body(0).setQToFitTransform(state, to_transform(s.base));
-    body(0).setUToFitAngularVelocity(state, to_vec3(R * s.base_angular_velocity));
-    body(0).setUToFitLinearVelocity(state, to_vec3(R * s.base_linear_velocity));
+    body(0).setQToFitTransform(state, to_transform(robot_state.base));
+    body(0).setUToFitAngularVelocity(state, to_vec3(R * robot_state.base_angular_velocity));
+    body(0).setUToFitLinearVelocity(state, to_vec3(R * robot_state.base_linear_velocity));
   }
   for (int j = 0; j < joint_count(); ++j) {
-    body(j + 1).setOneQ(state, 0, s.q[j]);
-    body(j + 1).setOneU(state, 0, s.dq[j]);
+    body(j + 1).setOneQ(state, 0, robot_state.q[j]);
+    body(j + 1).setOneU(state, 0, robot_state.dq[j]);
   }
 }
 

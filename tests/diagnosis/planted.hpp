@@ -34,6 +34,11 @@ class Planted {
   /// Normal numbers of unit variance, rows x columns; each has this share of the one above.
   [[nodiscard]] Eigen::MatrixXd normal(Eigen::Index columns, double memory = 0.0);
 
+  /// What an inertial parameter multiplies.
+  [[nodiscard]] Eigen::VectorXd column_of_mass(Eigen::Index parameter) const {
+    return columns_.col(parameter);
+  }
+
   /// A candidate of this law and these columns, one a parameter, from a block on; its number.
   std::size_t add(const Effect& effect, const Eigen::MatrixXd& columns, int site = 0,
                   std::size_t from_block = 0);

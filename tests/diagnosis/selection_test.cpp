@@ -141,11 +141,33 @@ TEST(Selection, WhatMassesContainIsHidden) {
   EXPECT_EQ(s.hidden, Numbers{twin});
 }
 
+/// A spring near rest is weight but for a hundredth of its column and less; one that is large
+/// enough shows in that. (Blind trial 8 of seed 9557: a ripple had taken its place.) A column that
+/// differs by less than a thousandth of itself is not known that well.
+TEST(Selection, WhatMassesNearlyContainIsFoundWhereItShows) {
+  for (const unsigned seed : {2u, 3u, 4u}) {
+    for (const double part : {5e-3, 2e-3, 5e-4, 1e-4}) {
+      Planted log(seed);
+      const Eigen::VectorXd near = log.column_of_mass(3) + part * log.normal(1);
+      const std::size_t k = log.add(law("near"), near);
+      log.plant(k, one_number(Planted::size_of(30.0) / part));
+      log.add_noise();
+      const bool is_known = part > 1e-3;
+      const Selection s = log.selection();
+      EXPECT_EQ(accepted(s), is_known ? Numbers{k} : Numbers{}) << part;
+      // Others nearly say it, so it is told as hidden as long as it is not found.
+      EXPECT_EQ(s.hidden, is_known ? Numbers{} : Numbers{k}) << part;
+      const BlockFits fits = log.fits();
+      EXPECT_TRUE(fits.promises({log.masses()}, {log.candidates()[k].term}).front().hidden());
+    }
+  }
+}
+
 /// A thousand times the usual size of the number that says the same: that one falls short of it by
 /// one, which the log shows.
 TEST(Selection, WhatMassesContainIsAskedWhereTheyFallShort) {
   for (const double size : {0.0, 1.0, 1000.0}) {
-    for (const bool hidden_too : {false, true}) {
+    for (const bool contained_too : {false, true}) {
       Planted log(2);
       const std::size_t twin = log.add(law("twin"), log.normal(1));
       log.candidates()[twin].term.columns = {log.masses().columns[3]};
@@ -154,9 +176,9 @@ TEST(Selection, WhatMassesContainIsAskedWhereTheyFallShort) {
       log.plant(open, one_number(Planted::size_of(30.0)));
       log.add_noise();
       SelectionRule rule;
-      rule.hidden_too = hidden_too;
+      rule.contained_too = contained_too;
       const Selection s = log.selection(rule);
-      const bool found = hidden_too && size > 1.0;
+      const bool found = contained_too && size > 1.0;
       EXPECT_EQ(accepted(s), found ? (Numbers{twin, open}) : Numbers{open}) << size;
       EXPECT_FALSE(verdict_on(open, s).hangs_on_given);
       if (found) {
@@ -416,7 +438,7 @@ TEST(Selection, TheSecondSearchBeginsWithWhatIsAsked) {
   log.add_noise();
   EXPECT_EQ(accepted(log.selection(from_usual())), Numbers{});
   const BlockFits fits_of_log = log.fits();
-  EXPECT_TRUE(Contenders(fits_of_log, log.masses(), log.candidates()).is_hidden(twin, {}));
+  EXPECT_TRUE(Contenders(fits_of_log, log.masses(), log.candidates()).is_contained(twin, {}));
 
   Planted with_reference(3);
   const std::size_t came = with_reference.add(usual, with_reference.normal(1), 0);
