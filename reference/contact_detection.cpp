@@ -31,7 +31,7 @@ Eigen::VectorXd supporting_forces(const Robot& robot, const Sample& sample,
 std::vector<bool> detect_contacts(const Robot& robot, const Sample& sample,
                                   const Eigen::VectorXd& Phi, double share) {
   double mass = 0.0;
-  for (int i = 0; i < robot.link_count(); ++i) mass += Phi[10 * i];
+  for (int i = 0; i < robot.link_count(); ++i) mass += Phi[Eigen::Index{10} * i];
   constexpr double gravity = 9.81;
   const Eigen::VectorXd force = supporting_forces(robot, sample, Phi);
   std::vector<bool> touching;

@@ -48,7 +48,7 @@ Eigen::MatrixXd regressor(const Robot& robot, const Sample& sample) {
     B.bottomRows<3>() = R * B.bottomRows<3>();
     // Equation (3): a wrench on the link counts in each generalised direction by the velocity that
     // this direction gives the link (virtual power).
-    Y.middleCols<10>(10 * i) =
+    Y.middleCols<10>(Eigen::Index{10} * i) =
         point_jacobian(robot, motions, i, link.pose.translation()).transpose() * B;
   }
   return Y;

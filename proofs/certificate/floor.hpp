@@ -14,13 +14,13 @@ namespace shapeid::certificate {
 /// unknowns: the nearer they are to the limit, the higher the floor. For masses that add up to no
 /// more than the declared mass bound. Empty if the problem has no regions on some free link, or no
 /// declared bound where one is needed.
-[[nodiscard]] std::optional<Rational> floor_of_divisions(const StatedProblem& problem,
+[[nodiscard]] std::optional<Rational> floor_of_divisions(const StatedProblem& stated,
                                                          const Eigen::VectorXd& Phi,
                                                          const Eigen::VectorXd& x);
 
 /// The same for all bodies that can exist, wherever they have mass: links with a
 /// positive semidefinite pseudo-inertia. Empty also if no finite bound follows from this residual.
-[[nodiscard]] std::optional<Rational> floor_of_bodies(const StatedProblem& problem,
+[[nodiscard]] std::optional<Rational> floor_of_bodies(const StatedProblem& stated,
                                                       const Eigen::VectorXd& Phi,
                                                       const Eigen::VectorXd& x);
 

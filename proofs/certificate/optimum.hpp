@@ -28,7 +28,6 @@ struct Optimum {
 /// lambda > 0, a few that the exact slopes then suggest. Empty if none is right, or if the minimum
 /// over m >= 0 breaks a declared mass bound. With lambda = 0 dependent shapes keep the start's
 /// mass.
-[[nodiscard]] std::optional<Optimum> prove_optimum(const StatedProblem& problem,
-                                                   const Start& start);
+[[nodiscard]] std::optional<Optimum> prove_optimum(const StatedProblem& stated, const Start& start);
 
 }  // namespace shapeid::certificate

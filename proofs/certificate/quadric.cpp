@@ -121,6 +121,7 @@ std::vector<Vector> polygon_around(const Rational& radius) {
   const double step = 2.0 * std::numbers::pi / sides;
   const double corner = (1.0 + clear_of_rounding) / std::cos(0.5 * step);
   std::vector<Vector> corners;
+  corners.reserve(sides);
   for (int k = 0; k < sides; ++k) {
     corners.push_back(
         {radius * exact(corner * std::cos(k * step)), radius * exact(corner * std::sin(k * step))});
@@ -204,11 +205,10 @@ Lowest lowest_on(const Quadric& q, const Surface& surface) {
 
 /// Whether x lies inside a convex surface, or on it.
 bool inside(const Surface& surface, const Vector& x) {
-  for (const auto& t : surface.triangles) {
-    const Corners& corners = surface.corners;
-    if (sgn(side_of(corners[t[0]], corners[t[1]], corners[t[2]], x)) > 0) return false;
-  }
-  return true;
+  const Corners& corners = surface.corners;
+  return std::ranges::all_of(surface.triangles, [&](const auto& t) {
+    return sgn(side_of(corners[t[0]], corners[t[1]], corners[t[2]], x)) <= 0;
+  });
 }
 
 /// Of the solid inside a convex surface.

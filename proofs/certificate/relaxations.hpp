@@ -37,7 +37,7 @@ struct Relaxations {
 
 /// `shapes`: what is known of the least objective of the shapes themselves, the data term where
 /// lambda = 0. A bound of one set is carried over to those that it implies.
-[[nodiscard]] Relaxations relaxations(const StatedProblem& problem, const Evidence& evidence,
+[[nodiscard]] Relaxations relaxations(const StatedProblem& stated, const Evidence& evidence,
                                       Interval shapes);
 
 }  // namespace shapeid::certificate
