@@ -12,8 +12,6 @@ namespace {
 
 // Standard errors by which a stranger must predict better to take a name's place.
 constexpr double better_t = 2.0;
-// What fewer strangers than names leave must not be worse by more than this many.
-constexpr double not_worse_t = 2.0;
 
 class Ring {
  public:

@@ -69,6 +69,10 @@ struct Gain {
 };
 [[nodiscard]] Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after);
 
+/// Of two descriptions the simpler is taken unless the other gains more than this many standard
+/// errors of their difference.
+inline constexpr double not_worse_t = 2.0;
+
 class BlockFits {
  public:
   /// Unknown inertial parameters are deviations from `given` (10 links), with a prior of zero mean

@@ -10,6 +10,7 @@
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/exchange.hpp"
+#include "shapeid/diagnosis/large_transformation.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/prior.hpp"
@@ -20,9 +21,6 @@
 
 namespace shapeid::diagnosis {
 namespace {
-
-// Errors closer than this many standard errors of their difference are not told apart.
-constexpr double not_worse_t = 2.0;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -174,55 +172,11 @@ class Loop {
     rule.from_usual = from_usual_;
     const Selection selection = select(fits, fixed, list, rule);
     has_other_way_ = has_other_way_ || selection.usual_is_better;
-    note_large_transformation(fits, fixed, list, selection);
+    large_ = large_transformation(fits, fixed, list, selection);
     result_.prior = choose_prior(fits, chosen_terms(fixed, list, selection));
     take_selection(fits, fixed, list, selection, state_);
     note_exchangeable(fits, fixed, list, selection, state_);
     if (round_ == 0) note_first_ranking(list, selection, result_);
-  }
-
-  /// Fewer numbers, unless they predict worse; of as many, what predicts better.
-  [[nodiscard]] static bool is_preferred(const Candidate& one, const Eigen::VectorXd& error,
-                                         const Candidate& other,
-                                         const Eigen::VectorXd& other_error) {
-    const std::size_t numbers = one.term.columns.size(), others = other.term.columns.size();
-    if (numbers < others) return !(gain_of(error, other_error).t > not_worse_t);
-    if (numbers > others) return gain_of(other_error, error).t > not_worse_t;
-    return error.sum() < other_error.sum();
-  }
-
-  /// The transformation that, as its derivative, takes away most, and much, of what all that was
-  /// accepted does, alone or beside the strongest of these, if there is one.
-  void note_large_transformation(const BlockFits& fits, const Term& fixed,
-                                 const std::vector<Candidate>& list, const Selection& selection) {
-    large_.reset();
-    if (selection.accepted.size() < 2) return;
-    const auto strongest = std::max_element(
-        selection.accepted.begin(), selection.accepted.end(),
-        [](const Verdict& one, const Verdict& other) { return one.gain < other.gain; });
-    for (const std::vector<Term>& beside :
-         {std::vector<Term>{fixed}, std::vector<Term>{fixed, list[strongest->candidate].term}}) {
-      if (large_) return;
-      // Half of it was asked until a delay of 10 ms, as its derivative, took 46 % of what two lags
-      // did, and all when it was applied.
-      constexpr double much = 0.3;
-      const double before = fits.held_out(beside).sum();
-      const double enough = before - much * (before - selection.error_end.sum());
-      Eigen::VectorXd least;  // of large_
-      for (std::size_t k = 0; k < list.size(); ++k) {
-        const Candidate& c = list[k];
-        const bool accepted = std::any_of(selection.accepted.begin(), selection.accepted.end(),
-                                          [&](const Verdict& v) { return v.candidate == k; });
-        if (!c.effect.effect->transform.any() || c.effect.since_reference || accepted) continue;
-        std::vector<Term> with = beside;
-        with.push_back(c.term);
-        const Eigen::VectorXd error = fits.held_out(with);
-        if (!(error.sum() < enough)) continue;
-        if (large_ && !is_preferred(c, error, *large_, least)) continue;
-        least = error;
-        large_ = c;
-      }
-    }
   }
 
   /// What a large transformation leaves of its derivative looks like further effects. So one that

@@ -13,8 +13,6 @@
 namespace shapeid::diagnosis {
 namespace {
 
-// A simpler set of causes is taken if it is not worse than this many standard errors.
-constexpr double separable = 2.0;
 // A simpler hypothesis is taken if the best is not better by more than this: one standard error, as
 // usual in cross-validation. Two would leave so much of a large effect that further names take it.
 constexpr double simpler_t = 1.0;
@@ -61,7 +59,7 @@ class Search {
     accepted_ = worthy(accepted_, start);
     const bool is_better = gain_of(fits_.held_out(contenders_.terms(accepted)),
                                    fits_.held_out(contenders_.terms(accepted_)))
-                               .t > separable;
+                               .t > not_worse_t;
     if (!is_better || !rule_.from_usual) {
       accepted_ = accepted;
       came_with_ = came_with;
@@ -251,7 +249,7 @@ class Search {
         if (contenders_.extent(with_rival) >= contenders_.extent(best)) continue;
         const bool fewer_numbers = contenders_.cost(with_rival) < contenders_.cost(accepted_);
         const double allowed = with_rival.size() == accepted_.size() ? simpler_t
-                               : fewer_numbers                       ? separable
+                               : fewer_numbers                       ? not_worse_t
                                                                      : 0.0;
         if (gain_of(fits_.held_out(contenders_.terms(with_rival)), error).t > allowed) continue;
         best = with_rival;
