@@ -16,6 +16,7 @@
 #include "shapeid/diagnosis/prior.hpp"
 #include "shapeid/diagnosis/quarter_turns.hpp"
 #include "shapeid/diagnosis/refit.hpp"
+#include "shapeid/diagnosis/remainders.hpp"
 #include "shapeid/diagnosis/take_selection.hpp"
 #include "shapeid/models/student.hpp"
 
@@ -144,6 +145,9 @@ class Loop {
       if (taken + 1 < rounds.size()) large_.reset();  // it is the last round's
     }
     try_large_transformations();
+    const auto start = std::chrono::steady_clock::now();
+    for (const AppliedEffect& a : leave_out_remainders(state_)) banned_.push_back(a);
+    result_.refit_seconds += seconds_since(start);
     try_noise_for_weight();
   }
 

@@ -46,6 +46,22 @@ std::vector<AppliedEffect> shape_variants(const AppliedEffect& effect, int pass)
   return variants;
 }
 
+std::vector<AppliedEffect> distant_variants(const AppliedEffect& effect) {
+  std::vector<AppliedEffect> variants = {effect};
+  const auto& numbers = effect.effect->shape;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (!(numbers[k].nearby > 0.0)) continue;
+    // As close as the search nearby reaches.
+    const double step = 2.0 * numbers[k].nearby;
+    for (double octaves = -1.0; octaves <= 1.0; octaves += step) {
+      AppliedEffect& variant = variants.emplace_back(effect);
+      double& number = variant.shape[static_cast<Eigen::Index>(k)];
+      number = std::clamp(number * std::exp2(octaves), numbers[k].lower, numbers[k].upper);
+    }
+  }
+  return variants;
+}
+
 std::vector<std::size_t> best_variants(const BlockFits& fits, const Term& masses,
                                        const std::vector<std::vector<Term>>& choices) {
   std::vector<std::size_t> chosen(choices.size(), 0);

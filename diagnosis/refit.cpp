@@ -65,6 +65,14 @@ void refit(LoopState& state) {
   }
 }
 
+void refit_from_afar(LoopState& state, std::size_t i) {
+  const AppliedEffect moved = state.result.found.at(i).effect;
+  refit_among(state, [&moved](const AppliedEffect& a) {
+    return same_place(a, moved) ? distant_variants(a) : std::vector<AppliedEffect>{a};
+  });
+  refit(state);
+}
+
 void refit_numbers(LoopState& state) {
   refit_among(state, [](const AppliedEffect& a) { return std::vector<AppliedEffect>{a}; });
 }

@@ -8,6 +8,9 @@ namespace shapeid::diagnosis {
 /// Shape numbers by zooming grids, transformations by Gauss-Newton, masses along with both.
 void refit(LoopState& state);
 
+/// The same, from the best of what is further away for the one of found number `i`.
+void refit_from_afar(LoopState& state, std::size_t i);
+
 /// Masses and the numbers of all that was found, linearised where it stands.
 void refit_numbers(LoopState& state);
 

@@ -46,6 +46,7 @@ std::string joint_text(int link) {
 
 std::vector<BoxMasses> masses_of_arms() {
   std::vector<BoxMasses> masses;
+  masses.reserve(links_of_arms);
   for (int link = 0; link < links_of_arms; ++link) {
     masses.push_back({0.4 + 0.07 * link, 1.1 - 0.05 * link});
   }

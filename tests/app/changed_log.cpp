@@ -52,6 +52,7 @@ void write_changed(const std::string& from, const std::string& to,
     NamedRow named(log.columns(), row->values);
     change(named);
     std::vector<double> values;
+    values.reserve(kept.size());
     for (const std::size_t i : kept) values.push_back(row->values[i]);
     out.write(values);
   }

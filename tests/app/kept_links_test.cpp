@@ -148,7 +148,7 @@ class WrittenLinks : public testing::Test {
   [[nodiscard]] app::Result found(double one, double five) const {
     app::Result result;
     result.found.run.model.free_links = {1, 5};
-    result.sought.known = Eigen::VectorXd::Zero(10 * robot.link_count());
+    result.sought.known = Eigen::VectorXd::Zero(Eigen::Index{10} * robot.link_count());
     result.found.Phi = stacked_parameters(robot);
     result.found.Phi.segment<10>(10) *= one / 0.5;
     result.found.Phi.segment<10>(50) *= five / 0.5;

@@ -64,7 +64,7 @@ class LinksAnswer : public testing::Test {
   static json result() { return json::parse(text_of(scratch() + "/found/result.json")); }
   static json links(const std::string& options) {
     identify(options);
-    const json links = result().at("links");
+    json links = result().at("links");
     EXPECT_EQ(links.size(), sought.size());
     return links;
   }
