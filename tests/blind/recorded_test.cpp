@@ -125,7 +125,7 @@ Judgement judgement_of_drawn_arm(std::uint64_t seed, int which) {
 TEST(Blind, ASpringThatWeightNearlyIs) {
   const Judgement judged = judgement_of_drawn_arm(9557, 8);
   EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
-  EXPECT_EQ(judged.said, "joint_spring@joint1");
+  EXPECT_EQ(judged.said.substr(0, 19), "joint_spring@joint1");
 }
 
 /// Friction that grows with the load, eight times the size, turns round within 0.02 rad/s. At
@@ -133,6 +133,13 @@ TEST(Blind, ASpringThatWeightNearlyIs) {
 TEST(Blind, ANarrowFrictionIsNotAWideOneAndAnother) {
   const Judgement judged = judgement_of_drawn_arm(9557, 44);
   EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
+}
+
+/// Beside a friction of the detectable size a delay, of which a wider friction can take half. (That
+/// was tried: nothing was left of the delay.)
+TEST(Blind, ADelayIsNotWhatAFrictionLacks) {
+  const Judgement judged = judgement_of_drawn_arm(9557, 34);
+  EXPECT_EQ(name_of(judged.outcome), "ambiguous") << judged.said;
 }
 
 /// A ripple of which the joint's range has less than half a period: at dccfcfd one of 18 rad/m was
