@@ -87,10 +87,12 @@ void write_log(const std::string& path, const Robot& robot) {
     }
     if (!out) {
       std::vector<std::string> names;
+      names.reserve(row.size());
       for (const Column& column : row) names.push_back(column.name);
       out = std::make_unique<LogWriter>(path, names);
     }
     std::vector<double> values;
+    values.reserve(row.size());
     for (const Column& column : row) values.push_back(column.value);
     out->write(values);
   }

@@ -38,7 +38,7 @@ TEST(Verbs, InspectSaysWhichInertiaNoBodyCanHave) {
       "<robot name='rod'>\n<link name='rod'><inertial><mass value='2'/><inertia ixx='1' "
       "iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial></link></robot>\n");
   for (const std::string option : {"", "--json "}) {
-    const CommandRun run = shapeid("inspect " + option + robot);
+    const CommandRun run = shapeid(fmt::format("inspect {}{}", option, robot));
     EXPECT_EQ(run.status, 1);
     EXPECT_NE(run.err.find("refused (impossible-inertia)"), std::string::npos) << run.err;
     EXPECT_NE(run.out.find("short by 0.8"), std::string::npos) << run.out;

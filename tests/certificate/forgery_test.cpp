@@ -149,25 +149,26 @@ TEST(Forgery, DigestsMadeGoodDoNotHelp) {
   for (const std::string& member : felt) judged[member] = 0;
   for (const bool others : {false, true}) {
     const Honest h = honest(others);
-    for_every_forgery(h.files.problem, shaken, [&](const std::string& where, std::string text) {
-      const std::string member = where.substr(1, where.find('/', 1) - 1);
-      if (!judged.contains(member) || where.find("taken") != std::string::npos) return;
-      StatedProblem forged;
-      try {
-        forged = stated_problem_from_json(text, "problem.json");
-      } catch (const InputError&) {
-        return;  // a kind of shape that there is not, half a link
-      }
-      Answer answer = h.answer;
-      answer.problem_digest = problem_digest(forged);
-      json certificate = json::parse(h.files.certificate);
-      certificate["claim"]["problem_digest"] = answer.problem_digest;
-      certificate["claim"]["answer_digest"] = digest(answer_to_json(answer));
-      const bool refused =
-          refused_by_mathematics({text, answer_to_json(answer), certificate.dump()});
-      EXPECT_TRUE(refused || !felt.contains(member)) << where;
-      if (refused) ++judged[member];
-    });
+    for_every_forgery(
+        h.files.problem, shaken, [&](const std::string& where, const std::string& text) {
+          const std::string member = where.substr(1, where.find('/', 1) - 1);
+          if (!judged.contains(member) || where.find("taken") != std::string::npos) return;
+          StatedProblem forged;
+          try {
+            forged = stated_problem_from_json(text, "problem.json");
+          } catch (const InputError&) {
+            return;  // a kind of shape that there is not, half a link
+          }
+          Answer answer = h.answer;
+          answer.problem_digest = problem_digest(forged);
+          json certificate = json::parse(h.files.certificate);
+          certificate["claim"]["problem_digest"] = answer.problem_digest;
+          certificate["claim"]["answer_digest"] = digest(answer_to_json(answer));
+          const bool refused =
+              refused_by_mathematics({text, answer_to_json(answer), certificate.dump()});
+          EXPECT_TRUE(refused || !felt.contains(member)) << where;
+          if (refused) ++judged[member];
+        });
   }
   for (const auto& [member, count] : judged) {
     EXPECT_GT(count, 0) << member << ": no forgery was refused by the mathematics";

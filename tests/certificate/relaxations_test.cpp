@@ -291,7 +291,7 @@ RC_GTEST_PROP(Quadric, NoPointOfSpaceIsLower, ()) {
 }
 
 TEST(Quadric, FloorsInSpace) {
-  const auto lowest = [](Vector g) { return lowest_in_space(cost_of_point(g)); };
+  const auto lowest = [](const Vector& g) { return lowest_in_space(cost_of_point(g)); };
   // |x|^2 - 2 x - 3 has its minimum -4 at (1, 0, 0); the inertias cost y^2 + z^2 and so on.
   const Rational half(1, 2);
   EXPECT_EQ(lowest({-3, -2, 0, 0, half, 0, 0, half, 0, half}), Rational(-4));

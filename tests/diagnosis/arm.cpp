@@ -72,6 +72,7 @@ Recording moved_as_arm(const Robot& robot, const std::vector<diagnosis::AppliedE
 Recording record(const ArmLog& log) {
   std::vector<Sample> samples;
   const auto count = static_cast<int>(log.seconds * rate);
+  samples.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) samples.push_back(motion(k / rate, log.seed));
   const Recording bare(samples, rate);
   const Robot robot = arm();
