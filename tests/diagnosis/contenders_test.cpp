@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -86,8 +87,10 @@ TEST_F(OfThem, ShapeAndTransformationsCountOnTopOfParameters) {
 
 TEST(Contenders, TheMostPromisingIsFirstAndWhatIsExcludedIsNotThere) {
   Planted log(12);
-  std::vector<std::size_t> k;
-  for (int i = 0; i < 5; ++i) k.push_back(log.add(law(fmt::format("law{}", i)), log.normal(1)));
+  std::array<std::size_t, 5> k = {};
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    k.at(i) = log.add(law(fmt::format("law{}", i)), log.normal(1));
+  }
   log.plant(k[2], one_number(Planted::size_of(40.0)));
   log.plant(k[4], one_number(Planted::size_of(20.0)));
   log.add_noise();

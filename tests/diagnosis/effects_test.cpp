@@ -121,7 +121,7 @@ RC_GTEST_PROP(Effects, PayloadIsABodyAddedToTheLink, ()) {
   const int link = *rc::gen::inRange(1, scene.robot.link_count());
   const InertialParameters load = *test::body();
   Eigen::VectorXd Phi = Eigen::VectorXd::Zero(scene.Phi.size());
-  Phi.segment<10>(10 * link) = load.values;
+  Phi.segment<10>(Eigen::Index{10} * link) = load.values;
   const Eigen::VectorXd wanted = scene.Y * Phi;
   const Eigen::VectorXd got = scene.columns(e, link) * load.values;
   RC_ASSERT(test::scaled_difference(got, wanted, 10) < few_hundred_eps);
