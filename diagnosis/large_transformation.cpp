@@ -52,7 +52,7 @@ std::optional<Candidate> large_transformation(const BlockFits& fits, const Term&
                                               const std::vector<Candidate>& list,
                                               const Selection& selection) {
   if (selection.accepted.size() < 2) return std::nullopt;
-  const std::optional<Candidate> alone = best_beside(fits, {fixed}, list, selection);
+  std::optional<Candidate> alone = best_beside(fits, {fixed}, list, selection);
   if (alone) return alone;
   const Verdict& strongest = *std::ranges::max_element(selection.accepted, {}, &Verdict::gain);
   return best_beside(fits, {fixed, list[strongest.candidate].term}, list, selection);

@@ -52,8 +52,9 @@ std::vector<AppliedEffect> distant_variants(const AppliedEffect& effect) {
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     if (!(numbers[k].nearby > 0.0)) continue;
     // As close as the search nearby reaches.
-    const double step = 2.0 * numbers[k].nearby;
-    for (double octaves = -1.0; octaves <= 1.0; octaves += step) {
+    const int steps = static_cast<int>(std::ceil(0.5 / numbers[k].nearby));
+    for (int i = -steps; i <= steps; ++i) {
+      const double octaves = static_cast<double>(i) / steps;
       AppliedEffect& variant = variants.emplace_back(effect);
       double& number = variant.shape[static_cast<Eigen::Index>(k)];
       number = std::clamp(number * std::exp2(octaves), numbers[k].lower, numbers[k].upper);

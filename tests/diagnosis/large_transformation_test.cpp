@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -22,11 +23,13 @@ Effect delay(const std::string& id, int parameters = 1) {
   return effect;
 }
 
+constexpr std::array<double, 3> sizes = {60.0, 50.0, 40.0};  // standard errors
+
 /// Three causes, the first of them the largest, as a search accepted them: what is asked for was no
 /// candidate then.
 struct Several {
   explicit Several(unsigned seed) : log(seed) {
-    for (const double errors : {60.0, 50.0, 40.0}) {
+    for (const double errors : sizes) {
       const Eigen::MatrixXd column = log.normal(1);
       columns.push_back(column);
       const std::size_t k = log.add(law("cause " + std::to_string(columns.size())), column);
@@ -37,9 +40,8 @@ struct Several {
 
   /// The sum of these causes, as they act, from the first-th on, blurred by so much.
   [[nodiscard]] Eigen::MatrixXd sum_from(std::size_t first, double blur = 0.1) {
-    constexpr double sizes[] = {60.0, 50.0, 40.0};
-    Eigen::MatrixXd sum = blur * sizes[first] * log.normal(1);
-    for (std::size_t i = first; i < columns.size(); ++i) sum += sizes[i] * columns[i];
+    Eigen::MatrixXd sum = blur * sizes.at(first) * log.normal(1);
+    for (std::size_t i = first; i < columns.size(); ++i) sum += sizes.at(i) * columns[i];
     return sum;
   }
 
