@@ -119,8 +119,8 @@ void add_undetermined(Page& page, const DiagnosisRun& run, const Robot& robot) {
   if (!run.loop.hidden.empty()) {
     std::string list;
     for (const std::string& id : run.loop.hidden) list += (list.empty() ? "" : ", ") + id;
-    page.paragraph("Not to be told from inertias and from what was found, in this data: " + list +
-                   ".");
+    page.paragraph(
+        "Hardly to be told from inertias and from what was found, in this data: " + list + ".");
   }
   for (const auto& [id, z] : run.loop.wrong_signs) {
     page.paragraph(

@@ -403,7 +403,7 @@ std::string diagnosis_text(const DiagnosisRun& run, const Robot& robot) {
   }
   text += errors_text(run, robot) + structures_text(run) + curves_text(run, robot);
   if (!run.loop.hidden.empty()) {
-    text += "\nnot to be told from inertias and what was found, in this data:\n ";
+    text += "\nhardly to be told from inertias and what was found, in this data:\n ";
     for (const std::string& id : run.loop.hidden) text += " " + id;
     text += "\n";
   }

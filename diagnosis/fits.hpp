@@ -69,8 +69,8 @@ struct Gain {
 };
 [[nodiscard]] Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after);
 
-/// Of two descriptions the simpler is taken unless the other gains more than this many standard
-/// errors of their difference.
+/// Fewer causes are taken for more unless these gain more than this many standard errors of the
+/// difference.
 inline constexpr double not_worse_t = 2.0;
 
 class BlockFits {
@@ -113,7 +113,8 @@ class BlockFits {
     /// The others say nearly the same: its numbers may be as large as they like.
     [[nodiscard]] bool hidden() const { return free_share < 1e-4; }
     /// The data cannot tell it from the others: that columns differ by a thousandth of their length
-    /// is no evidence, for measured motion does not make them better than that.
+    /// is no evidence, for measured motion does not make them better than that. (Whether one
+    /// hypothesis is in another's span is BlockFits::contained(), with nested_share.)
     [[nodiscard]] bool contained() const { return free_share < 1e-6; }
   };
   [[nodiscard]] std::vector<Promise> promises(const std::vector<Term>& terms,

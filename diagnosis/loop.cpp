@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "shapeid/diagnosis/best_round.hpp"
@@ -123,6 +124,7 @@ class Loop {
   /// which need not come to an end: then that of all rounds counts that predicts best.
   void seek() {
     std::vector<LoopResult> rounds;
+    remainders_.clear();
     for (round_ = 0; round_ < state_.settings.rounds; ++round_) {
       const std::vector<std::string> before = ids();
       state_.correct();
@@ -145,10 +147,21 @@ class Loop {
       if (taken + 1 < rounds.size()) large_.reset();  // it is the last round's
     }
     try_large_transformations();
-    const auto start = std::chrono::steady_clock::now();
-    for (const AppliedEffect& a : leave_out_remainders(state_)) banned_.push_back(a);
-    result_.refit_seconds += seconds_since(start);
+    leave_out_remainders();
     try_noise_for_weight();
+  }
+
+  /// Without laws that only make up for the shape of another; what is said of the others is asked
+  /// anew.
+  void leave_out_remainders() {
+    const auto start = std::chrono::steady_clock::now();
+    while (const std::optional<AppliedEffect> left_out = leave_out_remainder(state_)) {
+      remainders_.push_back(*left_out);
+      screen();
+      refit(state_);
+      prune_transformations();
+    }
+    result_.refit_seconds += seconds_since(start);
   }
 
   [[nodiscard]] std::vector<Candidate> listed(const BlockFits& fits) const {
@@ -352,15 +365,17 @@ class Loop {
     const auto has_place = [&h](const AppliedEffect& force) {
       return force.effect == h.effect && force.site == h.site;
     };
-    return has_place_of(banned_, h) || std::any_of(forces_.begin(), forces_.end(), has_place);
+    return has_place_of(banned_, h) || has_place_of(remainders_, h) ||
+           std::any_of(forces_.begin(), forces_.end(), has_place);
   }
 
   LoopState state_;
   LoopResult& result_ = state_.result;
   bool from_usual_, has_other_way_ = false;
   std::vector<AppliedEffect> banned_;
-  std::vector<AppliedEffect> too_large_;  ///< taken back once, of no credible size
-  std::vector<AppliedEffect> forces_;     ///< whose place the accelerometer's noise has taken
+  std::vector<AppliedEffect> too_large_;   ///< taken back once, of no credible size
+  std::vector<AppliedEffect> forces_;      ///< whose place the accelerometer's noise has taken
+  std::vector<AppliedEffect> remainders_;  ///< of other laws' shapes, in this search
   std::optional<Candidate> large_;
   int round_ = 0;
   int moments_describe_ = 0;  ///< searches in which moments came in that are no loads

@@ -88,7 +88,7 @@ struct LoopResult {
   std::vector<Found> found;
   std::vector<Ranked> first_ranking;  ///< beside masses alone
   std::vector<Ranked> last_ranking;   ///< of what was left out
-  std::vector<std::string> hidden;    ///< cannot be told from masses and what was found
+  std::vector<std::string> hidden;    ///< can hardly be told from masses and what was found
   /// kg: the base's beside constant forces, whose place the accelerometer's noise took for a mass
   /// nearer to the given one.
   std::optional<double> mass_beside_forces;

@@ -51,7 +51,7 @@ std::vector<AppliedEffect> distant_variants(const AppliedEffect& effect) {
   const auto& numbers = effect.effect->shape;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     if (!(numbers[k].nearby > 0.0)) continue;
-    // As close as the search nearby reaches.
+    // Close enough that searches nearby overlap.
     const int steps = static_cast<int>(std::ceil(0.5 / numbers[k].nearby));
     for (int i = -steps; i <= steps; ++i) {
       const double octaves = static_cast<double>(i) / steps;

@@ -12,8 +12,8 @@ namespace shapeid::diagnosis {
 /// the present ones after that. The first variant is the present one.
 [[nodiscard]] std::vector<AppliedEffect> shape_variants(const AppliedEffect& effect, int pass);
 
-/// The effect with a number that is usually sought nearby (a ripple's period) anywhere from half of
-/// it to twice of it; the first variant is the present one, and the only one of other effects.
+/// The effect with a number that is usually sought nearby (a ripple's period) anywhere from half to
+/// twice of what it is; the first variant is the present one, and the only one of other effects.
 [[nodiscard]] std::vector<AppliedEffect> distant_variants(const AppliedEffect& effect);
 
 /// One variant for each effect so that the held-out error of all together is least, by going

@@ -8,7 +8,8 @@ namespace shapeid::diagnosis {
 /// Shape numbers by zooming grids, transformations by Gauss-Newton, masses along with both.
 void refit(LoopState& state);
 
-/// The same, from the best of what is further away for the one of found number `i`.
+/// The same, after the shape of found number `i` was sought far from where it is
+/// (distant_variants()).
 void refit_from_afar(LoopState& state, std::size_t i);
 
 /// Masses and the numbers of all that was found, linearised where it stands.

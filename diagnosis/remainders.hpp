@@ -1,7 +1,7 @@
 // Causes that are only what another one lacked as long as its shape was not right.
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "shapeid/diagnosis/loop_state.hpp"
 
@@ -11,8 +11,9 @@ namespace shapeid::diagnosis {
 /// looks strongest (the period of a ripple). What that lacks another law of the same joint
 /// explains, which from then on keeps the first from the shape that would need no other. So of
 /// several at a joint the one that gains least is left out and the strongest of the others sought
-/// from afar. If that predicts as well, and little is left that the first could gain, it stays out.
-/// Returns what was left out.
-std::vector<AppliedEffect> leave_out_remainders(LoopState& state);
+/// from afar. If that predicts as well, and little is left that the first could gain, it stays out;
+/// else the next is asked. Returns what was left out, if anything was. Gains are those of Found:
+/// they, and what else is said of the others, hold no longer then.
+std::optional<AppliedEffect> leave_out_remainder(LoopState& state);
 
 }  // namespace shapeid::diagnosis

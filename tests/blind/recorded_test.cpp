@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include "shapeid/tests/blind/parts/plan.hpp"
@@ -17,18 +18,20 @@ nlohmann::json read_json(const std::string& path) {
   return nlohmann::json::parse(in);
 }
 
-/// Of one trial of the set that the options plan; without its reference log, should it have one, as
-/// none had when these were recorded.
-Judgement judgement_of(PlanOptions options, int which = 0) {
+/// Of one trial of the set that the options plan. Its reference log, should it have one, is
+/// used only where that is said: when the others were recorded none had any.
+Judgement judgement_of(PlanOptions options, int which = 0, bool with_reference = false) {
   const test::ScratchFolder scratch;
   options.first = which;
   options.trials = 1;
   generate(options, scratch.path("set"));
   const std::string trial = fmt::format("{}/trial{:04d}/", scratch.path("set"), which);
+  const bool has_reference = std::filesystem::exists(trial + "reference.csv");
   const std::string command = fmt::format(
-      "{0}/shapeid diagnose --robot {1}given.urdf --robot-yaml {1}given.robot.yaml "
+      "{0}/shapeid diagnose --robot {1}given.urdf --robot-yaml {1}given.robot.yaml {3} "
       "--log {1}log.csv --test {1}test.csv --cutoff {2} --json >{1}result.json",
-      SHAPEID_BUILD_DIR, trial, read_json(trial + "cutoff").get<double>());
+      SHAPEID_BUILD_DIR, trial, read_json(trial + "cutoff").get<double>(),
+      with_reference && has_reference ? "--reference " + trial + "reference.csv" : "");
   EXPECT_EQ(std::system(command.c_str()), 0);
   const Trial sealed = trial_from_json(read_json(trial + "sealed.json"));
   EXPECT_EQ(sealed.items.empty(), options.only == "clean");
@@ -117,10 +120,10 @@ Judgement judgement_of_drawn_arm(std::uint64_t seed, int which) {
   options.seed = seed;
   options.quadruped_every = 0;
   options.drawn_arms = true;
-  return judgement_of(options, which);
+  return judgement_of(options, which, true);
 }
 
-/// A spring near rest, which is weight but for six hundred-thousandths: at dccfcfd it was no
+/// A spring near rest, which is weight but for 6e-5 of its column's square: at dccfcfd it was no
 /// candidate, and a ripple had its place.
 TEST(Blind, ASpringThatWeightNearlyIs) {
   const Judgement judged = judgement_of_drawn_arm(9557, 8);
@@ -135,8 +138,9 @@ TEST(Blind, ANarrowFrictionIsNotAWideOneAndAnother) {
   EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
 }
 
-/// Beside a friction of the detectable size a delay, of which a wider friction can take half. (That
-/// was tried: nothing was left of the delay.)
+/// A delay of 10 ms, which shows as a lag of one drive, or of all, beside Stribeck's friction of
+/// twice the size. Three times as wide that friction takes half of the lag's gain: when a remainder
+/// was whatever is worth less than two standard errors then, the lag was one.
 TEST(Blind, ADelayIsNotWhatAFrictionLacks) {
   const Judgement judged = judgement_of_drawn_arm(9557, 34);
   EXPECT_EQ(name_of(judged.outcome), "ambiguous") << judged.said;

@@ -47,6 +47,38 @@ TEST(ShapeVariants, ZoomInAboutThePresentOne) {
   }
 }
 
+/// As close that the search nearby, which goes on from the best, reaches from each to the next.
+TEST(DistantVariants, GoFromHalfToTwiceInEqualRatios) {
+  const double nearby = 0.03;
+  const Effect effect =
+      with_shape({{"width", "rad/s", 0.01, 2.56, 0.3}, {"N", "1", 4, 200, 12, nearby}});
+  const std::vector<AppliedEffect> variants = distant_variants(at_start(effect, 3));
+  ASSERT_GT(variants.size(), 3U);
+  EXPECT_EQ(variants[0].shape[1], 12.0) << "the present one first";
+  EXPECT_NEAR(variants[1].shape[1] / 6.0, 1.0, off_by_rounding);
+  EXPECT_NEAR(variants.back().shape[1] / 24.0, 1.0, off_by_rounding);
+  const double ratio = variants[2].shape[1] / variants[1].shape[1];
+  EXPECT_LT(ratio, (1.0 + nearby) / (1.0 - nearby));
+  for (std::size_t i = 2; i < variants.size(); ++i) {
+    EXPECT_NEAR(variants[i].shape[1] / variants[i - 1].shape[1] / ratio, 1.0, off_by_rounding);
+    EXPECT_EQ(variants[i].shape[0], 0.3) << "has a range of its own";
+    EXPECT_EQ(variants[i].site, 3);
+  }
+}
+
+TEST(DistantVariants, StayWithinTheirLimits) {
+  const Effect effect = with_shape({{"N", "1", 4.0, 200.0, 5.0, 0.03}});
+  for (const AppliedEffect& a : distant_variants(at_start(effect, 0))) EXPECT_GE(a.shape[0], 4.0);
+  AppliedEffect fast = at_start(effect, 0);
+  fast.shape[0] = 150.0;
+  for (const AppliedEffect& a : distant_variants(fast)) EXPECT_LE(a.shape[0], 200.0);
+}
+
+TEST(DistantVariants, AreOneOfWhatIsSoughtOverItsWholeRange) {
+  const Effect effect = with_shape({{"width", "rad/s", 0.01, 2.56, 0.3}});
+  EXPECT_EQ(distant_variants(at_start(effect, 0)).size(), 1U);
+}
+
 TEST(ShapeVariants, StayWithinTheirLimits) {
   const Effect effect = with_shape({{"width", "rad/s", 0.1, 0.4, 0.11}});
   const std::vector<AppliedEffect> variants = shape_variants(at_start(effect, 0), 1);
