@@ -71,6 +71,7 @@ double median(std::vector<double> values) {
 template <class Number>
 double median_over(const std::vector<Path>& paths, Number number) {
   std::vector<double> values;
+  values.reserve(paths.size());
   for (const Path& path : paths) values.push_back(static_cast<double>(number(path)));
   return median(values);
 }

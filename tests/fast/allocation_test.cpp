@@ -99,8 +99,8 @@ RC_GTEST_PROP(Allocations, WindowMakesNoneAfterConstruction, ()) {
   const bool legged = *rc::gen::arbitrary<bool>();
   const Robot robot = legged ? test::any_quadruped() : test::any_robot(1, 12);
   const BodyModel model = legged ? test::base_model(robot) : test::any_model(robot);
-  std::vector<Sample> samples;
-  for (int k = 0; k < 12; ++k) samples.push_back(test::any_sample(robot));
+  std::vector<Sample> samples(12);
+  for (Sample& sample : samples) sample = test::any_sample(robot);
   samples.front().tau.setConstant(std::numeric_limits<double>::quiet_NaN());
   fast::Window window(robot, model,
                       *rc::gen::element(ContactTreatment::project, ContactTreatment::measured),

@@ -128,8 +128,9 @@ TEST(CExample, RefusesBadLines) {
   const std::string shorter = second.substr(0, second.size() - 3) + "\n";
   for (const std::string& wrong :
        {std::string("\n"), shorter, "one " + second, "1 " + second, second.substr(0, 40)}) {
-    expect_refused(run_example(quadruped(), first + wrong), "samples:2: ");
-    expect_refused(run_example(quadruped(), first + wrong + first), "samples:2: ");
+    const std::string samples = first + wrong;
+    expect_refused(run_example(quadruped(), samples), "samples:2: ");
+    expect_refused(run_example(quadruped(), samples + first), "samples:2: ");
   }
 }
 

@@ -83,10 +83,10 @@ class ShadowedQr {
     VectorXd x = VectorXd::Zero(rows());
     qr_.solve(x);
     x = x.head(qr_.size()).cwiseProduct(lengths).eval();
-    const double size = b_.norm() + x.norm();
+    const double norms = b_.norm() + x.norm();
     const Index sums = 4 * rows();
     const VectorXd slopes = unit.transpose() * (b_ - unit * x);
-    RC_ASSERT(scaled(slopes.lpNorm<Eigen::Infinity>(), size, sums) < few_hundred_eps);
+    RC_ASSERT(scaled(slopes.lpNorm<Eigen::Infinity>(), norms, sums) < few_hundred_eps);
 
     const VectorXd sigma = test::singular_values(unit);
     const double condition = sigma.maxCoeff() / sigma.minCoeff();
@@ -96,7 +96,7 @@ class ShadowedQr {
     if (condition < 1.0 / std::numeric_limits<double>::epsilon()) {
       const VectorXd dense = unit.householderQr().solve(b_);
       const double residual = (b_ - unit * dense).norm();
-      RC_ASSERT(scaled((x - dense).norm(), condition * (size + condition * residual), sums) <
+      RC_ASSERT(scaled((x - dense).norm(), condition * (norms + condition * residual), sums) <
                 few_hundred_eps);
     }
 

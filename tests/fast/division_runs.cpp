@@ -97,6 +97,7 @@ RunComparison compare_runs(const ModelWithRows& given, int most_divisions) {
     compare(run.masses(), snapshot, terms, result);
 
     std::vector<std::string> ids;
+    ids.reserve(static_cast<std::size_t>(run.masses().shapes()));
     for (int place = 0; place < run.masses().shapes(); ++place) ids.push_back(run.id(place));
     const Eigen::VectorXd V = run.masses().V();
     before = Clock::now();

@@ -226,7 +226,7 @@ void known_object(const Cheetah& cheetah, const std::vector<std::string>& logs, 
       const InertialParameters truth = hung.links[static_cast<std::size_t>(link)].inertia;
       // A thigh and its motor, 21 cm long, hangs down from the hip.
       BodyModel model = load_region(hung, link, {-0.05, -0.05, -0.22}, {0.05, 0.05, 0.05});
-      model.known.segment<10>(10 * link).setZero();
+      model.known.segment<10>(Eigen::Index{10} * link).setZero();
       table.push_back({log, hung.links[static_cast<std::size_t>(link)].name,
                        fmt::format("{:.3g}", truth.mass())});
       const auto seek = [&](const std::vector<Sample>& samples, Kept& kept) {
@@ -268,6 +268,7 @@ Findings measured_logs(Form form) {
     every = form == Form::full ? 2 : 10;
   }
   std::vector<Run> runs;
+  runs.reserve(terrains.size());
   for (const std::string& terrain : terrains) {
     runs.push_back({terrain, standing(cheetah_samples(cheetah, terrain + "_val", every, true)),
                     standing(cheetah_samples(cheetah, terrain + "_test", every, true))});

@@ -80,6 +80,7 @@ Numbers judge(const Course& course, const std::vector<TimedWindow>& windows,
 std::vector<double> unseen(const Laboratory& lab, const std::vector<Vector10>& bases,
                            const std::vector<Sample>& samples) {
   std::vector<Eigen::VectorXd> models;
+  models.reserve(bases.size());
   for (const Vector10& base : bases) models.push_back(all_parameters(lab.quadruped.base, base));
   reference::ResidualTable table(lab.quadruped.robot, ContactTreatment::project, models);
   constexpr std::size_t every = 5;  // at 20 Hz cutoff neighbours say the same

@@ -52,6 +52,7 @@ Findings times(Form form) {
   Table rows = {{"method", "solve alone, us", "window, us", "window by `reference`, us"}};
   for (const Contestant& c : contestants(base_setting(quadruped))) {
     std::vector<double> solves;
+    solves.reserve(fitted.size());
     for (const TimedWindow& window : fitted) {
       solves.push_back(microseconds([&] { static_cast<void>(c.method->solve(window.f)); }));
     }
