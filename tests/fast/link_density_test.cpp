@@ -91,10 +91,10 @@ class ShadowedDensity {
   [[nodiscard]] int made_anew() const { return made_anew_; }
 
  private:
-  test::Draw draw_;
+  LinkDensity density_;
   MatrixXd basis_;
   std::vector<Ten> rows_;
-  LinkDensity density_;
+  test::Draw draw_;
   int made_anew_ = 0;
 };
 

@@ -41,6 +41,7 @@ RC_GTEST_PROP(Allocations, MassSolverMakesNoneAfterConstruction, ()) {
                     divided.problem.V[j % first.shapes()], divided.problem.V[last]});
   }
   std::vector<fast::MassSolver::Column> columns;
+  columns.reserve(static_cast<std::size_t>(first.shapes()));
   for (int j = 0; j < first.shapes(); ++j) columns.push_back(first.column(j));
   const Eigen::VectorXd start = test::any_start(1, first);
 

@@ -28,10 +28,10 @@ MatrixXd matrix(Index rows, Index columns) {
   return result;
 }
 
-/// forces x rows, of a rank that is drawn; nothing is left of a matrix of rank zero.
-MatrixXd any_jacobian(Index forces, Index rows) {
-  const Index rank = *rc::gen::inRange<Index>(0, std::min(forces, rows) + 1);
-  return matrix(forces, rank) * matrix(rank, rows);
+/// forces x dof, of a rank that is drawn; nothing is left of a matrix of rank zero.
+MatrixXd any_jacobian(Index forces, Index dof) {
+  const Index rank = *rc::gen::inRange<Index>(0, std::min(forces, dof) + 1);
+  return matrix(forces, rank) * matrix(rank, dof);
 }
 
 /// Largest over smallest singular value that counts, of W^(1/2) J^T.
