@@ -42,7 +42,7 @@ TEST(Leg, PlacesAndTurnsAsSimbodyDoes) {
     for (int c = 0; c < 4; ++c) {
       const Leg leg(robot, robot.contacts[static_cast<std::size_t>(c)]);
       EXPECT_LT(scaled_difference(leg.position(leg.own(q)), places.col(c), 10), few_hundred_eps);
-      const Eigen::MatrixXd own = J.block<3, 3>(3 * c, 6 + leg.joints().front());
+      const Eigen::MatrixXd own = J.block<3, 3>(Eigen::Index{3} * c, 6 + leg.joints().front());
       EXPECT_LT(scaled_difference(leg.jacobian(leg.own(q)), own, 10), few_hundred_eps);
     }
   }

@@ -65,15 +65,16 @@ ModelWithRows assemble(const std::vector<DrawnShape>& shapes, std::uint64_t seed
   const auto links = static_cast<Eigen::Index>(model.free_links.size());
   Draw draw(seed);
   MassProblem& p = result.problem;
-  p.Y = Eigen::MatrixXd::Zero(6 * samples * links, 10 * links);
+  const Eigen::Index rows_of_link = Eigen::Index{6} * samples;
+  p.Y = Eigen::MatrixXd::Zero(rows_of_link * links, 10 * links);
   p.F.resize(p.Y.rows());
   p.W.resize(p.Y.rows());
   for (Eigen::Index i = 0; i < links; ++i) {
     const auto hidden = cuboid_body(mass, draw.vector(0.3), {0.05, 0.08, 0.12});
     const MassProblem rows = load_window(draw, samples, hidden, noise);
-    p.Y.block(6 * samples * i, 10 * i, 6 * samples, 10) = rows.Y;
-    p.F.segment(6 * samples * i, 6 * samples) = rows.F;
-    p.W.segment(6 * samples * i, 6 * samples) = rows.W;
+    p.Y.block(rows_of_link * i, 10 * i, rows_of_link, 10) = rows.Y;
+    p.F.segment(rows_of_link * i, rows_of_link) = rows.F;
+    p.W.segment(rows_of_link * i, rows_of_link) = rows.W;
   }
   result.expected_mass = mass * static_cast<double>(links);
   use_shapes(p, model, result.expected_mass);

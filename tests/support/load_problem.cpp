@@ -44,18 +44,18 @@ Eigen::Matrix<double, 6, 10> body_rows(const Eigen::Vector3d& omega, const Eigen
 MassProblem load_window(Draw& draw, int samples, const InertialParameters& truth,
                         double relative_noise) {
   MassProblem problem;
-  problem.Y.resize(6 * samples, 10);
+  problem.Y.resize(Eigen::Index{6} * samples, 10);
   for (int i = 0; i < samples; ++i) {
     const Eigen::Vector3d omega = draw.vector(2.0), alpha = draw.vector(20.0),
                           a = Eigen::Vector3d(0.0, 0.0, 9.81) + draw.vector(4.0);
-    problem.Y.middleRows<6>(6 * i) = body_rows(omega, alpha, a);
+    problem.Y.middleRows<6>(Eigen::Index{6} * i) = body_rows(omega, alpha, a);
   }
   problem.F = problem.Y * truth.values;
   // Forces and moments each have their own size of noise, and the weight that goes with it.
   problem.W = Eigen::VectorXd::Ones(problem.F.size());
   Eigen::Vector2d squares = Eigen::Vector2d::Zero();
   for (int i = 0; i < samples; ++i) {
-    squares += Eigen::Vector2d(problem.F.segment<3>(6 * i).squaredNorm(),
+    squares += Eigen::Vector2d(problem.F.segment<3>(Eigen::Index{6} * i).squaredNorm(),
                                problem.F.segment<3>(6 * i + 3).squaredNorm());
   }
   const Eigen::Vector2d sizes = (squares / (3.0 * samples)).cwiseSqrt();
@@ -83,9 +83,9 @@ void fill_with_cuboids(MassProblem& problem, const Eigen::Vector3d& lower,
   problem.U.resize(10, n);
   problem.V = Eigen::VectorXd::Constant(n, sides.prod());
   for (Eigen::Index j = 0; j < n; ++j) {
+    const Eigen::Index row = j / counts.x(), layer = row / counts.y();
     const Eigen::Vector3d place(static_cast<double>(j % counts.x()),
-                                static_cast<double>(j / counts.x() % counts.y()),
-                                static_cast<double>(j / counts.x() / counts.y()));
+                                static_cast<double>(row % counts.y()), static_cast<double>(layer));
     const Eigen::Vector3d centre =
         lower + sides.cwiseProduct(place + Eigen::Vector3d::Constant(0.5));
     problem.U.col(j) = cuboid_body(1.0, centre, sides).values;

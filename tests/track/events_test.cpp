@@ -57,7 +57,7 @@ TEST(TrackEvents, AnOrdinaryTrotHasNone) {
 
 /// The clock is judged by the log's own rows, whatever the grid between them.
 TEST(TrackEvents, AFinerGridMissesNothing) {
-  const Lines log = trot_log();
+  const Lines& log = trot_log();
   for (const char* rate : {"1000", "3000"}) {
     const std::vector<json> lines = tracked(log, fmt::format("--rate {} --window 60", rate));
     ASSERT_GT(lines.size(), 50U) << rate;
