@@ -112,8 +112,8 @@ TEST(Remainders, WhatActsStays) {
   }
 }
 
-/// Less than two standard errors of gain are left of a friction that is not there, whatever it was
-/// said to have gained; it is a remainder only if that was three times as much.
+/// A friction so small that it gains less than two standard errors, whatever it was said to have
+/// gained, is a remainder only if that was three times as much.
 TEST(Remainders, WhatKeepsMostOfItsGainStays) {
   const std::vector<AppliedEffect> found = {shaped("cogging", 1, {0.0, 0.0}, {14.0}),
                                             test::effect("viscous_friction", 1, {0.0})};
