@@ -61,8 +61,8 @@ struct Factored {
     for (int row = 0; row < 4; ++row) {
       for (int col = 0; col < 4; ++col) {
         Eigen::Matrix4d unit = Eigen::Matrix4d::Zero();
-        unit(row, col) += 0.5;
-        unit(col, row) += 0.5;
+        unit(row, col) = 0.5;
+        unit += unit.transpose().eval();
         G(row, col) = g.dot(from_pseudo_inertia(in_units_of(length, unit)).values);
       }
     }
