@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "shapeid/fast/few_table_pivots.hpp"
 #include "shapeid/fast/few_table_split.hpp"
@@ -33,6 +34,7 @@ void FewShapes::put(int j, const ShapeColumns::Column& u) noexcept {
 bool FewShapes::start(const LinkRows& rows, double lambda,
                       const std::vector<int>& passive) noexcept {
   if (!fits()) return false;
+  leaving_ = 0;
   const std::size_t shapes = place(shapes_);
   rows_ = &rows;
   lambda_ = lambda;
@@ -75,7 +77,9 @@ bool FewShapes::divide(int j, int other, double V1, double V2) noexcept {
 }
 
 bool FewShapes::settle() noexcept {
-  return fits() && few::pivot(now_, place(shapes_), smallest_, 4 * shapes_);
+  if (!fits()) return false;
+  if (leaving_ != 0) few::leave(now_, place(shapes_), std::exchange(leaving_, 0U));
+  return few::pivot(now_, place(shapes_), smallest_, 4 * shapes_);
 }
 
 AtPlaces FewShapes::answer() const noexcept {

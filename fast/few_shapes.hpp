@@ -39,8 +39,9 @@ class FewShapes final : public Guess {
   [[nodiscard]] bool divide(int j, int other, double V1, double V2) noexcept override;
   /// Four pivots a shape at most.
   [[nodiscard]] bool settle() noexcept override;
-  /// False: what the check sees is beyond these pivots.
-  [[nodiscard]] bool can_go_on() const noexcept override { return false; }
+  void let_go(unsigned places) noexcept override { leaving_ = places; }
+  /// A shape that the check sees to enter is beyond these pivots.
+  [[nodiscard]] bool can_go_on() const noexcept override { return leaving_ != 0; }
 
   [[nodiscard]] AtPlaces answer() const noexcept override;
   [[nodiscard]] int pivots() const noexcept override { return now_.pivots; }
@@ -61,6 +62,7 @@ class FewShapes final : public Guess {
   double lambda_ = 0.0;
   double smallest_ = 0.0;  ///< gain that is followed
   int shapes_ = 0;
+  unsigned leaving_ = 0;  ///< next; a bit a shape
 };
 
 }  // namespace shapeid::fast

@@ -26,7 +26,6 @@ struct Table {
   Dozen x;                           ///< masses of the passive shapes, slopes of the others
   Dozen squares;                     ///< the diagonal of H as it was
   Dozen side;                        ///< -1 for passive shapes, 1 for the others
-  Dozen weight;                      ///< of a slope's square, where hardly anything is left
   unsigned passive = 0;              ///< a bit a shape
   int pivots = 0;
 };
@@ -74,24 +73,40 @@ template <typename Use>
   return use(std::integral_constant<std::size_t, 3>());
 }
 
+/// What tells the next exchange, in registers from one to the next; the table has the same numbers
+/// where single ones are read.
+template <std::size_t parts>
+struct Front {
+  Four x[parts], diagonal[parts], side[parts];
+
+  [[gnu::always_inline]] explicit Front(const Table& now) noexcept {
+    for (std::size_t p = 0; p < parts; ++p) {
+      x[p] = now.x.part[p];
+      diagonal[p] = now.diagonal.part[p];
+      side[p] = now.side.part[p];
+    }
+  }
+};
+
 /// The exchange of x_k and its slope in  slope = q - H x,  for either direction. Column k is row
 /// k but for the signs of the rows on the other side. Entries k are set among their neighbours:
 /// what is written in part is slow to read as a whole.
 template <std::size_t parts>
-[[gnu::always_inline]] inline void exchange(Table& now, std::size_t shapes, std::size_t k,
-                                            double inverse) noexcept {
+[[gnu::always_inline]] inline void exchange(Table& now, Front<parts>& front, std::size_t shapes,
+                                            std::size_t k, double inverse) noexcept {
   Dozen row = now.H[k], column;
   FourBits others[parts];
   const double step = inverse * now.x[k], same = now.side[k];
   for (std::size_t p = 0; p < parts; ++p) {
     const auto is_k = dozen_places[p] == k;
     others[p] = reinterpret_cast<FourBits>(~is_k);
-    Four &side = now.side.part[p], &x = now.x.part[p], &diagonal = now.diagonal.part[p];
+    Four &side = front.side[p], &x = front.x[p], &diagonal = front.diagonal[p];
     column.part[p] = same * side * row.part[p];
     row.part[p] = is_k ? Four{} + inverse : inverse * row.part[p];
-    x = is_k ? Four{} + step : x - step * column.part[p];
-    diagonal = is_k ? Four{} + inverse : diagonal - column.part[p] * row.part[p];
-    side = is_k ? -side : side;
+    now.x.part[p] = x = is_k ? Four{} + step : x - step * column.part[p];
+    now.diagonal.part[p] = diagonal =
+        is_k ? Four{} + inverse : diagonal - column.part[p] * row.part[p];
+    now.side.part[p] = side = is_k ? -side : side;
   }
   for (std::size_t i = 0; i < shapes; ++i) {
     for (std::size_t p = 0; p < parts; ++p) {
@@ -103,6 +118,13 @@ template <std::size_t parts>
   now.H[k] = row;
   now.passive ^= 1U << k;
   ++now.pivots;
+}
+
+template <std::size_t parts>
+[[gnu::always_inline]] inline void exchange(Table& now, std::size_t shapes, std::size_t k,
+                                            double inverse) noexcept {
+  Front<parts> front(now);
+  exchange(now, front, shapes, k, inverse);
 }
 
 }  // namespace shapeid::fast::few

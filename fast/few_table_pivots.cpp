@@ -82,40 +82,51 @@ struct Pivots : Work<parts> {
   /// negative mass m m^2 / K, of another with positive slope s s^2 / d, with d what is left of its
   /// square; or s^2 over all of it where hardly anything is left, which a small s then makes too
   /// much of. The low bits of each carry its number, so that one maximum finds both.
-  [[gnu::always_inline]] static double furthest_out(const Table& now,
+  /// `least`: what is much of each square; `weight`: of a slope's square where there is less.
+  [[gnu::always_inline]] static double furthest_out(const Front<parts>& front,
+                                                    const Four (&least)[parts],
+                                                    const Four (&weight)[parts],
                                                     const Dozen& inverse) noexcept {
     Four marked[parts];
     for (std::size_t p = 0; p < parts; ++p) {
-      const Four x = now.x.part[p];
+      const Four x = front.x[p];
       Four size = x;
       take_sign(size);
-      const auto has_much_left = now.diagonal.part[p] > telling_share * now.squares.part[p];
-      const Four gain = has_much_left ? inverse.part[p] : now.weight.part[p];
-      const Four out = (now.side.part[p] < 0.0 ? -inverse.part[p] : gain) * x * size;
+      const auto has_much_left = front.diagonal[p] > least[p];
+      const Four gain = has_much_left ? inverse.part[p] : weight[p];
+      const Four out = (front.side[p] < 0.0 ? -inverse.part[p] : gain) * (x * size);
       marked[p] =
           reinterpret_cast<Four>((reinterpret_cast<FourBits>(out) & ~place_bits) | dozen_places[p]);
     }
-    return std::max(largest(marked), 0.0);
+    return largest(marked);
   }
 
   [[gnu::always_inline]] static bool pivot(Table& now, std::size_t shapes, double smallest,
                                            int most_pivots) noexcept {
+    Front<parts> front(now);
+    Four least[parts], weight[parts];
     for (std::size_t p = 0; p < parts; ++p) {
       const Four square = now.squares.part[p];
-      now.weight.part[p] = square > 0.0 ? 1.0 / square : Four{};
+      least[p] = telling_share * square;
+      weight[p] = square > 0.0 ? 1.0 / square : Four{};
     }
     while (true) {
       Dozen inverse;
-      for (std::size_t p = 0; p < parts; ++p) inverse.part[p] = 1.0 / now.diagonal.part[p];
-      const double most = furthest_out(now, inverse);
+      for (std::size_t p = 0; p < parts; ++p) inverse.part[p] = 1.0 / front.diagonal[p];
+      const double most = furthest_out(front, least, weight, inverse);
       if (!(most > smallest)) return true;
       if (now.pivots >= most_pivots) return false;
       const std::size_t k = std::bit_cast<std::uint64_t>(most) & place_bits;
-      if (now.side[k] > 0.0 && !(now.diagonal[k] > smallest_share * now.squares[k])) {
-        set(now.weight, k, 0.0);  // it depends on the passive ones; that is a turn, too
-        ++now.pivots;
+      const bool enters = now.side[k] > 0.0;
+      const bool depends = !(now.diagonal[k] > smallest_share * now.squares[k]);
+      // One question, since which way it goes cannot be foreseen.
+      if (static_cast<int>(enters) & static_cast<int>(depends)) {
+        for (std::size_t p = 0; p < parts; ++p) {
+          weight[p] = dozen_places[p] == k ? Four{} : weight[p];
+        }
+        ++now.pivots;  // it depends on the passive ones; that is a turn, too
       } else {
-        exchange<parts>(now, shapes, k, inverse[k]);
+        exchange(now, front, shapes, k, inverse[k]);
       }
     }
   }
@@ -126,10 +137,11 @@ struct Pivots : Work<parts> {
       const Four square = now.squares.part[p];
       now.diagonal.part[p] = square > 0.0 ? square : Four{} + 1.0;
     }
+    Front<parts> front(now);
     for (const int j : passive) {
       const auto k = static_cast<std::size_t>(j);
       if (now.squares[k] > 0.0 && now.diagonal[k] > smallest_share * now.squares[k]) {
-        exchange<parts>(now, shapes, k, 1.0 / now.diagonal[k]);
+        exchange(now, front, shapes, k, 1.0 / now.diagonal[k]);
       }
     }
   }
@@ -154,7 +166,7 @@ struct Pivots : Work<parts> {
 
 }  // namespace
 
-SHAPEID_WIDE double form(const Problem& problem, Table& now, Dozen& sizes) noexcept {
+SHAPEID_WIDE_AND_MANY double form(const Problem& problem, Table& now, Dozen& sizes) noexcept {
   return by_parts(
       problem.shapes, [&](auto parts) __attribute__((always_inline)) {
         return Pivots<decltype(parts)::value>::form(problem, now, sizes);
@@ -165,22 +177,32 @@ SHAPEID_WIDE void stiffen(Table& now, const Dozen& stiffness, std::size_t shapes
   Pivots<3>::stiffen(now, stiffness, shapes);
 }
 
-SHAPEID_WIDE void enter(Table& now, std::size_t shapes, std::span<const int> passive) noexcept {
+SHAPEID_WIDE_AND_MANY void enter(Table& now, std::size_t shapes,
+                                 std::span<const int> passive) noexcept {
   by_parts(
       shapes, [&](auto parts) __attribute__((always_inline)) {
         Pivots<decltype(parts)::value>::enter(now, shapes, passive);
       });
 }
 
-SHAPEID_WIDE bool pivot(Table& now, std::size_t shapes, double smallest, int most_pivots) noexcept {
+SHAPEID_WIDE void leave(Table& now, std::size_t shapes, unsigned leaving) noexcept {
+  for (; leaving != 0; leaving &= leaving - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(leaving));
+    exchange<3>(now, shapes, k, 1.0 / now.diagonal[k]);
+  }
+}
+
+SHAPEID_WIDE_AND_MANY bool pivot(Table& now, std::size_t shapes, double smallest,
+                                 int most_pivots) noexcept {
   return by_parts(
       shapes, [&](auto parts) __attribute__((always_inline)) {
         return Pivots<decltype(parts)::value>::pivot(now, shapes, smallest, most_pivots);
       });
 }
 
-SHAPEID_WIDE double furthest_above(const Table& now, const Problem& problem, const Dozen& slopes,
-                                   const Dozen& sizes, double threshold) noexcept {
+SHAPEID_WIDE_AND_MANY double furthest_above(const Table& now, const Problem& problem,
+                                            const Dozen& slopes, const Dozen& sizes,
+                                            double threshold) noexcept {
   return by_parts(
       problem.shapes, [&](auto parts) __attribute__((always_inline)) {
         return Pivots<decltype(parts)::value>::furthest_above(now, problem, slopes, sizes,

@@ -20,6 +20,9 @@ void stiffen(Table& now, const Dozen& stiffness, std::size_t shapes) noexcept;
 /// Exchanges the passive shapes, as far as their columns do not depend on those before.
 void enter(Table& now, std::size_t shapes, std::span<const int> passive) noexcept;
 
+/// Exchanges these passive shapes back, a bit each.
+void leave(Table& now, std::size_t shapes, unsigned leaving) noexcept;
+
 /// Pivots until nothing is out of place by more than `smallest`; false if `most_pivots` were too
 /// few.
 [[nodiscard]] bool pivot(Table& now, std::size_t shapes, double smallest, int most_pivots) noexcept;

@@ -123,6 +123,15 @@ SHAPEID_WIDE void evaluate_masses(const Data& data, const int* shapes, const dou
   return ((any[0] | any[1]) | (any[2] | any[3])) == 0;
 }
 
+/// A bit a place, of those used. What is no number is neither.
+[[gnu::always_inline]] inline unsigned not_positive(const Dozen& a, unsigned used) noexcept {
+  unsigned places = 0;
+  for (unsigned left = used; left != 0; left &= left - 1) {
+    if (a[static_cast<std::size_t>(std::countr_zero(left))] <= 0.0) places |= left & -left;
+  }
+  return places;
+}
+
 struct Limits {
   double refined;
   int most;
@@ -145,10 +154,14 @@ SHAPEID_WIDE void settle_masses(const Data& data, const AtPlaces& passive, doubl
   keep(m, used);
   settled.m = m;
   settled.is_settled = false;
+  settled.below = 0;
   settled.corrections = 0;
   bool once_more = true;
   while (true) {
-    if (!all_positive(m, used)) return;  // a correction took a mass away
+    if (!all_positive(m, used)) {
+      settled.below = not_positive(m, passive.used);
+      return;
+    }
     Dozen Phi, u;
     for (unsigned left = passive.used; left != 0; left &= left - 1) {
       const auto place = static_cast<std::size_t>(std::countr_zero(left));

@@ -31,6 +31,7 @@ bool LinkTable::start(const LinkRows& rows, double lambda,
   rows_ = &rows;
   pivots_ = 0;
   wanting_ = -1;
+  leaving_ = 0;
   problem_.U = columns_->data();
   problem_.V = V_->data();
   problem_.chunks = columns_->chunks();
@@ -92,6 +93,10 @@ bool LinkTable::divide(int j, int other, double V1, double V2) noexcept {
 // passive shape.
 bool LinkTable::settle() noexcept {
   problem_.count = columns_->used_chunks();
+  for (unsigned left = std::exchange(leaving_, 0U); left != 0; left &= left - 1) {
+    ++pivots_;
+    tableau::leave(now_, static_cast<std::size_t>(std::countr_zero(left)));
+  }
   if (const int j = std::exchange(wanting_, -1); j >= 0) {
     ++pivots_;
     if (!enter_shape(j)) return false;

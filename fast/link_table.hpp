@@ -39,7 +39,8 @@ class LinkTable final : public Guess {
                            const std::vector<int>& passive) noexcept override;
   [[nodiscard]] bool divide(int j, int other, double V1, double V2) noexcept override;
   [[nodiscard]] bool settle() noexcept override;
-  [[nodiscard]] bool can_go_on() const noexcept override { return wanting_ >= 0; }
+  void let_go(unsigned places) noexcept override { leaving_ = places; }
+  [[nodiscard]] bool can_go_on() const noexcept override { return wanting_ >= 0 || leaving_ != 0; }
 
   [[nodiscard]] AtPlaces answer() const noexcept override;
   [[nodiscard]] int pivots() const noexcept override { return pivots_; }
@@ -62,7 +63,8 @@ class LinkTable final : public Guess {
   const Eigen::VectorXd* V_;
   const LinkRows* rows_ = nullptr;
   int pivots_ = 0;
-  int wanting_ = -1;  ///< a shape to enter next
+  int wanting_ = -1;      ///< a shape to enter next
+  unsigned leaving_ = 0;  ///< places to leave next, a bit each
   /// Where settle() ended; all others certainly did not want to enter.
   tableau::Doubtful doubtful_;
   bool knows_doubtful_ = false;

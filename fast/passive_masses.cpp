@@ -30,6 +30,10 @@ constexpr std::uint64_t some_signs = 0x9E3779B97F4A7C15;
 /// more than a millionth, a hundred times this root.
 constexpr double met_exactly = 1e-16;
 
+Eigen::Map<const ShapeColumns::Column> first_ten(const Dozen& dozen) noexcept {
+  return Eigen::Map<const ShapeColumns::Column>(dozen.data());
+}
+
 }  // namespace
 
 PassiveMasses::PassiveMasses(ShapeColumns& columns, const Eigen::VectorXd& V)
@@ -55,7 +59,7 @@ PassiveMasses::PassiveMasses(ShapeColumns& columns, const Eigen::VectorXd& V)
 bool PassiveMasses::take(const Eigen::MatrixXd& R) noexcept {
   if (columns_->links() == 1) {
     other_rows_->link.take(R);
-    std::copy_n(other_rows_->link.lengths().data(), 10, other_rows_->lengths.data());
+    other_rows_->lengths = first_ten(other_rows_->link.lengths());
     other_rows_->length = other_rows_->link.length();
   } else {
     column_sizes(R, other_rows_->lengths);
@@ -69,13 +73,12 @@ bool PassiveMasses::take(const Eigen::MatrixXd& R) noexcept {
 
 void PassiveMasses::take_back() noexcept {
   std::swap(rows_, other_rows_);
-  scaled_ = false;
+  columns_->forget_scale();
   evaluated_ = false;
 }
 
 void PassiveMasses::scale_prices() noexcept {
-  if (!scaled_) columns_->set_scale(rows_->lengths, rows_->length);
-  scaled_ = true;
+  if (!columns_->has_scale()) columns_->set_scale(rows_->lengths, rows_->length);
 }
 
 void PassiveMasses::set_lambda(double lambda) noexcept {
@@ -145,8 +148,8 @@ void PassiveMasses::evaluate() noexcept {
 void PassiveMasses::take_value(double density) noexcept {
   evaluated_ = true;
   judged_ = false;
-  std::copy_n(at_masses_.Phi.data(), 10, Phi_.data());
-  std::copy_n(at_masses_.slopes.data(), 10, slopes_.data());
+  Phi_ = first_ten(at_masses_.Phi);
+  slopes_ = first_ten(at_masses_.slopes);
   const double unreached = (*rows_->R)(10, 10);
   value_ = {at_masses_.square + unreached * unreached, density};
 }
@@ -239,6 +242,7 @@ bool PassiveMasses::settles_at(Guess& guess) noexcept {
   rows_->link.settle(*columns_, at, is_damped ? stiffness : no_stiffness_, refined_slope,
                      most_refinements, met_exactly, settled);
   corrections_ = settled.corrections;
+  guess.let_go(settled.below);
   if (!settled.is_settled || !std::isfinite(settled.at.square + settled.density) ||
       !guess.none_enters(settled.at.slopes, is_damped ? -certainly_held : smallest_slope) ||
       (is_damped && !tells_apart(guess, at, settled.m))) {

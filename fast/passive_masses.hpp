@@ -157,7 +157,6 @@ class PassiveMasses {
   Eigen::VectorXd saved_Phi_, saved_slopes_;
   Objective saved_value_;
   int corrections_ = 0;
-  bool scaled_ = false;     ///< the columns know what prices are measured by
   bool evaluated_ = false;  ///< Phi_, slopes_ and value_ are those of the masses
   bool judged_ = false;     ///< largest_slope_ is that of the passive shapes at slopes_
 };

@@ -79,7 +79,11 @@ class Guess : public NormalEquations {
   /// Pivots until no mass is negative and no shape wants to enter, as far as can be seen. False if
   /// that does not come about.
   [[nodiscard]] virtual bool settle() noexcept = 0;
-  /// Whether a shape wanted to enter when none_enters() was asked last, so that settle() may go on.
+  /// The shapes at these places, a bit each, are to leave: corrected, their masses were not
+  /// positive.
+  virtual void let_go(unsigned places) noexcept = 0;
+  /// Whether a shape wanted to enter when none_enters() was asked last, or some are to leave, so
+  /// that settle() may go on.
   [[nodiscard]] virtual bool can_go_on() const noexcept = 0;
 
   /// The passive shapes and their masses: positive, but for rounding.

@@ -36,6 +36,7 @@ struct alignas(64) PriceChunk {
   std::array<int, lanes> shape;
   int link;
   int used;
+  bool is_behind;  ///< columns were written that are not here yet
 };
 
 /// A shape of a chunk.

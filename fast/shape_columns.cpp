@@ -132,6 +132,7 @@ bool ShapeColumns::append(int link, const Column& u) noexcept {
     fresh.barrier.setConstant(barred);
     fresh.link = link;
     fresh.used = 0;
+    fresh.is_behind = false;
   }
   PriceChunk& chunk = chunks_[static_cast<std::size_t>(last)];
   const int lane = chunk.used++;
@@ -149,15 +150,23 @@ void ShapeColumns::write(int j, const Column& u) noexcept {
   columns_.col(j) = u;
   const Slot& slot = slots_[static_cast<std::size_t>(j)];
   PriceChunk& chunk = chunks_[static_cast<std::size_t>(slot.chunk)];
+  if (!has_scale_) {
+    chunk.is_behind = true;
+    return;
+  }
   const double* lengths = lengths_.data() + std::ptrdiff_t{10} * chunk.link;
   double even = 0.0, odd = 0.0;
   for (int i = 0; i < 10; i += 2) {
     even += std::abs(u[i]) * lengths[i];
     odd += std::abs(u[i + 1]) * lengths[i + 1];
   }
-  float* lane = chunk.U.data() + slot.lane;
-  for (int i = 0; i < 10; ++i) lane[std::ptrdiff_t{lanes} * i] = static_cast<float>(u[i]);
+  write_lane(chunk, slot.lane, u.data());
   chunk.scale[slot.lane] = 1.0F / std::max(static_cast<float>(even + odd), smallest_scale);
+}
+
+void ShapeColumns::write_lane(PriceChunk& chunk, int lane, const double* u) noexcept {
+  float* entries = chunk.U.data() + lane;
+  for (int i = 0; i < 10; ++i) entries[std::ptrdiff_t{lanes} * i] = static_cast<float>(u[i]);
 }
 
 void ShapeColumns::set_scale(const Eigen::VectorXd& lengths, double length) noexcept {
@@ -165,10 +174,17 @@ void ShapeColumns::set_scale(const Eigen::VectorXd& lengths, double length) noex
   lengths_ = lengths * (largest_ > 0.0 ? 1.0 / largest_ : 1.0);
   unit_ = largest_ * length;
   inverse_unit_ = unit_ > 0.0 ? 1.0 / unit_ : 1.0;
+  has_scale_ = true;
   for (int c = 0; c < used_chunks_; ++c) set_scale(chunks_[static_cast<std::size_t>(c)]);
 }
 
 void ShapeColumns::set_scale(PriceChunk& chunk) noexcept {
+  if (chunk.is_behind) {
+    for (int lane = 0; lane < chunk.used; ++lane) {
+      write_lane(chunk, lane, column(chunk.shape[static_cast<std::size_t>(lane)]).data());
+    }
+    chunk.is_behind = false;
+  }
   const Ten lengths = lengths_.segment<10>(Eigen::Index{10} * chunk.link).cast<float>();
   scales(chunk.U.data(), lengths.data(), chunk.scale.data());
 }

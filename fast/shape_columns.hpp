@@ -41,6 +41,9 @@ class ShapeColumns {
   /// `length`: of the right-hand side. No slope u_j . g that comes from a right-hand side of this
   /// length is larger than length x sum_i |u_ij| lengths_i.
   void set_scale(const Eigen::VectorXd& lengths, double length) noexcept;
+  /// No price is asked until the next set_scale(): columns that come until then are priced by it.
+  void forget_scale() noexcept { has_scale_ = false; }
+  [[nodiscard]] bool has_scale() const noexcept { return has_scale_; }
   /// A slope of shape j over that bound: free of units, to single precision.
   [[nodiscard]] double price(int j, double slope) const noexcept {
     const Slot& slot = slots_[static_cast<std::size_t>(j)];
@@ -99,12 +102,14 @@ class ShapeColumns {
 
   enum class Judged { by_lengths, by_terms };
   void write(int j, const Column& u) noexcept;
+  void write_lane(PriceChunk& chunk, int lane, const double* u) noexcept;
   void set_scale(PriceChunk& chunk) noexcept;
   [[nodiscard]] int steepest_in_double(const Eigen::VectorXd& g, double threshold, float below,
                                        Judged judged) const noexcept;
 
   int size_ = 0;
   int used_chunks_ = 0;
+  bool has_scale_ = true;
   std::vector<PriceChunk> chunks_;
   std::vector<Slot> slots_;                            ///< of every shape
   std::vector<int> links_;                             ///< of every shape

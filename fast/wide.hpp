@@ -116,8 +116,8 @@ constexpr std::uint64_t place_bits = 15;
 #endif
 
 /// Likewise, and once more for machines with AVX-512: not for longer registers but for twice as
-/// many, which tables of a dozen rows do not fit into otherwise. What waits for one number after
-/// the other gains nothing by it, or loses. (Older GCC and clang do not know that machine here.)
+/// many, which tables of a dozen rows do not fit into otherwise. (Sums over a link's rows gain
+/// nothing by it, or lose. Older GCC and clang do not know that machine here.)
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__AVX2__) &&              \
     !defined(__SANITIZE_THREAD__) && !defined(SHAPEID_NARROW) && !defined(__clang__) && \
     __GNUC__ >= 12

@@ -45,7 +45,8 @@ bool JudgedGuess::start(const MatrixXd& R, double lambda, const std::vector<int>
 }
 
 bool JudgedGuess::settles() {
-  while (guess().settle()) {
+  // More rounds than a solver grants: of those that do not come to an end none is settled.
+  for (int round = 0; round < 10 && guess().settle(); ++round) {
     if (method_.settles_at(guess())) return true;
     if (!guess().can_go_on()) return false;
   }
@@ -73,11 +74,11 @@ TriangleCase link_case(std::uint64_t seed, int shapes, bool density_term, double
   return body_case(seed, {.shapes_a_link = shapes, .noise = noise, .density_term = density_term});
 }
 
-int settled_guesses(GuessBy by, int most_shapes, bool density_term, bool warm) {
+int settled_guesses(GuessBy by, int most_shapes, bool density_term, bool warm, double noise) {
   int count = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     const int shapes = 1 + static_cast<int>(seed % static_cast<std::uint64_t>(most_shapes));
-    const TriangleCase given = link_case(seed, shapes, density_term);
+    const TriangleCase given = link_case(seed, shapes, density_term, noise);
     std::vector<int> start;
     for (int j = 0; warm && j < given.shapes() && start.size() < 8; ++j) {
       if ((seed >> (j % 8)) % 2 == 1) start.push_back(j);

@@ -51,7 +51,8 @@ class JudgedGuess {
                                      double noise = 1e-2);
 
 /// Of 300 problems with up to `most_shapes`, how many are settled; each of these is right.
-[[nodiscard]] int settled_guesses(GuessBy by, int most_shapes, bool density_term, bool warm);
+[[nodiscard]] int settled_guesses(GuessBy by, int most_shapes, bool density_term, bool warm,
+                                  double noise = 1e-2);
 
 /// Of 100 guesses from the forces of another window, how many are refused.
 [[nodiscard]] int refused_guesses(GuessBy by, int shapes);

@@ -178,6 +178,16 @@ TEST(LinkRows, SettleOnNoMassThatIsNotPositive) {
     negative += is_positive ? 0 : 1;
     settled_all += settled.is_settled ? 1 : 0;
     EXPECT_EQ(settled.is_settled, is_positive) << seed;
+    unsigned below = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(three.best[static_cast<Index>(k)] > 0.0)) below |= 1U << Three::places[k];
+    }
+    // Where nothing pushes all masses are zero, and rounding says which of them are positive.
+    if (three.best.isZero(0.0)) {
+      EXPECT_NE(settled.below, 0U) << seed;
+    } else {
+      EXPECT_EQ(settled.below, below) << seed;
+    }
   }
   EXPECT_GT(negative, 10);
   EXPECT_GT(settled_all, 10);

@@ -29,6 +29,13 @@ TEST(LinkTable, IsSettledAlmostAlwaysWithoutLambda) {
   }
 }
 
+TEST(LinkTable, IsSettledWhereMostShapesHaveNeitherMassNorSlope) {
+  for (const bool warm : {false, true}) {
+    // All 300; 285 and 283 without a second turn.
+    EXPECT_GE(test::settled_guesses(by_table, 60, false, warm, 0.0), 298);
+  }
+}
+
 // With lambda only where the rows alone decide which shapes have mass.
 TEST(LinkTable, IsSettledOftenWithLambda) {
   // 143 where this was written: up to ten shapes or so.

@@ -108,6 +108,35 @@ RC_GTEST_PROP(ShapeColumns, SteepestIsThatOfDoubleButForSinglePrecision, ()) {
   }
 }
 
+// Some come before the scale is forgotten, and have other columns since; the others after it.
+RC_GTEST_PROP(ShapeColumns, AreAsWellWrittenBeforeTheirScaleIsKnown, ()) {
+  const Market market = any_market(1.0);
+  ShapeColumns at_once = market.stored();
+  ShapeColumns late(market.links, static_cast<int>(market.columns.size()));
+  const std::size_t early = market.columns.size() / 2;
+  for (std::size_t j = 0; j < early; ++j) {
+    RC_ASSERT(late.append(market.link_of[j], ShapeColumns::Column::Constant(3.0)));
+  }
+  late.forget_scale();
+  RC_ASSERT(!late.has_scale());
+  for (std::size_t j = 0; j < market.columns.size(); ++j) {
+    if (j < early) {
+      late.replace(static_cast<int>(j), market.columns[j]);
+    } else {
+      RC_ASSERT(late.append(market.link_of[j], market.columns[j]));
+    }
+  }
+  late.set_scale(market.lengths, market.length);
+  RC_ASSERT(late.has_scale());
+  for (std::size_t j = 0; j < market.columns.size(); ++j) {
+    late.bar(static_cast<int>(j), market.barred[j]);
+  }
+  for (int j = 0; j < late.size(); ++j) RC_ASSERT(late.price(j, 1.0) == at_once.price(j, 1.0));
+  for (const VectorXd& g : {market.g, VectorXd(-market.g)}) {
+    RC_ASSERT(late.steepest(g, single_rounding) == at_once.steepest(g, single_rounding));
+  }
+}
+
 // Slopes far below what single precision resolves: double decides among all that are not barred,
 // with prices whose scale alone is single.
 RC_GTEST_PROP(ShapeColumns, DoubleDecidesWhereSingleCannot, ()) {
