@@ -30,7 +30,8 @@ MatrixXd rows_of_motion(Draw& draw, int links, int samples) {
     for (int l = 0; l < links; ++l) {
       const Eigen::Vector3d omega = draw.vector(2.0), alpha = draw.vector(20.0),
                             a = Eigen::Vector3d(0.0, 0.0, 9.81) + draw.vector(4.0);
-      Y.block<6, 10>(6 * i, 10 * l) = rotation_of_wrenches(draw) * body_rows(omega, alpha, a);
+      Y.block<6, 10>(Eigen::Index{6} * i, Eigen::Index{10} * l) =
+          rotation_of_wrenches(draw) * body_rows(omega, alpha, a);
     }
   }
   return Y;

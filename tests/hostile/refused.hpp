@@ -16,7 +16,7 @@ std::string refusal(const Read& read) {
   try {
     read();
   } catch (const InputError& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     constexpr std::size_t longest = 2000;  // bytes: a screen
     EXPECT_LE(message.size(), longest);
     EXPECT_TRUE(std::none_of(message.begin(), message.end(), [](char c) {

@@ -107,7 +107,8 @@ TEST(HostileXml, ByteOrderMarkAndCarriageReturns) {
   std::string windows = "\xEF\xBB\xBF";
   for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
   EXPECT_EQ(parse_urdf(windows, "r").robot.link_count(), 3);
-  EXPECT_TRUE(says(refusal_of_xml("\xFF\xFE<\0r\0o\0"), "r.urdf"));  // UTF-16
+  const std::string utf16("\xFF\xFE<\0r\0o\0", 8);
+  EXPECT_TRUE(says(refusal_of_xml(utf16), "r.urdf"));
 }
 
 // A name of a megabyte, and one that would clear the screen, are quoted so that neither does harm.

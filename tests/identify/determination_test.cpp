@@ -168,13 +168,11 @@ TEST(Determination, CoversTheScatter) {
   const Eigen::Index n = 2;
   double squares = 0.0, predicted = 0.0;
   for (int k = 0; k < repetitions; ++k) {
-    const auto seed = static_cast<std::uint64_t>(100 + k);
+    const auto seed = 100 + static_cast<std::uint64_t>(k);
     const Data d = data(seed, 20, 10, n, 1.0);
     test::Draw draw(seed);
     const double truth = draw.between(1.0, 3.0);
-    MatrixXd all(0, n + 1);
-    for (const MatrixXd& r : d.rows) all = triangle(stacked(all, r));
-    const double estimate = all.topLeftCorner(n, n).fullPivLu().solve(all.col(n).head(n))[0];
+    const double estimate = without_block(d, d.rows.size())[0];
     squares += (estimate - truth) * (estimate - truth);
     predicted += std::pow(determine(d.blocks(), VectorXd::Ones(n)).standard_error[0], 2);
   }

@@ -29,7 +29,7 @@ RC_GTEST_PROP(Residual, IsWhatTheProjectorLeaves, ()) {
   RC_PRE(!robot.contacts.empty());
   Sample sample = *test::sample(robot);
   sample.in_contact = {true};
-  const Eigen::VectorXd Phi = *test::vector(10 * robot.link_count(), 5.0);
+  const Eigen::VectorXd Phi = *test::vector(Eigen::Index{10} * robot.link_count(), 5.0);
   const Eigen::MatrixXd J = contact_jacobian(robot, sample);
   const Eigen::MatrixXd Y = regressor(robot, sample);
   const Eigen::VectorXd expected = projector(J) * (Y * Phi - applied_force(robot, sample));

@@ -13,7 +13,6 @@ namespace {
 using test::few_hundred_eps;
 using test::planted_problem;
 using test::PlantedProblem;
-using test::PlantedStyle;
 using test::scaled;
 using test::scaled_mass_difference;
 using test::scaled_objective_difference;

@@ -108,6 +108,7 @@ void write_log(const std::string& path, const Robot& robot, const std::vector<do
 
 std::vector<double> regular_times(double start, double rate, int count) {
   std::vector<double> times;
+  times.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) times.push_back(start + k / rate);
   return times;
 }

@@ -44,7 +44,7 @@ struct Noise {
 };
 
 std::string write_pendulum(const ScratchFolder& scratch, const Noise& noise, std::uint32_t seed) {
-  const auto path = scratch.path("a.csv");
+  auto path = scratch.path("a.csv");
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   LogWriter writer(path, {"time", "q.j0", "tau.j0"});

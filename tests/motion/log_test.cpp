@@ -123,7 +123,8 @@ TEST(LogReader, TruncatedOrDamagedArchivesAreRefused) {
 }
 
 // Bits drawn at random are doubles of all magnitudes, subnormal ones included.
-RC_GTEST_PROP(LogWriter, NumbersReadBackExactly, (std::vector<std::uint64_t> bits, bool zipped)) {
+RC_GTEST_PROP(LogWriter, NumbersReadBackExactly,
+              (const std::vector<std::uint64_t>& bits, bool zipped)) {
   std::vector<double> numbers;
   for (const std::uint64_t b : bits) {
     const auto number = std::bit_cast<double>(b);

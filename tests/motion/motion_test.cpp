@@ -256,7 +256,7 @@ class ImuPose : public testing::Test {
   }
 
   std::string write() {
-    const auto path = scratch_.path("a.csv");
+    auto path = scratch_.path("a.csv");
     write_log(path, robot_, regular_times(0.0, 500.0, 4000),
               [&](double t) { return seen_by_imu(smooth_motion(robot_, t)); });
     return path;

@@ -36,8 +36,10 @@ Robot walker(bool with_contact) {
 
 /// Uneven stamps of about 500 Hz, and a gap of a tenth of a second.
 std::vector<double> uneven_times() {
+  constexpr int count = 3000;
   std::vector<double> times;
-  for (int k = 0; k < 3000; ++k) {
+  times.reserve(count);
+  for (int k = 0; k < count; ++k) {
     times.push_back(0.002 * k + 0.0004 * std::sin(1.7 * k) + (k < 1400 ? 0.0 : 0.1));
   }
   return times;

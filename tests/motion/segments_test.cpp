@@ -203,7 +203,7 @@ class Contacts : public testing::Test {
   static bool touches(double t) { return t >= 1.0 && t < 2.0; }
 
   std::string write_flags() {
-    const auto path = scratch_.path("a.csv");
+    auto path = scratch_.path("a.csv");
     LogWriter writer(path, log_columns(robot_));
     for (const double t : regular_times(0.0, 500.0, 3000)) {
       Sample s = smooth_motion(robot_, t);

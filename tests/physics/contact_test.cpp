@@ -62,7 +62,7 @@ RC_GTEST_PROP(ContactJacobian, AngularRowsFollowFromPoints, ()) {
   const Eigen::Matrix3Xd p = simbody.contact_positions(s.q);
   const auto axis = [&](int i) -> Vector3d { return p.col(i + 1) - p.col(0); };
   const auto tip = [&](int i) -> Eigen::MatrixXd {
-    return J.middleRows<3>(3 * (i + 1)) - J.topRows<3>();
+    return J.middleRows<3>(Eigen::Index{3} * (i + 1)) - J.topRows<3>();
   };
   Eigen::MatrixXd turning(3, robot.dof());  // about the frame's x, y, z
   for (int about = 0; about < 3; ++about) {

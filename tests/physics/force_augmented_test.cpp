@@ -97,7 +97,7 @@ void check_agreement(const std::vector<RowsWithForces>& samples) {
 RC_GTEST_PROP(ForceAugmented, SamePhiAndObjective, ()) {
   const Robot robot = (*test::robot_in_contact()).first;
   const int unknowns = *rc::gen::inRange(1, 7);
-  const Eigen::Index parameters = 10 * robot.link_count();
+  const Eigen::Index parameters = Eigen::Index{10} * robot.link_count();
   const MatrixXd U = (*test::vector(parameters * unknowns, 1.0)).reshaped(parameters, unknowns);
   const VectorXd weight = *test::weights(robot.dof());
   std::vector<RowsWithForces> samples;

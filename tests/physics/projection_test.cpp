@@ -145,12 +145,12 @@ Robot walker(int legs, ContactKind of_base) {
 /// Knees bent and hips below the base: every leg can move its foot in three directions.
 Sample crouching(int legs) {
   Sample s;
-  s.q.resize(3 * legs);
+  s.q.resize(Eigen::Index{3} * legs);
   for (int leg = 0; leg < legs; ++leg) {
-    s.q.segment<3>(3 * leg) << *test::real(-0.5, 0.5), *test::real(-0.5, 0.5),
+    s.q.segment<3>(Eigen::Index{3} * leg) << *test::real(-0.5, 0.5), *test::real(-0.5, 0.5),
         *test::real(0.7, 1.4);
   }
-  s.dq = s.ddq = s.tau = VectorXd::Zero(3 * legs);
+  s.dq = s.ddq = s.tau = VectorXd::Zero(Eigen::Index{3} * legs);
   return s;
 }
 

@@ -126,7 +126,8 @@ TEST_P(AgreesWithSimbody, EverySingleColumn) {
       scale = std::max(scale, test::size_of_terms_with_weight(heavier, s));
     }
     const Eigen::MatrixXd columns = span.solve(added.transpose()).transpose();
-    const Eigen::MatrixXd Y = reference::regressor(robot, s).middleCols<10>(10 * link);
+    const Eigen::MatrixXd Y =
+        reference::regressor(robot, s).middleCols<10>(Eigen::Index{10} * link);
     ++tally.robots;
     for (int c = 0; c < 10; ++c) {
       const double residual = scaled((Y.col(c) - columns.col(c)).norm(), condition * scale, 10);

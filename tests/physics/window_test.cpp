@@ -39,7 +39,7 @@ BodyModel arbitrary_model(const Robot& robot) {
   for (int link = 0; link <= last; ++link) {
     if (link != last && !*rc::gen::arbitrary<bool>()) continue;
     model.free_links.push_back(link);
-    if (link != last) model.known.segment<10>(10 * link).setZero();
+    if (link != last) model.known.segment<10>(Eigen::Index{10} * link).setZero();
     for (int k = 0; k < 2; ++k) {
       const Eigen::Vector3d sides(0.1, 0.2, 0.3 + 0.1 * k);
       model.shapes.push_back({link, make_cuboid(sides, *test::pose(0.4)), std::to_string(k)});

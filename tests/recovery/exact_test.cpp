@@ -55,6 +55,7 @@ struct Rows {
 
 std::vector<Sample> samples_of(const std::vector<SimulatedSample>& motion) {
   std::vector<Sample> samples;
+  samples.reserve(motion.size());
   for (const SimulatedSample& s : motion) samples.push_back(s.sample);
   return samples;
 }
@@ -81,7 +82,8 @@ Rows rows_of(const Robot& robot, const BodyModel& model, ContactTreatment contac
 Eigen::VectorXd free_part(const BodyModel& model, const Eigen::VectorXd& all) {
   Eigen::VectorXd free(10 * static_cast<Eigen::Index>(model.free_links.size()));
   for (std::size_t i = 0; i < model.free_links.size(); ++i) {
-    free.segment<10>(10 * static_cast<Eigen::Index>(i)) = all.segment<10>(10 * model.free_links[i]);
+    free.segment<10>(10 * static_cast<Eigen::Index>(i)) =
+        all.segment<10>(Eigen::Index{10} * model.free_links[i]);
   }
   return free;
 }
@@ -218,7 +220,8 @@ TEST(Exact, ALoadThatFillsOneCellComesBack) {
       load_region(robot, load.link, load.centre - 0.5 * load.sides, load.centre + 0.5 * load.sides);
   for (int cell = 0; cell < 27; ++cell) {
     if (cell == 13) continue;  // the middle one, which is there already
-    const Eigen::Vector3d place(cell / 9 - 1, cell / 3 % 3 - 1, cell % 3 - 1);
+    const int layer = cell / 9;
+    const Eigen::Vector3d place(layer - 1, cell / 3 % 3 - 1, cell % 3 - 1);
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.translation() = load.centre + load.sides.cwiseProduct(place);
     region.shapes.push_back({load.link, make_cuboid(load.sides, pose), std::to_string(cell)});

@@ -63,7 +63,8 @@ TEST(TorqueNoise, ErrorFallsAsOneOverTheRootOfTheSamples) {
       squares += e.cwiseAbs2();
       sum += e;
     }
-    samples.push_back(static_cast<double>(motion.size() / stride));
+    const std::size_t count = motion.size() / stride;
+    samples.push_back(static_cast<double>(count));
     rms.push_back(std::sqrt(squares.sum() / seeds));
     fmt::print(
         "torque noise {} N m, N = {:3.0f}: error {:.4f} of natural sizes, times sqrt(N) "

@@ -23,7 +23,7 @@ struct Parts {
   std::string b = R"(<link name="b"/>)";
   std::string j =
       R"(<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint>)";
-  std::string more = "";
+  std::string more{};
 };
 
 std::string robot(const Parts& p) {
@@ -54,7 +54,7 @@ std::string collision(const std::string& geometry) {
 
 std::string nested(int levels) {
   std::string inside;
-  for (int i = 0; i < levels; ++i) inside = "<x>" + inside + "</x>";
+  for (int i = 0; i < levels; ++i) inside.insert(0, "<x>").append("</x>");
   return robot({.more = inside + "\n"});
 }
 

@@ -166,6 +166,7 @@ TEST(Division, EndsWhereDoublesDo) {
   const Eigen::Isometry3d pose(Eigen::Translation3d(0.3, -0.7, 0.5) *
                                Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, -1).normalized()));
   std::vector<Eigen::Vector3d> corners;
+  corners.reserve(8);
   for (int k = 0; k < 8; ++k) {
     corners.emplace_back(0.1 * (k & 1), 0.2 * ((k >> 1) & 1), 0.3 * (k >> 2));
   }
