@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 namespace shapeid::fast {
@@ -31,6 +32,7 @@ ActiveSet::ActiveSet(ShapeColumns& columns, const Eigen::VectorXd& V)
   tried_.reserve(room);
   refused_.reserve(room);
   entering_.reserve(room);
+  joining_.reserve(room);
 }
 
 void ActiveSet::use(PassiveSet& set, double lambda) noexcept {
@@ -134,7 +136,17 @@ void ActiveSet::factorise() noexcept {
              std::pair(columns_->link(b.place), b.place);
     });
   }
-  for (const ShapeMass& shape : entering_) enter_with_mass(shape.place, shape.mass);
+  joining_.clear();
+  for (const ShapeMass& shape : entering_) joining_.push_back(shape.place);
+  const std::size_t joined = set_->enter_first(joining_);
+  for (std::size_t i = 0; i < entering_.size(); ++i) {
+    const auto [j, mass] = entering_[i];
+    if (i < joined) {
+      add(j, mass);
+    } else {
+      enter_with_mass(j, mass);
+    }
+  }
 }
 
 void ActiveSet::add(int j, double mass) noexcept {
@@ -264,12 +276,11 @@ bool ActiveSet::some_enter() noexcept {
   while (now_.passive().size() == before) {
     const std::vector<int>& shapes = entering_shapes();
     if (shapes.empty()) break;
-    for (const int j : shapes) {
-      if (set_->enter(j)) {
-        add(j, 0.0);
-      } else {
-        refuse(j);
-      }
+    for (std::span<const int> left = shapes; !left.empty();) {
+      const std::size_t entered = set_->enter_first(left);
+      for (const int j : left.first(entered)) add(j, 0.0);
+      if (entered < left.size()) refuse(left[entered]);
+      left = left.subspan(std::min(entered + 1, left.size()));
     }
     refuse_without_mass(before);
     if (now_.passive().size() == before) ++iterations_;

@@ -144,6 +144,7 @@ class ActiveSet {
   std::vector<double> tried_;        ///< masses to come back to
   std::vector<int> refused_;         ///< barred until the next step that is taken
   std::vector<ShapeMass> entering_;  ///< on their way into a fresh factorisation
+  std::vector<int> joining_;         ///< the same without masses
   Eigen::VectorXd coefficients_;
   int iterations_ = 0;
   bool started_ = false;             ///< set_ holds the passive shapes

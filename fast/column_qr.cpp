@@ -2,48 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace shapeid::fast {
-namespace {
-
-/// Vectors here are short: four numbers at a time, without a look at where they begin in memory.
-constexpr Eigen::Index together = 4;
-using Four = Eigen::Map<Eigen::Array<double, together, 1>>;
-using ConstFour = Eigen::Map<const Eigen::Array<double, together, 1>>;
-
-double dot(const double* a, const double* b, Eigen::Index n) noexcept {
-  Eigen::Array<double, together, 1> sums = Eigen::Array<double, together, 1>::Zero();
-  Eigen::Index i = 0;
-  for (; i + together <= n; i += together) sums += ConstFour(a + i) * ConstFour(b + i);
-  double sum = sums.sum();
-  for (; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-/// y -= share x
-void take_away(double share, const double* x, double* y, Eigen::Index n) noexcept {
-  Eigen::Index i = 0;
-  for (; i + together <= n; i += together) Four(y + i) -= share * ConstFour(x + i);
-  for (; i < n; ++i) y[i] -= share * x[i];
-}
-
-}  // namespace
 
 // Every column adds one reflection as it enters and fewer than most_columns short ones as it
 // leaves. With room for three times the columns a set is rebuilt seldom, and a new column never
 // passes through many more reflections than a rebuilt set would have.
 ColumnQr::ColumnQr(Eigen::Index rows, Eigen::Index most_columns)
-    : T_(Eigen::MatrixXd::Zero(most_columns, most_columns)),
-      rotated_(Eigen::VectorXd::Zero(rows)),
-      entering_(Eigen::VectorXd::Zero(rows)) {
+    : rows_(rows),
+      T_(Eigen::MatrixXd::Zero(most_columns, most_columns)),
+      rotated_(Eigen::VectorXd::Zero(four_rows::end(rows) + four_rows::together)),
+      entering_(
+          Eigen::MatrixXd::Zero(four_rows::end(rows) + four_rows::together, most_columns + 1)) {
   const auto columns = static_cast<std::size_t>(most_columns);
+  ends_.resize(static_cast<std::size_t>(entering_.cols()));
+  wholes_.resize(ends_.size());
   reflections_.reserve(4 * columns + 4);
-  vectors_.resize(2 * (columns + 1) * static_cast<std::size_t>(rows) + 8 * columns);
+  vectors_.resize(2 * (columns + 1) * static_cast<std::size_t>(rows + 2 * four_rows::together) +
+                  32 * columns);
 }
 
 void ColumnQr::start(const Eigen::Ref<const Eigen::VectorXd>& b) noexcept {
   size_ = 0;
-  rotated_ = b;
+  rotated_.head(rows_) = b;
   reflections_.clear();
   used_ = 0;
 }
@@ -54,35 +36,72 @@ bool ColumnQr::has_room(std::size_t reflections, std::size_t numbers) const noex
 }
 
 ColumnQr::Push ColumnQr::push(Eigen::Index end) noexcept {
-  double* x = entering_.data();
-  std::fill(x + end, x + entering_.size(), 0.0);
-  const double whole = std::sqrt(dot(x, x, end));
-  for (const Reflection& r : reflections_) {
-    if (r.first >= end) continue;  // meets zeros only
-    apply(r, x);
-    end = std::max(end, r.end);
+  begin(0, end);
+  reflect(reflections_.data(), 0, 1);
+  const Push result = take_in(0);
+  if (result == Push::entered) reflect_right_side();
+  return result;
+}
+
+// The right-hand side comes along behind the columns.
+Eigen::Index ColumnQr::push_all(std::span<const Eigen::Index> ends) noexcept {
+  const auto count = static_cast<Eigen::Index>(ends.size());
+  for (Eigen::Index k = 0; k < count; ++k) begin(k, ends[static_cast<std::size_t>(k)]);
+  reflect(reflections_.data(), 0, count);
+  entering_.col(count) = rotated_;
+  ends_[ends.size()] = rows_;
+  Eigen::Index k = 0;
+  for (; k < count && take_in(k) == Push::entered; ++k) {
+    reflect(&reflections_.back(), k + 1, count - k);
   }
+  rotated_ = entering_.col(count);
+  return k;
+}
+
+void ColumnQr::begin(Eigen::Index k, Eigen::Index end) noexcept {
+  double* x = entering_.col(k).data();
+  std::fill(x + end, x + entering_.rows(), 0.0);
+  ends_[static_cast<std::size_t>(k)] = end;
+  wholes_[static_cast<std::size_t>(k)] = std::sqrt(square_of(x, 0, end));
+}
+
+void ColumnQr::reflect(const RowReflection* from, Eigen::Index k, Eigen::Index count) noexcept {
+  reflect_columns(from, reflections_.data() + reflections_.size(), vectors_.data(),
+                  {entering_.data() + k * entering_.rows(), entering_.rows(), ends_.data() + k},
+                  count);
+}
+
+ColumnQr::Push ColumnQr::take_in(Eigen::Index k) noexcept {
+  const double* x = entering_.col(k).data();
+  const Eigen::Index end = ends_[static_cast<std::size_t>(k)];
   // Below row size_ stands what is new.
-  const double length = end > size_ ? std::sqrt(dot(x + size_, x + size_, end - size_)) : 0.0;
-  if (!(length > smallest_share * whole)) return Push::dependent;
-  if (size_ == T_.cols() || !has_room(1, static_cast<std::size_t>(end - size_))) {
+  const double length = end > size_ ? std::sqrt(square_of(x, size_, end)) : 0.0;
+  if (!(length > smallest_share * wholes_[static_cast<std::size_t>(k)])) return Push::dependent;
+  if (size_ == T_.cols() ||
+      !has_room(1, static_cast<std::size_t>(four_rows::numbers(size_, end)))) {
     return Push::crowded;
   }
-  const Eigen::Index k = size_++;
-  std::copy(x, x + k, T_.col(k).data());
-  T_(k, k) = append(x + k, k, end, length);
-  apply(reflections_.back(), rotated_.data());
+  const Eigen::Index last = size_++;
+  std::copy(x, x + last, T_.col(last).data());
+  T_(last, last) = append(x + last, last, end, length);
   return Push::entered;
 }
 
+/// By the last reflection.
+void ColumnQr::reflect_right_side() noexcept {
+  Eigen::Index rows = rows_;
+  const RowReflection* last = &reflections_.back();
+  reflect_columns(last, last + 1, vectors_.data(), {rotated_.data(), 0, &rows}, 1);
+}
+
 void ColumnQr::dependence(Eigen::VectorXd& x) const noexcept {
-  x.head(size_) = entering_.head(size_);
+  x.head(size_) = entering_.col(0).head(size_);
   back_substitute(x);
 }
 
 bool ColumnQr::remove(Eigen::Index place) noexcept {
   const auto behind = static_cast<std::size_t>(size_ - 1 - place);
-  if (!has_room(behind, 2 * behind)) return false;
+  if (!has_room(behind, 8 * behind)) return false;
   --size_;
   // Each column behind moves forward and has one number too many below the diagonal.
   for (Eigen::Index k = place; k < size_; ++k) {
@@ -92,8 +111,10 @@ bool ColumnQr::remove(Eigen::Index place) noexcept {
     const double length = std::sqrt(T_(k, k) * T_(k, k) + T_(k + 1, k) * T_(k + 1, k));
     const double image = append(&T_(k, k), k, k + 2, length);
     T_(k, k) = image;
-    for (Eigen::Index j = k + 1; j < size_; ++j) apply(reflections_.back(), &T_(0, j));
-    apply(reflections_.back(), rotated_.data());
+    const RowReflection& last = reflections_.back();
+    const double* v = vectors_.data() + last.place;
+    for (Eigen::Index j = k + 1; j < size_; ++j) reflect_two(last, v, &T_(0, j));
+    reflect_two(last, v, rotated_.data());
   }
   return true;
 }
@@ -105,7 +126,7 @@ void ColumnQr::solve(Eigen::VectorXd& x) const noexcept {
 
 void ColumnQr::solve_normal(Eigen::VectorXd& x) const noexcept {
   for (Eigen::Index k = 0; k < size_; ++k) {
-    x[k] = (x[k] - dot(&T_(0, k), x.data(), k)) / T_(k, k);
+    x[k] = (x[k] - T_.col(k).head(k).dot(x.head(k))) / T_(k, k);
   }
   back_substitute(x);
 }
@@ -113,27 +134,22 @@ void ColumnQr::solve_normal(Eigen::VectorXd& x) const noexcept {
 double ColumnQr::append(const double* x, Eigen::Index first, Eigen::Index end,
                         double length) noexcept {
   const double image = x[0] > 0.0 ? -length : length;
-  double* v = vectors_.data() + used_;
+  const auto count = static_cast<std::size_t>(four_rows::numbers(first, end));
+  double* all = vectors_.data() + used_;
+  std::fill_n(all, count, 0.0);
+  double* v = all + (first - four_rows::first(first));
   std::copy(x, x + (end - first), v);
   v[0] -= image;  // the signs differ, so that nothing cancels
   // v^T v = 2 length |v_0|
   reflections_.push_back({first, end, used_, 1.0 / (length * std::abs(v[0]))});
-  used_ += static_cast<std::size_t>(end - first);
+  used_ += count;
   return image;
-}
-
-void ColumnQr::apply(const Reflection& r, double* x) const noexcept {
-  const double* v = vectors_.data() + r.place;
-  double* y = x + r.first;
-  const Eigen::Index n = r.end - r.first;
-  const double share = r.scale * dot(v, y, n);
-  take_away(share, v, y, n);
 }
 
 void ColumnQr::back_substitute(Eigen::VectorXd& x) const noexcept {
   for (Eigen::Index k = size_ - 1; k >= 0; --k) {
     x[k] /= T_(k, k);
-    take_away(x[k], &T_(0, k), x.data(), k);
+    x.head(k) -= x[k] * T_.col(k).head(k);
   }
 }
 

@@ -4,7 +4,11 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <span>
 #include <vector>
+
+#include "shapeid/fast/row_reflection.hpp"
 
 namespace shapeid::fast {
 
@@ -28,13 +32,17 @@ class ColumnQr {
     crowded     ///< nothing changed; no room for columns or reflections: start again
   };
 
-  /// Where the caller writes the column that enters next.
-  [[nodiscard]] Eigen::VectorXd& entering() noexcept { return entering_; }
+  /// Where the caller writes the column that enters next; or the one that enters `k` behind it.
+  [[nodiscard]] auto entering(Eigen::Index k = 0) noexcept { return entering_.col(k).head(rows_); }
 
   /// Adds entering() as the last column. Only its first `end` rows are read; the others count as
   /// zero. It is dependent if less than `smallest_share` of its length is new.
   Push push(Eigen::Index end) noexcept;
   static constexpr double smallest_share = 1e-13;
+  /// The same for as many columns as `ends` has entries, up to most_columns of them, until one does
+  /// not enter; returns how many did. Each reflection meets those behind it together, which takes
+  /// less time than one after the other.
+  Eigen::Index push_all(std::span<const Eigen::Index> ends) noexcept;
 
   /// After push() said so: coefficients x of the columns in the set with A x = the refused column,
   /// to rounding. Writes size() entries.
@@ -53,24 +61,26 @@ class ColumnQr {
   [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
 
  private:
-  struct Reflection {
-    Eigen::Index first, end;  ///< rows
-    std::size_t place;        ///< of its vector in vectors_
-    double scale;             ///< 1 - scale v v^T
-  };
-
   [[nodiscard]] bool has_room(std::size_t reflections, std::size_t numbers) const noexcept;
+  /// The column written at entering(k), of which the first `end` rows count.
+  void begin(Eigen::Index k, Eigen::Index end) noexcept;
+  /// What is written at entering(k), reflected by all that are there.
+  [[nodiscard]] Push take_in(Eigen::Index k) noexcept;
+  /// By these reflections: what is written at entering(k) and behind it, `count` columns.
+  void reflect(const RowReflection* from, Eigen::Index k, Eigen::Index count) noexcept;
+  void reflect_right_side() noexcept;
   /// Appends the reflection of rows [first, end) that maps `x` to a multiple of the first unit
   /// vector; returns the multiple.
   double append(const double* x, Eigen::Index first, Eigen::Index end, double length) noexcept;
-  void apply(const Reflection& reflection, double* x) const noexcept;
   void back_substitute(Eigen::VectorXd& x) const noexcept;
 
-  Eigen::Index size_ = 0;
-  Eigen::MatrixXd T_;         ///< upper triangle of the first size_ columns
-  Eigen::VectorXd rotated_;   ///< Q^T b
-  Eigen::VectorXd entering_;  ///< the column that enters; Q^T times it after push()
-  std::vector<Reflection> reflections_;
+  Eigen::Index rows_, size_ = 0;
+  Eigen::MatrixXd T_;               ///< upper triangle of the first size_ columns
+  Eigen::VectorXd rotated_;         ///< Q^T b; some zeros below
+  Eigen::MatrixXd entering_;        ///< columns that enter; Q^T times them after push(); likewise
+  std::vector<Eigen::Index> ends_;  ///< where their zeros begin
+  std::vector<double> wholes_;      ///< their lengths
+  std::vector<RowReflection> reflections_;
   std::vector<double> vectors_;  ///< of the reflections, one behind the other
   std::size_t used_ = 0;         ///< numbers in vectors_
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 
 #include "shapeid/fast/triangle_products.hpp"
 
@@ -33,7 +34,8 @@ EvenDensity::EvenDensity(const ShapeColumns& columns, const Eigen::VectorXd& V)
       correction_(y_),
       target_(Eigen::VectorXd::Zero(columns.capacity())),
       slopes_(y_),
-      noise_(y_) {
+      noise_(y_),
+      ends_(static_cast<std::size_t>(y_.size())) {
   passive_.reserve(static_cast<std::size_t>(columns.capacity()));
   unfelt_.reserve(static_cast<std::size_t>(y_.size()));
 }
@@ -112,19 +114,20 @@ void EvenDensity::factorise() noexcept {
 
 void EvenDensity::factorise_many_links() noexcept {
   const double damping = std::sqrt(lambda_);
-  // Without a column that counts as dependent the unknowns behind it have other places; they stay
-  // within those that there are, and a set that is not sound gives no answer.
+  // A column that counts as dependent and those behind it stay out: a set that is not sound gives
+  // no answer.
   qr_.start(b_);
   unfelt_.clear();
+  Eigen::Index count = 0;
   for (int l = 0; l < columns_->links(); ++l) {
     Density& density = densities_[static_cast<std::size_t>(l)];
-    density.first = qr_.size();
+    density.first = count;
     for (int k = 0; k < density.rows.rank(); ++k) {
       Ten e;
       for (int i = 0; i < 10; ++i) {
         e[i] = density.rows.E()[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
       }
-      double* a = qr_.entering().data();
+      double* a = qr_.entering(count).data();
       const Eigen::Index damped = rows_of_link * l + 10 + k;
       std::fill(a, a + damped, 0.0);
       for (int b = 0; b <= l; ++b) {
@@ -132,10 +135,12 @@ void EvenDensity::factorise_many_links() noexcept {
             R_->block<10, 10>(Eigen::Index{10} * b, Eigen::Index{10} * l).lazyProduct(e);
       }
       a[damped] = damping;
-      if (qr_.entering().head(damped).isZero(0.0)) unfelt_.push_back(density.first + k);
-      sound_ = qr_.push(damped + 1) == ColumnQr::Push::entered && sound_;
+      if (qr_.entering(count).head(damped).isZero(0.0)) unfelt_.push_back(count);
+      ends_[static_cast<std::size_t>(count++)] = damped + 1;
     }
   }
+  const std::span ends(ends_.data(), static_cast<std::size_t>(count));
+  sound_ = qr_.push_all(ends) == count && sound_;
 }
 
 void EvenDensity::solve() noexcept {

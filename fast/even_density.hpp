@@ -71,7 +71,8 @@ class EvenDensity final : public PassiveSet {
   ColumnQr qr_;                       ///< of several
   std::vector<Eigen::Index> unfelt_;  ///< unknowns y that no row of several links feels
   Eigen::VectorXd b_, y_, correction_, target_, slopes_;
-  Eigen::VectorXd noise_;  ///< what rounding leaves of a slope R^T r that is zero
+  Eigen::VectorXd noise_;           ///< what rounding leaves of a slope R^T r that is zero
+  std::vector<Eigen::Index> ends_;  ///< where zeros begin in the columns of qr_
 };
 
 }  // namespace shapeid::fast

@@ -14,6 +14,8 @@ ManyLinks::ManyLinks(const ShapeColumns& columns)
       target_(Eigen::VectorXd::Zero(Eigen::Index{10} * columns.links())),
       correction_(target_) {
   passive_.reserve(static_cast<std::size_t>(target_.size()) + 1);
+  ends_.resize(
+      static_cast<std::size_t>(std::min(target_.size(), Eigen::Index{columns.capacity()})));
 }
 
 void ManyLinks::start(const Eigen::MatrixXd& R) noexcept {
@@ -24,12 +26,15 @@ void ManyLinks::start(const Eigen::MatrixXd& R) noexcept {
   qr_.start(right_hand_side(R));
 }
 
-ColumnQr::Push ManyLinks::push(int j) noexcept {
+/// R u_j at entering(k); returns where its zeros begin.
+Eigen::Index ManyLinks::write(int j, Eigen::Index k) noexcept {
   const Eigen::Index end = Eigen::Index{10} * (columns_->link(j) + 1);
-  qr_.entering().head(end).setZero();
-  add_column(*R_, columns_->link(j), columns_->column(j), qr_.entering().data());
-  return qr_.push(end);
+  qr_.entering(k).head(end).setZero();
+  add_column(*R_, columns_->link(j), columns_->column(j).data(), qr_.entering(k).data());
+  return end;
 }
+
+ColumnQr::Push ManyLinks::push(int j) noexcept { return qr_.push(write(j, 0)); }
 
 // An unsound set has fewer columns in its factorisation than passive shapes. It is no longer
 // updated, for its places are others; shapes are only counted until start().
@@ -49,6 +54,30 @@ bool ManyLinks::enter(int j) noexcept {
   passive_.push_back(j);
   solved_ = false;
   return true;
+}
+
+// What does not enter with the others is asked alone: it may only have found no room.
+std::size_t ManyLinks::enter_first(std::span<const int> shapes) noexcept {
+  std::size_t entered = 0;
+  while (sound_ && entered < shapes.size()) {
+    entered += push_all(shapes.subspan(entered));
+    if (entered == shapes.size() || !enter(shapes[entered])) return entered;
+    ++entered;
+  }
+  return entered + PassiveSet::enter_first(shapes.subspan(entered));
+}
+
+/// As many as enter together.
+std::size_t ManyLinks::push_all(std::span<const int> shapes) noexcept {
+  const std::size_t count = std::min(shapes.size(), ends_.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    ends_[k] = write(shapes[k], static_cast<Eigen::Index>(k));
+  }
+  const auto entered = static_cast<std::size_t>(qr_.push_all({ends_.data(), count}));
+  passive_.insert(passive_.end(), shapes.begin(),
+                  shapes.begin() + static_cast<std::ptrdiff_t>(entered));
+  solved_ = false;
+  return entered;
 }
 
 void ManyLinks::dependence(Eigen::VectorXd& coefficients) noexcept { qr_.dependence(coefficients); }

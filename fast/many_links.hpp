@@ -19,6 +19,8 @@ class ManyLinks final : public ColumnSet {
 
   void start(const Eigen::MatrixXd& R) noexcept override;
   [[nodiscard]] bool enter(int j) noexcept override;
+  /// Factorised together.
+  [[nodiscard]] std::size_t enter_first(std::span<const int> shapes) noexcept override;
   void dependence(Eigen::VectorXd& coefficients) noexcept override;
   void leave(int place) noexcept override;
   void refine(const Eigen::VectorXd& slopes) noexcept override;
@@ -31,13 +33,16 @@ class ManyLinks final : public ColumnSet {
   }
 
  private:
+  [[nodiscard]] Eigen::Index write(int j, Eigen::Index k) noexcept;
   ColumnQr::Push push(int j) noexcept;
+  [[nodiscard]] std::size_t push_all(std::span<const int> shapes) noexcept;
   void rebuild() noexcept;
 
   const ShapeColumns* columns_;
   const Eigen::MatrixXd* R_ = nullptr;
   ColumnQr qr_;
   std::vector<int> passive_;
+  std::vector<Eigen::Index> ends_;  ///< of columns that enter together
   bool sound_ = true;
   bool solved_ = false;  ///< target_ is that of the passive shapes
   Eigen::VectorXd target_, correction_;

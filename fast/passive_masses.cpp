@@ -172,7 +172,7 @@ void PassiveMasses::evaluate_links() noexcept {
   r_ = right_hand_side(*rows_->R);
   for (int l = 0; l < columns_->links(); ++l) {
     const ShapeColumns::Column minus = -Phi_.segment<10>(Eigen::Index{10} * l);
-    add_column(*rows_->R, l, minus, r_.data());
+    add_column(*rows_->R, l, minus.data(), r_.data());
   }
   const double unreached = (*rows_->R)(Phi_.size(), Phi_.size());
   value_.data = r_.squaredNorm() + unreached * unreached;

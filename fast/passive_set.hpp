@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "shapeid/fast/link_rows.hpp"
@@ -27,6 +29,13 @@ class PassiveSet {
   /// Shape `j` becomes passive, behind the others. False if its column depends on those of the
   /// passive shapes: then nothing changes.
   [[nodiscard]] virtual bool enter(int j) noexcept = 0;
+  /// These shapes become passive, as by enter() one after the other, until one is refused; returns
+  /// how many did.
+  [[nodiscard]] virtual std::size_t enter_first(std::span<const int> shapes) noexcept {
+    std::size_t entered = 0;
+    while (entered < shapes.size() && enter(shapes[entered])) ++entered;
+    return entered;
+  }
   /// After enter() said false: coefficients, one a passive shape, with which the passive columns
   /// add up to that of the refused shape.
   virtual void dependence(Eigen::VectorXd& coefficients) noexcept = 0;

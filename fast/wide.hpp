@@ -24,6 +24,10 @@ using EightBits = std::uint32_t __attribute__((vector_size(32)));
   using Anywhere [[gnu::aligned(4), gnu::may_alias]] = Eight;
   eight = *reinterpret_cast<const Anywhere*>(x);
 }
+[[gnu::always_inline]] inline void store(const Four& four, double* x) noexcept {
+  using Anywhere [[gnu::aligned(8), gnu::may_alias]] = Four;
+  *reinterpret_cast<Anywhere*>(x) = four;
+}
 [[gnu::always_inline]] inline void store(const Eight& eight, float* x) noexcept {
   using Anywhere [[gnu::aligned(4), gnu::may_alias]] = Eight;
   *reinterpret_cast<Anywhere*>(x) = eight;

@@ -4,10 +4,12 @@
 
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "shapeid/fast/column_qr.hpp"
@@ -46,6 +48,13 @@ class ShadowedQr {
     return a;
   }
 
+  ColumnQr::Push push_once(const VectorXd& a, Index end) {
+    // Rows from `end` on need not be written.
+    qr_.entering().setConstant(std::numeric_limits<double>::quiet_NaN());
+    qr_.entering().head(end) = a.head(end);
+    return qr_.push(end);
+  }
+
   ColumnQr::Push push(const VectorXd& a, Index end) {
     ColumnQr::Push result = push_once(a, end);
     if (result == ColumnQr::Push::crowded) {
@@ -54,6 +63,22 @@ class ShadowedQr {
     }
     if (result == ColumnQr::Push::entered) columns_.push_back(a);
     return result;
+  }
+
+  /// Several at once: each with its end. As many as entered one after the other would have.
+  Index push_all(const std::vector<std::pair<VectorXd, Index>>& columns) {
+    std::vector<Index> ends;
+    for (const auto& [a, end] : columns) {
+      auto entering = qr_.entering(static_cast<Index>(ends.size()));
+      entering.setConstant(std::numeric_limits<double>::quiet_NaN());
+      entering.head(end) = a.head(end);
+      ends.push_back(end);
+    }
+    const Index entered = qr_.push_all(ends);
+    for (Index k = 0; k < entered; ++k) {
+      columns_.push_back(columns[static_cast<std::size_t>(k)].first);
+    }
+    return entered;
   }
 
   void remove(Index place) {
@@ -112,13 +137,6 @@ class ShadowedQr {
   }
 
  private:
-  ColumnQr::Push push_once(const VectorXd& a, Index end) {
-    // Rows from `end` on need not be written.
-    qr_.entering().setConstant(std::numeric_limits<double>::quiet_NaN());
-    qr_.entering().head(end) = a.head(end);
-    return qr_.push(end);
-  }
-
   void rebuild() {
     ++rebuilt_;
     qr_.start(b_);
@@ -146,10 +164,47 @@ RC_GTEST_PROP(ColumnQr, ColumnsComeAndGo, ()) {
       set.remove(static_cast<Index>(draw.between(0.0, static_cast<double>(count))));
     } else {
       const auto end = static_cast<Index>(draw.between(1.0, static_cast<double>(rows + 1)));
-      static_cast<void>(set.push(set.random_column(end), end));
+      const ColumnQr::Push result = set.push(set.random_column(end), end);
+      RC_ASSERT(end < rows || result == ColumnQr::Push::entered);
     }
     set.check();
   }
+}
+
+// Behind others of which some have left; one of those that come may be twice another.
+RC_GTEST_PROP(ColumnQr, ColumnsEnterTogetherAsOneAfterTheOther, ()) {
+  const Index rows = *rc::gen::inRange<Index>(2, 40);
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  const Index come = *rc::gen::inRange<Index>(0, rows);
+  const Index go = std::min<Index>(*rc::gen::inRange<Index>(0, 3), come);
+  const auto let_come_and_go = [&](ShadowedQr& set) {
+    for (Index k = 0; k < come; ++k) static_cast<void>(set.push(set.random_column(rows), rows));
+    for (Index k = 0; k < go; ++k) set.remove((come - k) / 2);
+  };
+  ShadowedQr set(rows, rows, seed), one_by_one(rows, rows, seed);
+  let_come_and_go(set);
+  let_come_and_go(one_by_one);
+  test::Draw draw(seed + 1);
+  const auto any_end = [&] {
+    return static_cast<Index>(draw.between(1.0, static_cast<double>(rows + 1)));
+  };
+  std::vector<std::pair<VectorXd, Index>> columns(*rc::gen::inRange<std::size_t>(0, 12));
+  columns.resize(std::min(columns.size(), static_cast<std::size_t>(rows)));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Index end = any_end();
+    columns[k] = {set.random_column(end), end};
+    if (k > 0 && draw.between(0.0, 1.0) < 0.1) {
+      columns[k] = {2.0 * columns[k - 1].first, columns[k - 1].second};
+    }
+  }
+  std::size_t wanted = 0;
+  while (wanted < columns.size() &&
+         one_by_one.push_once(columns[wanted].first, columns[wanted].second) ==
+             ColumnQr::Push::entered) {
+    ++wanted;
+  }
+  RC_ASSERT(set.push_all(columns) == static_cast<Index>(wanted));
+  set.check();
 }
 
 // Columns that leave take room for reflections until a set must be started again.

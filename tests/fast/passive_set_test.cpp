@@ -12,6 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -82,6 +84,14 @@ class Watched {
     }
     RC_ASSERT(scaled((sum - A.col(j)).norm(), size, A.rows()) < few_hundred_eps);
     return false;
+  }
+
+  /// How many became passive; that the next one is refused has been checked.
+  std::size_t enter_first(std::span<const int> shapes) {
+    const std::size_t entered = set_->enter_first(shapes);
+    for (const int j : shapes.first(entered)) passive_.push_back(j);
+    if (entered < shapes.size()) RC_ASSERT(!enter(shapes[entered]));
+    return entered;
   }
 
   void leave(Index place) {
@@ -163,7 +173,8 @@ class Watched {
   std::vector<int> passive_;
 };
 
-/// Enters and leaves at random, and checks after every few steps. `fill`: how likely a step enters.
+/// Enters, one or several, and leaves at random, and checks after every few steps. `fill`: how
+/// likely a step enters.
 double run(const TriangleCase& given, Kind kind, std::uint64_t seed, int steps, int check_every,
            double fill) {
   Watched set(given, kind);
@@ -175,7 +186,13 @@ double run(const TriangleCase& given, Kind kind, std::uint64_t seed, int steps, 
     const bool enters = draw.between(0.0, 1.0) < fill;
     if (enters && !held.empty()) {
       const auto at = static_cast<std::size_t>(draw.between(0.0, static_cast<double>(held.size())));
-      if (set.enter(held[at])) held.erase(held.begin() + static_cast<std::ptrdiff_t>(at));
+      const auto from = held.begin() + static_cast<std::ptrdiff_t>(at);
+      if (draw.between(0.0, 1.0) < 0.3) {
+        const std::size_t count = std::min<std::size_t>(held.size() - at, 1 + step % 7);
+        held.erase(from, from + static_cast<std::ptrdiff_t>(set.enter_first({&held[at], count})));
+      } else if (set.enter(held[at])) {
+        held.erase(from);
+      }
     } else if (!enters && !set.passive().empty()) {
       const auto at =
           static_cast<Index>(draw.between(0.0, static_cast<double>(set.passive().size())));
@@ -200,6 +217,26 @@ RC_GTEST_PROP(ManyLinks, AsDenseLeastSquares, ()) {
                                                     .shapes_a_link = *rc::gen::inRange(1, 15),
                                                     .density_term = false});
   run(given, Kind::many_links, seed, 120, 4, 0.6);
+}
+
+// In the midst of those that enter together, too.
+TEST(ManyLinks, TheirShapesEnterWhereRoomForReflectionsEnds) {
+  const TriangleCase given =
+      test::body_case(4, {.links = 2, .shapes_a_link = 6, .noise = 1e-2, .density_term = false});
+  Watched set(given, Kind::many_links);
+  std::vector<int> all(static_cast<std::size_t>(given.shapes()));
+  std::iota(all.begin(), all.end(), 0);
+  ASSERT_EQ(set.enter_first(all), all.size());
+  double worst_move = 0.0;
+  for (std::size_t turn = 0; turn < 100; ++turn) {
+    // The last ones leave no reflections behind, so that it is those who enter that need room.
+    const std::size_t stay = all.size() - 2 - turn % 3;
+    const std::vector<int> last(set.passive().begin() + static_cast<std::ptrdiff_t>(stay),
+                                set.passive().end());
+    while (set.passive().size() > stay) set.leave(static_cast<Index>(set.passive().size()) - 1);
+    ASSERT_EQ(set.enter_first(last), last.size());
+    set.check(worst_move);
+  }
 }
 
 RC_GTEST_PROP(EvenDensity, AsDenseLeastSquares, ()) {
@@ -251,7 +288,8 @@ TEST(ManyLinks, CountsItsShapesWhereItIsNotSound) {
   }
   ASSERT_FALSE(set.sound());  // there was no room left for reflections
   if (passive < most) {
-    EXPECT_TRUE(set.enter(turns - 1));
+    const int shapes[] = {turns - 1};
+    EXPECT_EQ(set.enter_first(shapes), 1U);
     ++passive;
   }
   EXPECT_FALSE(set.enter(most));  // one more than there are unknowns
@@ -269,20 +307,22 @@ TEST(ManyLinks, CountsItsShapesWhereItIsNotSound) {
 
 /// Rounding of a force over the root of lambda would be a mass.
 TEST(EvenDensity, WhatNoRowFeelsIsZero) {
-  TriangleCase given = test::body_case(5, {.links = 2, .shapes_a_link = 8});
-  given.R.leftCols<10>().setZero();
-  ShapeColumns columns(given.link_count(), given.shapes());
-  EvenDensity set(columns, given.problem.V);
-  set.set_lambda(1e-9 * given.problem.lambda);
-  set.start(given.R);
-  for (int j = 0; j < given.shapes(); ++j) {
-    ASSERT_TRUE(columns.append(given.links[static_cast<std::size_t>(j)], given.column(j)));
-    ASSERT_TRUE(set.enter(j));
-  }
-  const VectorXd& target = set.target();
-  for (int j = 0; j < given.shapes(); ++j) {
-    const bool is_felt = given.links[static_cast<std::size_t>(j)] == 1;
-    EXPECT_EQ(target[j] != 0.0, is_felt) << j;
+  for (const int unfelt : {0, 1}) {
+    TriangleCase given = test::body_case(5, {.links = 2, .shapes_a_link = 8});
+    given.R.middleCols<10>(Index{10} * unfelt).setZero();
+    ShapeColumns columns(given.link_count(), given.shapes());
+    EvenDensity set(columns, given.problem.V);
+    set.set_lambda(1e-9 * given.problem.lambda);
+    set.start(given.R);
+    for (int j = 0; j < given.shapes(); ++j) {
+      ASSERT_TRUE(columns.append(given.links[static_cast<std::size_t>(j)], given.column(j)));
+      ASSERT_TRUE(set.enter(j));
+    }
+    const VectorXd& target = set.target();
+    for (int j = 0; j < given.shapes(); ++j) {
+      const bool is_felt = given.links[static_cast<std::size_t>(j)] != unfelt;
+      EXPECT_EQ(target[j] != 0.0, is_felt) << j << " of a body whose link " << unfelt << " is not";
+    }
   }
 }
 

@@ -1,6 +1,6 @@
-// Prints the bits of masses that the fast path finds on a link, cold, warm and after divisions.
-// Built with the kernels of fast/wide.hpp for the machine at hand, and for one without wide
-// registers.
+// Prints the bits of masses that the fast path finds on one link and on three, cold, warm and after
+// divisions. Built with the kernels of fast/wide.hpp for the machine at hand, and for one without
+// wide registers.
 #include <cstdint>
 #include <cstring>
 #include <iostream>
@@ -11,13 +11,15 @@ int main() {
   using namespace shapeid;
   std::cout << std::hex;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    const int links = seed % 5 == 0 ? 3 : 1;
     test::TriangleCase given =
-        test::body_case(seed, {.shapes_a_link = 1 + static_cast<int>(seed % 40),
+        test::body_case(seed, {.links = links,
+                               .shapes_a_link = 1 + static_cast<int>(seed % 40) / links,
                                .noise = seed % 3 == 0 ? 0.0 : 1e-2,
                                .density_term = seed % 2 == 0});
     test::Draw draw(seed);
     constexpr int divisions = 6;
-    fast::MassSolver solver(1, given.shapes() + divisions);
+    fast::MassSolver solver(links, given.shapes() + divisions);
     test::load(given, solver);
     const auto print = [&] {
       for (const double m : solver.m()) {
@@ -28,7 +30,7 @@ int main() {
       std::cout << solver.iterations() << '\n';
     };
     for (int window = 0; window < 3; ++window) {
-      if (window > 0) given.R.rightCols<1>() += 1e-3 * given.R.leftCols(10).rowwise().sum();
+      if (window > 0) given.R.rightCols<1>() += 1e-3 * given.R.leftCols(10 * links).rowwise().sum();
       if (solver.solve(given.R) != fast::Outcome::solved) return 1;
       print();
     }
