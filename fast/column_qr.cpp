@@ -5,6 +5,13 @@
 #include <cstddef>
 
 namespace shapeid::fast {
+namespace {
+
+/// A column with no more than this left is nothing: squares of its numbers are none that a double
+/// holds, nor is the inverse of their sum.
+constexpr double shortest = 1e-150;
+
+}  // namespace
 
 // Every column adds one reflection as it enters and fewer than most_columns short ones as it
 // leaves. With room for three times the columns a set is rebuilt seldom, and a new column never
@@ -26,6 +33,7 @@ ColumnQr::ColumnQr(Eigen::Index rows, Eigen::Index most_columns)
 void ColumnQr::start(const Eigen::Ref<const Eigen::VectorXd>& b) noexcept {
   size_ = 0;
   rotated_.head(rows_) = b;
+  rotated_.tail(rotated_.size() - rows_).setZero();
   reflections_.clear();
   used_ = 0;
 }
@@ -76,7 +84,8 @@ ColumnQr::Push ColumnQr::take_in(Eigen::Index k) noexcept {
   const Eigen::Index end = ends_[static_cast<std::size_t>(k)];
   // Below row size_ stands what is new.
   const double length = end > size_ ? std::sqrt(square_of(x, size_, end)) : 0.0;
-  if (!(length > smallest_share * wholes_[static_cast<std::size_t>(k)])) return Push::dependent;
+  const double whole = wholes_[static_cast<std::size_t>(k)];
+  if (!(length > std::max(smallest_share * whole, shortest))) return Push::dependent;
   if (size_ == T_.cols() ||
       !has_room(1, static_cast<std::size_t>(four_rows::numbers(size_, end)))) {
     return Push::crowded;

@@ -36,7 +36,8 @@ class ColumnQr {
   [[nodiscard]] auto entering(Eigen::Index k = 0) noexcept { return entering_.col(k).head(rows_); }
 
   /// Adds entering() as the last column. Only its first `end` rows are read; the others count as
-  /// zero. It is dependent if less than `smallest_share` of its length is new.
+  /// zero. It is dependent if less than `smallest_share` of its length is new, or no more than
+  /// 1e-150.
   Push push(Eigen::Index end) noexcept;
   static constexpr double smallest_share = 1e-13;
   /// The same for as many columns as `ends` has entries, up to most_columns of them, until one does
@@ -59,6 +60,7 @@ class ColumnQr {
   void solve_normal(Eigen::VectorXd& x) const noexcept;
 
   [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
+  [[nodiscard]] Eigen::Index most_columns() const noexcept { return T_.cols(); }
 
  private:
   [[nodiscard]] bool has_room(std::size_t reflections, std::size_t numbers) const noexcept;

@@ -55,6 +55,7 @@ bool FewShapes::start(const LinkRows& rows, double lambda,
 }
 
 bool FewShapes::divide(int j, int other, double V1, double V2) noexcept {
+  leaving_ = 0;
   const double V = V1 + V2;
   few::split(now_, {U_, *rows_, place(shapes_)},
              {.whole = place(j),

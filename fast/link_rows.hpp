@@ -57,7 +57,7 @@ class LinkRows {
     double density = 0.0;  ///< lambda sum_j m_j^2 / V_j
     int corrections = 0;
     bool is_settled = false;  ///< masses are positive, and their slopes rounding
-    unsigned below = 0;       ///< a bit a place whose mass is not positive; else it is settled
+    unsigned below = 0;  ///< a bit a place whose mass came out zero or negative, if that ended it
   };
   /// Corrects the masses until each slope is at most `refined` of its terms; in `most` corrections
   /// or not at all. Where the square of the whole residual is below `exact` of || b ||^2, once

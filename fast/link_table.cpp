@@ -62,6 +62,7 @@ void LinkTable::correct(const Dozen& masses, const Dozen& slopes) noexcept {
 
 bool LinkTable::divide(int j, int other, double V1, double V2) noexcept {
   wanting_ = -1;
+  leaving_ = 0;
   std::size_t place = 0;
   while (place < most_passive && !(is_used(place) && now_.shape[place] == j)) ++place;
   if (place == most_passive) return true;  // it has no mass

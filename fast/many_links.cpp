@@ -14,8 +14,7 @@ ManyLinks::ManyLinks(const ShapeColumns& columns)
       target_(Eigen::VectorXd::Zero(Eigen::Index{10} * columns.links())),
       correction_(target_) {
   passive_.reserve(static_cast<std::size_t>(target_.size()) + 1);
-  ends_.resize(
-      static_cast<std::size_t>(std::min(target_.size(), Eigen::Index{columns.capacity()})));
+  ends_.resize(static_cast<std::size_t>(qr_.most_columns()));
 }
 
 void ManyLinks::start(const Eigen::MatrixXd& R) noexcept {

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "shapeid/fast/column_qr.hpp"

@@ -188,8 +188,7 @@ void MassSolver::see_what_stayed() noexcept {
 }
 
 bool MassSolver::try_guess() noexcept {
-  constexpr int most_rounds = 4;  // one is enough where single precision can tell
-  for (int round = 0; round < most_rounds && guess_->settle(); ++round) {
+  for (int round = 0; round < Guess::most_rounds && guess_->settle(); ++round) {
     if (settles_at_guess()) return true;
     if (!guess_->can_go_on()) break;
   }

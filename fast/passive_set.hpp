@@ -76,6 +76,10 @@ class NormalEquations {
 /// (ActiveSet::settles_at). Solving the normal equations is for its passive shapes, in their order.
 class Guess : public NormalEquations {
  public:
+  /// How often settle() and its check may take turns; once is enough where single precision can
+  /// tell and every shape that is passive has mass.
+  static constexpr int most_rounds = 6;
+
   /// For these rows, which must stay as they are until the next start, with the shapes `passive`,
   /// as far as their columns do not depend on those before. False if there are too many: then only
   /// start() may follow.
@@ -88,8 +92,8 @@ class Guess : public NormalEquations {
   /// Pivots until no mass is negative and no shape wants to enter, as far as can be seen. False if
   /// that does not come about.
   [[nodiscard]] virtual bool settle() noexcept = 0;
-  /// The shapes at these places, a bit each, are to leave: corrected, their masses were not
-  /// positive.
+  /// The shapes at these places, a bit each, are to leave: as the check had them, their masses
+  /// were not positive.
   virtual void let_go(unsigned places) noexcept = 0;
   /// Whether a shape wanted to enter when none_enters() was asked last, or some are to leave, so
   /// that settle() may go on.

@@ -56,7 +56,7 @@ template <Eigen::Index count>
   }
 }
 
-/// Of a column that left.
+/// As a column that leaves makes them.
 [[gnu::always_inline]] inline bool is_short(const RowReflection& r) noexcept {
   return r.end - r.first == 2;
 }

@@ -199,6 +199,7 @@ void ShapeColumns::unbar_all() noexcept {
 // Single precision sees slopes beside the largest that these g could make, which is far less than
 // what prices are measured by where the rows are met well.
 int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept {
+  SHAPEID_CONTRACT(why_no_prices());
   steepest_ = -1;
   best_.clear();
   double largest = 0.0;
@@ -248,6 +249,7 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
 // however small the slope is by lengths.
 int ShapeColumns::steepest_or_by_terms(const Eigen::VectorXd& g, double threshold,
                                        double threshold_by_terms) noexcept {
+  SHAPEID_CONTRACT(why_no_prices());
   steepest_ = -1;
   best_.clear();
   best_by_terms_.clear();

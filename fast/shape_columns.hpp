@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "shapeid/fast/price_chunk.hpp"
+#include "shapeid/models/contract.hpp"
 
 namespace shapeid::fast {
 
@@ -44,8 +46,14 @@ class ShapeColumns {
   /// No price is asked until the next set_scale(): columns that come until then are priced by it.
   void forget_scale() noexcept { has_scale_ = false; }
   [[nodiscard]] bool has_scale() const noexcept { return has_scale_; }
+  /// Empty if prices may be asked.
+  [[nodiscard]] Violation why_no_prices() const {
+    if (has_scale_) return std::nullopt;
+    return "prices are asked of columns whose scale was forgotten";
+  }
   /// A slope of shape j over that bound: free of units, to single precision.
   [[nodiscard]] double price(int j, double slope) const noexcept {
+    SHAPEID_CONTRACT(why_no_prices());
     const Slot& slot = slots_[static_cast<std::size_t>(j)];
     const double scale = chunks_[static_cast<std::size_t>(slot.chunk)].scale[slot.lane];
     return unit_ > 0.0 ? slope * scale * inverse_unit_ : slope;
@@ -86,6 +94,7 @@ class ShapeColumns {
   [[nodiscard]] double inverse_unit() const noexcept { return inverse_unit_; }
   /// sum_i |u_ij| lengths_i, to single precision: R u_j is no longer.
   [[nodiscard]] double bound(int j) const noexcept {
+    SHAPEID_CONTRACT(why_no_prices());
     const Slot& slot = slots_[static_cast<std::size_t>(j)];
     const PriceChunk& chunk = chunks_[static_cast<std::size_t>(slot.chunk)];
     return largest_ / static_cast<double>(chunk.scale[slot.lane]);

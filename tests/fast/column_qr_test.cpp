@@ -245,6 +245,17 @@ RC_GTEST_PROP(ColumnQr, SaysWhatADependentColumnIsMadeOf, ()) {
   set.check();
 }
 
+// The inverse of its square overflows; a number of rows that is no multiple of four, so that some
+// stand beside zeros.
+TEST(ColumnQr, RefusesAColumnTooShortToBeReflectedBy) {
+  ShadowedQr set(30, 30, 2);
+  for (int turn = 0; turn < 2; ++turn) {
+    EXPECT_EQ(set.push(VectorXd::Constant(30, 1e-155), 30), ColumnQr::Push::dependent);
+    EXPECT_EQ(set.push(1e-140 * set.random_column(30), 30), ColumnQr::Push::entered);
+    set.check();
+  }
+}
+
 TEST(ColumnQr, RefusesZerosAndMoreColumnsThanRows) {
   ShadowedQr set(3, 5, 1);
   EXPECT_EQ(set.push(VectorXd::Zero(3), 3), ColumnQr::Push::dependent);

@@ -45,8 +45,7 @@ bool JudgedGuess::start(const MatrixXd& R, double lambda, const std::vector<int>
 }
 
 bool JudgedGuess::settles() {
-  // More rounds than a solver grants: of those that do not come to an end none is settled.
-  for (int round = 0; round < 10 && guess().settle(); ++round) {
+  for (int round = 0; round < fast::Guess::most_rounds && guess().settle(); ++round) {
     if (method_.settles_at(guess())) return true;
     if (!guess().can_go_on()) return false;
   }
