@@ -7,8 +7,8 @@
 namespace shapeid::fast {
 namespace {
 
-/// A column with no more than this left is nothing: squares of its numbers are none that a double
-/// holds, nor is the inverse of their sum.
+/// A column with no more than this left is nothing: of much shorter ones the inverse of the square,
+/// by which they would be reflected, overflows.
 constexpr double shortest = 1e-150;
 
 }  // namespace

@@ -207,6 +207,32 @@ RC_GTEST_PROP(ColumnQr, ColumnsEnterTogetherAsOneAfterTheOther, ()) {
   set.check();
 }
 
+// As those of ManyLinks.TheirShapesEnterWhereRoomForReflectionsEnds do: the last ones leave, which
+// takes no reflections, and come back.
+TEST(ColumnQr, IsCrowdedInTheMidstOfThoseThatEnterTogether) {
+  constexpr Index rows = 20, most = 12;
+  ShadowedQr set(rows, most, 6);
+  for (Index k = 0; k < most; ++k) {
+    ASSERT_EQ(set.push(set.random_column(rows), rows), ColumnQr::Push::entered);
+  }
+  int in_the_midst = 0;
+  for (std::size_t turn = 0; turn < 100; ++turn) {
+    std::vector<std::pair<VectorXd, Index>> last;
+    for (std::size_t k = 0; k < 2 + turn % 3; ++k) {
+      last.emplace_back(set.columns().back(), rows);
+      set.remove(static_cast<Index>(set.columns().size()) - 1);
+    }
+    const auto entered = static_cast<std::size_t>(set.push_all(last));
+    if (entered > 0 && entered < last.size()) ++in_the_midst;
+    for (std::size_t k = entered; k < last.size(); ++k) {
+      ASSERT_EQ(set.push(last[k].first, rows), ColumnQr::Push::entered);
+    }
+    set.check();
+  }
+  EXPECT_GT(in_the_midst, 0);
+  EXPECT_GT(set.rebuilt(), 0);
+}
+
 // Columns that leave take room for reflections until a set must be started again.
 TEST(ColumnQr, IsCrowdedInTheEndAndStartsAgain) {
   ShadowedQr set(12, 12, 5);
