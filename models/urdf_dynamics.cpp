@@ -39,8 +39,9 @@ std::string with_friction(const std::string& text, const std::string& file,
   const std::vector<ElementSpan> spans = urdf::find_elements(text, "joint", "dynamics");
   std::vector<Edit> edits;
   for (const auto& [name, found] : friction) {
-    const auto joint = std::find_if(document.joints.begin(), document.joints.end(),
-                                    [&](const DocumentJoint& j) { return j.joint.name == name; });
+    const auto joint =
+        std::find_if(document.joints.begin(), document.joints.end(),
+                     [&wanted = name](const DocumentJoint& j) { return j.joint.name == wanted; });
     if (joint == document.joints.end()) {
       throw Defect(
           fmt::format("{} has no joint {}: not the file that the robot was read from", file, name));
