@@ -76,7 +76,7 @@ template <typename Use>
 /// What tells the next exchange, in registers from one to the next; the table has the same numbers
 /// where single ones are read.
 template <std::size_t parts>
-struct Front {
+struct alignas(32) Front {
   Four x[parts], diagonal[parts], side[parts];
 
   [[gnu::always_inline]] explicit Front(const Table& now) noexcept {

@@ -11,7 +11,8 @@ namespace {
 
 using Ten = std::array<Dozen, 10>;
 
-constexpr Four places[] = {{0.0, 1.0, 2.0, 3.0}, {4.0, 5.0, 6.0, 7.0}, {8.0, 9.0, 10.0, 11.0}};
+alignas(32) constexpr Four places[] = {
+    {0.0, 1.0, 2.0, 3.0}, {4.0, 5.0, 6.0, 7.0}, {8.0, 9.0, 10.0, 11.0}};
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 

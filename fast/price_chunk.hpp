@@ -23,7 +23,8 @@ constexpr float no_price = 2.0F, impossible = 4.0F;
 constexpr float uncertain = 13.0F / (1 << 24);
 
 using EightNumbers = std::int32_t __attribute__((vector_size(32)));
-constexpr EightNumbers lane_numbers[] = {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10, 11, 12, 13, 14, 15}};
+alignas(32) constexpr EightNumbers lane_numbers[] = {{0, 1, 2, 3, 4, 5, 6, 7},
+                                                     {8, 9, 10, 11, 12, 13, 14, 15}};
 
 /// Sixteen shapes of one link. Missing ones are barred.
 struct alignas(64) PriceChunk {

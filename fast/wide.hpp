@@ -43,8 +43,9 @@ using EightBits = std::uint32_t __attribute__((vector_size(32)));
 
 /// A dozen doubles; zero, to begin with. Zeroed and copied four at a time, so that what is read
 /// next was written as a whole: as members GCC makes a string instruction of the zeros and copies
-/// two at a time, and either takes as long as half a pivot.
-struct Dozen {
+/// two at a time, and either takes as long as half a pivot. Aligned as the longer registers want
+/// it: GCC gives Four the alignment of the shorter ones, and reads it by the longer.
+struct alignas(32) Dozen {
   Four part[3];
   [[gnu::always_inline]] Dozen() noexcept { part[0] = part[1] = part[2] = Four{}; }
   [[gnu::always_inline]] Dozen(const Dozen& other) noexcept {
@@ -65,8 +66,10 @@ struct Dozen {
   }
 };
 
+static_assert(alignof(Dozen) == sizeof(Four));
+
 /// The places of a dozen, and the low bits of a number that can hold one.
-constexpr FourBits dozen_places[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
+alignas(32) constexpr FourBits dozen_places[] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
 constexpr std::uint64_t place_bits = 15;
 
 /// a += factor b
@@ -104,6 +107,14 @@ constexpr std::uint64_t place_bits = 15;
   load(x, dozen.part[0]);
   load(x + 4, dozen.part[1]);
   dozen.part[2] = Four{x[8], x[9], 0.0, 0.0};
+}
+
+/// Its first ten.
+[[gnu::always_inline]] inline void store_ten(const Dozen& dozen, double* x) noexcept {
+  store(dozen.part[0], x);
+  store(dozen.part[1], x + 4);
+  x[8] = dozen.part[2][0];
+  x[9] = dozen.part[2][1];
 }
 
 }  // namespace shapeid::fast

@@ -2,7 +2,11 @@
 // an answer.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <limits>
+#include <memory>
+#include <new>
+#include <vector>
 
 #include "shapeid/fast/mass_solver.hpp"
 
@@ -12,6 +16,33 @@ namespace {
 using Eigen::MatrixXd;
 using fast::MassSolver;
 using fast::Outcome;
+
+/// Registers of four want addresses of their own, which a type must ask for: on the heap, and in an
+/// object of somebody else. (Until 2026-11-28 none did, and it was luck that no test ended here.)
+TEST(FastMassState, StandsAtEveryAddressThatItsTypeAllows) {
+  constexpr std::size_t most = 64;
+  std::vector<std::byte> memory(sizeof(MassSolver) + 2 * most);
+  for (const int links : {1, 2}) {
+    for (const double lambda : {0.0, 1e-3}) {
+      for (std::size_t off = 0; off < most; off += alignof(MassSolver)) {
+        void* place = memory.data();
+        std::size_t room = memory.size();
+        ASSERT_NE(std::align(most, sizeof(MassSolver) + most, place, room), nullptr);
+        auto* const solver = new (static_cast<std::byte*>(place) + off) MassSolver(links, 40);
+        solver->set_lambda(lambda);
+        MatrixXd R = MatrixXd::Identity(10 * links + 1, 10 * links + 1);
+        R.rightCols<1>().setOnes();
+        for (int j = 0; j < 40; ++j) {
+          ASSERT_TRUE(solver->append(j % links, MassSolver::Column::Unit(j % 10), 1.0));
+          if (j == 5 || j == 39) {
+            EXPECT_EQ(solver->solve(R), Outcome::solved);
+          }
+        }
+        solver->~MassSolver();
+      }
+    }
+  }
+}
 
 /// In any unit: a slope is small beside what the rows make it of.
 TEST(FastMassState, PartsOfAShapeWithoutMassAreAskedInAnyUnit) {
