@@ -82,8 +82,9 @@ TEST_F(LinksAnswer, HasTheTruthOfEveryLink) {
   const MassProblem rows = rows_found();
   Eigen::VectorXd masses(rows.shapes());
   Eigen::Index next = 0;
+  const std::vector<BoxMasses> arms = masses_of_arms();
   for (const int link : sought) {
-    for (const double mass : masses_of_arms()[at(link)]) masses[next++] = mass;
+    for (const double mass : arms[at(link)]) masses[next++] = mass;
   }
   ASSERT_EQ(next, masses.size());
   const double error =
