@@ -59,12 +59,15 @@ void ActiveSet::clear() noexcept {
 
 double ActiveSet::divide(int j, int other, double share) noexcept {
   const std::size_t at = now_.place_of(j);
-  started_ = false;
   if (at == now_.masses().size()) return 0.0;
-  double& mass = now_.change()[at];
-  const double part = share * mass;
-  mass -= part;
-  now_.add(other, part);
+  const double part = share * now_.masses()[at];
+  now_.divide(at, other, part);
+  if (divides_where_it_stands()) {
+    set_->divide(static_cast<int>(at), other);
+    columns_->bar(other, true);
+  } else {
+    started_ = false;
+  }
   return part;
 }
 
@@ -256,6 +259,22 @@ const std::vector<int>& ActiveSet::entering_shapes() noexcept {
   // A damped system has as many unknowns however many shapes enter.
   using Among = ShapeColumns::Among;
   return columns_->steep_ones(now_.lambda() > 0.0 ? Among::groups : Among::links);
+}
+
+bool ActiveSet::none_enters(const std::vector<int>& shapes) noexcept {
+  if (!started_) return false;
+  iterations_ = 1;
+  now_.count_anew();
+  const bool is_damped = now_.lambda() > 0.0;
+  if (is_damped && !set_->can_divide()) return now_.stays_settled(shapes);
+  const Eigen::VectorXd& slopes = set_->slopes(now_.slopes());
+  return std::ranges::none_of(shapes, [&](int j) {
+    const ShapeColumns::Column terms =
+        columns_->column(j).cwiseProduct(slopes.segment<10>(Eigen::Index{10} * columns_->link(j)));
+    const double slope = terms.sum();
+    return columns_->price(j, slope) > smallest_slope ||
+           (is_damped && slope > smallest_damped_slope * terms.cwiseAbs().sum());
+  });
 }
 
 void ActiveSet::refuse(int j) noexcept {

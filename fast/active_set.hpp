@@ -52,12 +52,16 @@ class ActiveSet {
   void take_back() noexcept;
   /// Whether the passive shapes are factorised, so that shapes may enter and leave one by one.
   [[nodiscard]] bool has_started() const noexcept { return started_; }
+  /// Whether divide() keeps the factorisation.
+  [[nodiscard]] bool divides_where_it_stands() const noexcept {
+    return started_ && set_->can_divide();
+  }
   [[nodiscard]] bool has_rows() const noexcept { return now_.has_rows(); }
 
   /// No passive shapes.
   void clear() noexcept;
   /// Shape `j`, if it is passive, gives `share` of its mass to shape `other`, which is not; where
-  /// the next run starts. Returns what it gives, kg.
+  /// the next run starts. Returns what it gives, kg. Columns and volumes of both are known.
   double divide(int j, int other, double share) noexcept;
   /// Shape `j` has this mass (kg, > 0) where the next run starts.
   void start_at(int j, double mass) noexcept;
@@ -93,6 +97,9 @@ class ActiveSet {
     iterations_ = 1;
     return now_.stays_settled(massless);
   }
+  /// The same after run() and perhaps damp(), by what these go by. False also if nothing is
+  /// factorised.
+  [[nodiscard]] bool none_enters(const std::vector<int>& massless) noexcept;
   /// Whether every shape that is not passive would certainly raise the objective, and there are no
   /// more passive ones than independent columns.
   [[nodiscard]] bool is_at_a_vertex() noexcept { return now_.is_at_a_vertex(); }

@@ -3,9 +3,7 @@
 
 #include <Eigen/Core>
 
-#include <array>
-
-#include "shapeid/fast/link_density.hpp"
+#include "shapeid/fast/ten_by_ten.hpp"
 #include "shapeid/fast/wide.hpp"
 
 namespace shapeid::fast {
@@ -15,18 +13,19 @@ namespace shapeid::fast {
 /// or throws.
 class DampedTen {
  public:
-  /// [R c]: the triangle of one link. lambda > 0.
-  void factorise(const Eigen::MatrixXd& R, const LinkDensity::Rows& E, double lambda) noexcept;
+  /// [R c]: the triangle of one link. E has `rank` rows, and zeros below them. lambda > 0.
+  void factorise(const Eigen::MatrixXd& R, const TenRows& E, int rank, double lambda) noexcept;
   /// The first ten entries of y.
   void solve(Eigen::VectorXd& y) const noexcept;
   /// Replaces x, ten entries, by the solution z of  (E R^T R E^T + lambda) z = x.
   void solve_normal(Eigen::VectorXd& x) const noexcept;
 
  private:
-  void back_substitute(Eigen::VectorXd& x) const noexcept;
-
-  std::array<Dozen, 10> T_;           ///< right of the diagonal; entry 10 is the right-hand side
-  std::array<double, 10> inverse_{};  ///< 1 over the diagonal
+  // Of the triangle T:
+  TenRows rows_;     ///< right of its diagonal, each over its own diagonal entry
+  TenRows columns_;  ///< above its diagonal, likewise
+  Dozen inverse_;    ///< 1 over its diagonal
+  Dozen right_;      ///< the right-hand side
 };
 
 }  // namespace shapeid::fast

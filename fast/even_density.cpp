@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "shapeid/fast/column_products.hpp"
 #include "shapeid/fast/triangle_products.hpp"
 
 namespace shapeid::fast {
@@ -34,6 +35,9 @@ EvenDensity::EvenDensity(const ShapeColumns& columns, const Eigen::VectorXd& V)
       correction_(y_),
       target_(Eigen::VectorXd::Zero(columns.capacity())),
       slopes_(y_),
+      weights_(y_),
+      missing_(y_),
+      along_(target_),
       noise_(y_),
       ends_(static_cast<std::size_t>(y_.size())) {
   passive_.reserve(static_cast<std::size_t>(columns.capacity()));
@@ -77,6 +81,17 @@ void EvenDensity::leave(int place) noexcept {
   solved_ = false;
 }
 
+// V u = V1 u1 + V2 u2, so X^T X grows by one row's square alone: V1 V2 / V of the difference's.
+void EvenDensity::divide(int place, int other) noexcept {
+  const int j = passive_[static_cast<std::size_t>(place)];
+  const double V1 = (*V_)[j], V2 = (*V_)[other];
+  const double root = std::sqrt(V1) * std::sqrt(V2 / (V1 + V2));
+  densities_[static_cast<std::size_t>(columns_->link(j))].rows.enter(
+      root * (columns_->column(j) - columns_->column(other)));
+  passive_.push_back(other);
+  solved_ = false;
+}
+
 EvenDensity::Ten EvenDensity::row_of(int j) const noexcept {
   return std::sqrt((*V_)[j]) * columns_->column(j);
 }
@@ -106,7 +121,8 @@ void EvenDensity::factorise() noexcept {
     rows.reveal();
   }
   if (is_one_link()) {
-    ten_.factorise(*R_, densities_.front().rows.E(), lambda_);
+    const LinkDensity& rows = densities_.front().rows;
+    ten_.factorise(*R_, rows.E(), rows.rank(), lambda_);
   } else {
     factorise_many_links();
   }
@@ -152,13 +168,21 @@ void EvenDensity::solve() noexcept {
     // What no row feels is zero; rounding, over the root of lambda, would make masses of it.
     for (const Eigen::Index k : unfelt_) y_[k] = 0.0;
   }
-  for (Density& density : densities_) density.w = density.weights(density.share_of(y_));
+  spread(y_);
   for (std::size_t i = 0; i < passive_.size(); ++i) {
-    const int j = passive_[i];
-    const Ten& w = densities_[static_cast<std::size_t>(columns_->link(j))].w;
-    target_[static_cast<Eigen::Index>(i)] = (*V_)[j] * columns_->column(j).dot(w);
+    const auto place = static_cast<Eigen::Index>(i);
+    target_[place] = (*V_)[passive_[i]] * along_[place];
   }
   solved_ = true;
+}
+
+/// The densities u_j . w of the passive shapes, where w has these unknowns.
+void EvenDensity::spread(const Eigen::VectorXd& y) noexcept {
+  for (int l = 0; l < columns_->links(); ++l) {
+    const Density& density = densities_[static_cast<std::size_t>(l)];
+    weights_.segment<10>(Eigen::Index{10} * l) = density.weights(density.share_of(y));
+  }
+  column_products(*columns_, passive_, weights_, along_);
 }
 
 void EvenDensity::solve_normal(Eigen::VectorXd& x) const noexcept {
@@ -178,38 +202,44 @@ const Eigen::VectorXd& EvenDensity::target() noexcept {
 // kept as the sum of its corrections. (From Phi it would be lost where columns of X nearly depend
 // on each other.) Its correction solves the normal equations by the triangle that is there. Masses
 // are corrected, not made anew from w: there w is large, and u_j . w loses digits. What they lost
-// before, each shape's slope tells: it is left of it beyond what y's residual explains.
+// before, each shape's slope tells.
 void EvenDensity::refine(const Eigen::VectorXd& slopes) noexcept {
   correction_.setZero();
   for (int l = 0; l < columns_->links(); ++l) {
-    Density& density = densities_[static_cast<std::size_t>(l)];
+    const Density& density = densities_[static_cast<std::size_t>(l)];
     const int rank = density.rows.rank();
     Ten missing = density.rows.share_of(slopes.segment<10>(Eigen::Index{10} * l));
     missing.head(rank) -= lambda_ * y_.segment(density.first, rank);
     correction_.segment(density.first, rank) = missing.head(rank);
-    density.missing = density.weights(missing);
+    missing_.segment<10>(Eigen::Index{10} * l) = density.weights(missing);
   }
   solve_normal(correction_);
   y_ += correction_;
-  for (Density& density : densities_) {
-    density.change = density.weights(density.share_of(correction_));
-  }
+  spread(correction_);
+  const double rounding = certainly_felt * few_roundings * right_hand_side(*R_).norm();
   for (std::size_t i = 0; i < passive_.size(); ++i) {
     const int j = passive_[i];
-    const int link = columns_->link(j);
-    const Density& density = densities_[static_cast<std::size_t>(link)];
-    const auto u = columns_->column(j);
     const double V = (*V_)[j];
     double& mass = target_[static_cast<Eigen::Index>(i)];
-    const double rounding = u.cwiseAbs().dot(noise_.segment<10>(Eigen::Index{10} * link));
-    if (lambda_ * mass > certainly_felt * rounding * V) {
-      const double slope = u.dot(slopes.segment<10>(Eigen::Index{10} * link)) - lambda_ * mass / V;
-      const double lost = slope - u.dot(density.missing);
-      const double more_rounding = few_roundings * u.cwiseAbs().dot(density.missing.cwiseAbs());
-      if (std::abs(lost) > rounding + more_rounding) mass += V / lambda_ * lost;
-    }
-    mass += V * u.dot(density.change);
+    if (lambda_ * mass > rounding * columns_->bound(j) * V) mass += V / lambda_ * lost(i, slopes);
+    mass += V * along_[static_cast<Eigen::Index>(i)];
   }
+}
+
+/// What is left of the slope of a shape that feels lambda, beyond what y's residual explains and
+/// rounding.
+double EvenDensity::lost(std::size_t place, const Eigen::VectorXd& slopes) const noexcept {
+  const int j = passive_[place];
+  const Eigen::Index link = Eigen::Index{10} * columns_->link(j);
+  const auto u = columns_->column(j);
+  const auto missing = missing_.segment<10>(link);
+  const double stiffness = lambda_ / (*V_)[j];
+  const double slope =
+      u.dot(slopes.segment<10>(link)) - stiffness * target_[static_cast<Eigen::Index>(place)];
+  const double left = slope - u.dot(missing);
+  const double rounding = u.cwiseAbs().dot(noise_.segment<10>(link)) +
+                          few_roundings * u.cwiseAbs().dot(missing.cwiseAbs());
+  return std::abs(left) > rounding ? left : 0.0;
 }
 
 // Of the slopes R^T r of a link those in the span of its passive columns are lambda w there, which

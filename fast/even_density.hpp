@@ -20,7 +20,8 @@ namespace shapeid::fast {
 /// links solve one damped least-squares problem, of at most ten unknowns a link.
 class EvenDensity final : public PassiveSet {
  public:
-  /// `columns` and `V` (m^3, an entry a shape) must outlive the object.
+  /// `columns` and `V` (m^3, an entry a shape) must outlive the object. Columns know their scale on
+  /// the rows before refine().
   EvenDensity(const ShapeColumns& columns, const Eigen::VectorXd& V);
 
   /// Takes effect with the next target(). Positive.
@@ -30,6 +31,8 @@ class EvenDensity final : public PassiveSet {
   [[nodiscard]] bool enter(int j) noexcept override;
   void dependence(Eigen::VectorXd& coefficients) noexcept override;
   void leave(int place) noexcept override;
+  [[nodiscard]] bool can_divide() const noexcept override { return true; }
+  void divide(int place, int other) noexcept override;
   void refine(const Eigen::VectorXd& slopes) noexcept override;
   [[nodiscard]] bool sound() const noexcept override { return sound_; }
   [[nodiscard]] const Eigen::VectorXd& target() noexcept override;
@@ -42,8 +45,6 @@ class EvenDensity final : public PassiveSet {
   struct Density {
     LinkDensity rows;
     Eigen::Index first = 0;  ///< of its unknowns y
-    Ten w, change;           ///< density u_j . w of passive shapes, and its last correction
-    Ten missing;             ///< slopes u_j . missing, what y left before that correction
 
     /// Its unknowns among those of all links; zeros behind them.
     [[nodiscard]] Ten share_of(const Eigen::VectorXd& y) const noexcept;
@@ -57,6 +58,8 @@ class EvenDensity final : public PassiveSet {
   void factorise_many_links() noexcept;
   void solve() noexcept;
   void solve_normal(Eigen::VectorXd& x) const noexcept;
+  void spread(const Eigen::VectorXd& y) noexcept;
+  [[nodiscard]] double lost(std::size_t place, const Eigen::VectorXd& slopes) const noexcept;
   [[nodiscard]] bool is_one_link() const noexcept { return densities_.size() == 1; }
 
   const ShapeColumns* columns_;
@@ -71,6 +74,10 @@ class EvenDensity final : public PassiveSet {
   ColumnQr qr_;                       ///< of several
   std::vector<Eigen::Index> unfelt_;  ///< unknowns y that no row of several links feels
   Eigen::VectorXd b_, y_, correction_, target_, slopes_;
+  // Ten numbers a link:
+  Eigen::VectorXd weights_;         ///< w, or its correction
+  Eigen::VectorXd missing_;         ///< slopes u_j . missing, what y left before that correction
+  Eigen::VectorXd along_;           ///< u_j . weights_ of the passive shapes
   Eigen::VectorXd noise_;           ///< what rounding leaves of a slope R^T r that is zero
   std::vector<Eigen::Index> ends_;  ///< where zeros begin in the columns of qr_
 };

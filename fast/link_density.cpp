@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <numeric>
 
 namespace shapeid::fast {
 namespace {
@@ -19,15 +21,18 @@ constexpr double smallest_pivot = 1e-13;
 /// shapes the inverse of this in digits.
 constexpr double well_spread = 1e-2;
 
+/// A direction that is left of a column by more than this share is one, whatever columns came
+/// before it: ten columns of a triangle multiply an error by a thousand at most.
+constexpr double certainly_a_direction = 1e-6;
+
 /// A row whose leverage is closer to one than this is not taken out of a triangle but left out of a
 /// new one: taking it out would multiply rounding errors by the inverse of the distance's root.
 constexpr double smallest_distance = 1e-2;
 
-using Rows = LinkDensity::Rows;
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Rotations with the rows of the triangle, one after the other, make the new row zero.
-SHAPEID_WIDE void add_row(Rows& X, const double* ten) noexcept {
+SHAPEID_WIDE void add_row(TenRows& X, const double* ten) noexcept {
   Dozen row;
   load_ten(ten, row);
   for (std::size_t i = 0; i < 10; ++i) {
@@ -48,7 +53,7 @@ SHAPEID_WIDE void add_row(Rows& X, const double* ten) noexcept {
 /// = 1 - || a ||^2 the distance, in its last entry turn X below a row of zeros into what is left
 /// above the row that goes (Saunders; LINPACK's dchdd). False, and nothing changes, if the row is
 /// too near to all that X has in some direction.
-SHAPEID_WIDE bool remove_row(Rows& X, const double* ten) noexcept {
+SHAPEID_WIDE bool remove_row(TenRows& X, const double* ten) noexcept {
   Dozen row;
   load_ten(ten, row);
   std::array<double, 10> a;
@@ -77,7 +82,7 @@ SHAPEID_WIDE bool remove_row(Rows& X, const double* ten) noexcept {
   return true;
 }
 
-[[gnu::always_inline]] inline Dozen squares_from(const Rows& rows, std::size_t k) noexcept {
+[[gnu::always_inline]] inline Dozen squares_from(const TenRows& rows, std::size_t k) noexcept {
   Dozen squares;
   for (std::size_t i = k; i < 10; ++i) {
     for (std::size_t p = 0; p < 3; ++p) squares.part[p] += rows[i].part[p] * rows[i].part[p];
@@ -121,7 +126,7 @@ struct Ranks {
 /// first divided by what bodies of this mass and size have in them, so that the rank does not
 /// depend on units: and not by their own lengths, which would make a direction out of rounding
 /// where shapes lie symmetrically.
-SHAPEID_WIDE Ranks reveal_rank(const Rows& X, int most, Rows& E,
+SHAPEID_WIDE Ranks reveal_rank(const TenRows& X, int most, TenRows& E,
                                std::array<int, 10>& pivots) noexcept {
   const Dozen sizes = sizes_of(squares_from(X, 0));
   Dozen open;
@@ -161,7 +166,57 @@ SHAPEID_WIDE Ranks reveal_rank(const Rows& X, int most, Rows& E,
   return ranks;
 }
 
-SHAPEID_WIDE void times(const Rows& E, const double* ten, double* result) noexcept {
+/// Whether the triangle itself shows its rank: ten, and in how many directions its shapes spread
+/// well; none of its columns, measured as above, needs another place then, which is so most of the
+/// time. `certain`: these directions, the first ones.
+SHAPEID_WIDE bool shows_its_rank(const TenRows& X, int& certain) noexcept {
+  const Dozen squares = squares_from(X, 0), sizes = sizes_of(squares);
+  double largest = 0.0;
+  std::array<double, 10> measured;
+  for (std::size_t k = 0; k < 10; ++k) {
+    const double inverse = 1.0 / (sizes[k] * sizes[k]);
+    largest = std::max(largest, squares[k] * inverse);
+    measured[k] = X[k][k] * X[k][k] * inverse;
+  }
+  const double well = well_spread * well_spread * largest;
+  const double enough = certainly_a_direction * certainly_a_direction * largest;
+  certain = 0;
+  while (certain < 10 && measured[at(certain)] > well) ++certain;
+  for (std::size_t k = at(certain); k < 10; ++k) {
+    if (!(measured[k] > enough) || measured[k] > well) return false;
+  }
+  return true;
+}
+
+/// What solves E w = y for the entries of w at the pivots.
+SHAPEID_WIDE void prepare(const TenRows& E, const std::array<int, 10>& pivots, int rank,
+                          Dozen& inverse_pivots, TenRows& above) noexcept {
+  TenRows columns;
+  transpose_ten(E, columns);
+  for (std::size_t k = 0; k < at(rank); ++k) {
+    above[k] = columns[at(pivots[k])];
+    inverse_pivots[k] = 1.0 / above[k][k];
+    scale_beside(Beside::before, k, inverse_pivots[k], above[k]);
+  }
+  for (std::size_t k = at(rank); k < 10; ++k) {
+    above[k] = Dozen{};
+    inverse_pivots[k] = 0.0;
+  }
+}
+
+/// Of E w = y, w at the pivots, in their order; zero behind `rank`.
+SHAPEID_WIDE void substitute(const TenRows& above, const Dozen& inverse_pivots, int rank,
+                             const double* y, double* w) noexcept {
+  Dozen x;
+  load_ten(y, x);
+  const FourBits end = FourBits{} + static_cast<std::uint64_t>(rank);
+  for (std::size_t p = 0; p < 3; ++p) x.part[p] = dozen_places[p] < end ? x.part[p] : Four{};
+  solve_above<9>(above, x);
+  for (std::size_t p = 0; p < 3; ++p) x.part[p] *= inverse_pivots.part[p];
+  store_ten(x, w);
+}
+
+SHAPEID_WIDE void times(const TenRows& E, const double* ten, double* result) noexcept {
   Dozen x;
   load_ten(ten, x);
   for (std::size_t i = 0; i < 10; ++i) {
@@ -200,24 +255,24 @@ void LinkDensity::leave(const Ten& row) noexcept {
 void LinkDensity::reveal() noexcept {
   if (revealed_) return;
   revealed_ = true;
-  const Ranks ranks = reveal_rank(X_, std::min(10, shapes_), E_, pivots_);
-  rank_ = ranks.rank;
-  certain_ = ranks.certain;
-  for (int i = 0; i < rank_; ++i) inverse_pivots_[at(i)] = 1.0 / E_[at(i)][at(pivots_[at(i)])];
+  if (shapes_ >= 10 && shows_its_rank(X_, certain_)) {
+    E_ = X_;
+    std::iota(pivots_.begin(), pivots_.end(), 0);
+    rank_ = 10;
+  } else {
+    const Ranks ranks = reveal_rank(X_, std::min(10, shapes_), E_, pivots_);
+    rank_ = ranks.rank;
+    certain_ = ranks.certain;
+  }
+  prepare(E_, pivots_, rank_, inverse_pivots_, above_);
 }
 
 LinkDensity::Ten LinkDensity::weights(int rank, const Ten& y, const Ten& rest) const noexcept {
-  Ten w = rest;
-  std::array<double, 10> left;  // of y, beside what is known of w
+  Ten w = rest, found;
   for (int i = 0; i < rank; ++i) w[pivots_[at(i)]] = 0.0;
-  const Ten known = share_of(w);
-  for (int i = 0; i < rank; ++i) left[at(i)] = y[i] - known[i];
-  for (int k = rank - 1; k >= 0; --k) {
-    const std::size_t pivot = at(pivots_[at(k)]);
-    const double found = left[at(k)] * inverse_pivots_[at(k)];
-    w[pivots_[at(k)]] = found;
-    for (int i = 0; i < k; ++i) left[at(i)] -= E_[at(i)][pivot] * found;
-  }
+  const Ten left = rank < 10 ? Ten(y - share_of(w)) : y;
+  substitute(above_, inverse_pivots_, rank, left.data(), found.data());
+  for (int i = 0; i < rank; ++i) w[pivots_[at(i)]] = found[i];
   return w;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "shapeid/fast/ten_by_ten.hpp"
 #include "shapeid/fast/wide.hpp"
 
 namespace shapeid::fast {
@@ -15,7 +16,6 @@ namespace shapeid::fast {
 class LinkDensity {
  public:
   using Ten = Eigen::Matrix<double, 10, 1>;
-  using Rows = std::array<Dozen, 10>;
 
   /// No shapes.
   void clear() noexcept;
@@ -32,7 +32,7 @@ class LinkDensity {
   /// pivots and zeros below them: Phi = E^T y of the link, and lambda || y ||^2 is its density
   /// term.
   void reveal() noexcept;
-  [[nodiscard]] const Rows& E() const noexcept { return E_; }
+  [[nodiscard]] const TenRows& E() const noexcept { return E_; }
   [[nodiscard]] int rank() const noexcept { return rank_; }
   /// Of these, directions in which the shapes spread well.
   [[nodiscard]] int certain() const noexcept { return certain_; }
@@ -43,9 +43,10 @@ class LinkDensity {
   [[nodiscard]] Ten share_of(const Ten& g) const noexcept;
 
  private:
-  Rows X_, E_;
+  TenRows X_, E_;
   std::array<int, 10> pivots_{};
-  std::array<double, 10> inverse_pivots_{};  ///< 1 over the entries of E at the pivots
+  Dozen inverse_pivots_;  ///< 1 over the entries of E at the pivots
+  TenRows above_;         ///< columns of E at the pivots, above these and over them
   int shapes_ = 0;
   int rank_ = 0;
   int certain_ = 0;

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace shapeid::fast {
 namespace {
@@ -89,11 +88,19 @@ struct Data {
 
 SHAPEID_WIDE void evaluate_masses(const Data& data, const int* shapes, const double* masses,
                                   std::size_t n, LinkRows::Value& value) noexcept {
-  Dozen Phi, u;
-  for (std::size_t k = 0; k < n; ++k) {
+  Dozen Phi, odd, u;  // two sums, so that one addition need not wait for the other
+  std::size_t k = 0;
+  for (; k + 2 <= n; k += 2) {
+    load_ten(data.U + std::ptrdiff_t{10} * shapes[k], u);
+    add(Phi, masses[k], u);
+    load_ten(data.U + std::ptrdiff_t{10} * shapes[k + 1], u);
+    add(odd, masses[k + 1], u);
+  }
+  if (k < n) {
     load_ten(data.U + std::ptrdiff_t{10} * shapes[k], u);
     add(Phi, masses[k], u);
   }
+  add(Phi, 1.0, odd);
   value.Phi = Phi;
   evaluate_parameters(data, value);
 }
@@ -205,22 +212,6 @@ SHAPEID_WIDE void settle_masses(const Data& data, const AtPlaces& passive, doubl
   settled.is_settled = true;
 }
 
-SHAPEID_WIDE double judge_masses(const Dozen& lengths, double length, const double* U,
-                                 const int* shapes, const double* masses, const double* stiffness,
-                                 std::size_t n, const Dozen& slopes, double* gradient) noexcept {
-  double largest = 0.0;
-  for (std::size_t k = 0; k < n; ++k) {
-    Dozen u;
-    load_ten(U + std::ptrdiff_t{10} * shapes[k], u);
-    const double slope = dot(u, slopes) - stiffness[k] * masses[k];
-    for (Four& part : u.part) take_sign(part);
-    gradient[k] = slope;
-    const double size = std::max(dot(u, lengths) * length, std::numeric_limits<double>::min());
-    largest = std::max(largest, std::abs(slope) / size);
-  }
-  return largest;
-}
-
 }  // namespace
 
 void LinkRows::take(const Eigen::MatrixXd& R) noexcept {
@@ -239,13 +230,6 @@ void LinkRows::settle(const ShapeColumns& columns, const AtPlaces& passive, cons
                       double refined, int most, double exact, Settled& settled) const noexcept {
   settle_masses({rows_, columns_, columns.data()}, passive, length_, stiffness,
                 {refined, most, exact, unreached_ * unreached_}, settled);
-}
-
-double LinkRows::judge(const ShapeColumns& columns, const std::vector<int>& passive,
-                       const std::vector<double>& masses, const std::vector<double>& stiffness,
-                       const Dozen& slopes, Eigen::VectorXd& gradient) const noexcept {
-  return judge_masses(lengths_, length_, columns.data(), passive.data(), masses.data(),
-                      stiffness.data(), passive.size(), slopes, gradient.data());
 }
 
 }  // namespace shapeid::fast

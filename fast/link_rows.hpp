@@ -65,13 +65,6 @@ class LinkRows {
   void settle(const ShapeColumns& columns, const AtPlaces& passive, const Dozen& stiffness,
               double refined, int most, double exact, Settled& settled) const noexcept;
 
-  /// -1/2 df/dm of the passive shapes, u_j . slopes - stiffness_j m_j, into `gradient`; returns the
-  /// largest price among their absolute values: over || b || sum_i |u_ij| lengths_i.
-  [[nodiscard]] double judge(const ShapeColumns& columns, const std::vector<int>& passive,
-                             const std::vector<double>& masses,
-                             const std::vector<double>& stiffness, const Dozen& slopes,
-                             Eigen::VectorXd& gradient) const noexcept;
-
  private:
   std::array<Dozen, 10> rows_;
   std::array<Dozen, 11> columns_;

@@ -51,6 +51,7 @@ void MassSolver::clear() noexcept {
 bool MassSolver::append(int link, const Column& u, double V) noexcept {
   SHAPEID_CONTRACT(why_no_shape(link, u, V, links()));
   guess_ = nullptr;  // which knows nothing of it
+  only_massless_ = false;
   return add(link, u, V);
 }
 
@@ -117,8 +118,15 @@ Outcome MassSolver::solve_again() noexcept {
     has_answer_ = true;
     return Outcome::solved;
   }
+  if (has_answer_ && only_massless_ && method_.none_enters(massless_)) {
+    start_watching();
+    return Outcome::solved;
+  }
   const Outcome outcome = solve_by_method();
-  has_answer_ = has_answer_ || outcome == Outcome::solved;
+  if (outcome == Outcome::solved) {
+    start_watching();
+    has_answer_ = true;
+  }
   return outcome;
 }
 
@@ -282,7 +290,9 @@ bool MassSolver::divide(int j, const Column& first, double V1, const Column& sec
   if (!add(columns_.link(j), second, V2)) return false;
   // Where nothing is factorised yet, masses are but a place to start at.
   const bool by_guess = keep_guess_to_divide();
-  if (by_guess || (method_.has_rows() && !method_.has_started())) {
+  const bool at_once = by_guess || method_.divides_where_it_stands() ||
+                       (method_.has_rows() && !method_.has_started());
+  if (at_once) {
     columns_.replace(j, first);
     few_.put(j, first);
     V_[j] = V1;
@@ -293,6 +303,7 @@ bool MassSolver::divide(int j, const Column& first, double V1, const Column& sec
     SHAPEID_CONTRACT(why_changed());
     return true;
   }
+  watch(j, other);
   const double mass = m_[j];
   take_masses_out();
   if (mass > 0.0 && method_.has_rows()) method_.drop(j);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "shapeid/fast/column_products.hpp"
 #include "shapeid/fast/triangle_products.hpp"
 
 namespace shapeid::fast {
@@ -179,34 +180,17 @@ void PassiveMasses::evaluate_links() noexcept {
   slopes_of(*rows_->R, r_, slopes_);
 }
 
-/// use(place, -1/2 df/dm) for every passive shape. Shapes of a link often stand together: its
-/// slopes are fetched once for them.
-template <typename Use>
-void PassiveMasses::for_each_slope(Use use) const noexcept {
-  ShapeColumns::Column g = ShapeColumns::Column::Zero();
-  int link = -1;
-  for (std::size_t i = 0; i < passive_.size(); ++i) {
-    const int j = passive_[i];
-    if (columns_->link(j) != link) {
-      link = columns_->link(j);
-      g = slopes_.segment<10>(Eigen::Index{10} * link);
-    }
-    use(i, columns_->column(j).dot(g) - stiffness_[i] * masses_[i]);
-  }
-}
-
 /// Of the passive shapes, whose slopes should be zero; over their terms.
 double PassiveMasses::largest_slope() noexcept {
   if (judged_) return largest_slope_;
   judged_ = true;
-  if (columns_->links() == 1) {
-    return largest_slope_ = rows_->link.judge(*columns_, passive_, masses_, stiffness_,
-                                              at_masses_.slopes, gradient_);
-  }
+  column_products(*columns_, passive_, slopes_, gradient_);
   largest_slope_ = 0.0;
-  for_each_slope([this](std::size_t i, double slope) {
+  for (std::size_t i = 0; i < passive_.size(); ++i) {
+    double& slope = gradient_[static_cast<Eigen::Index>(i)];
+    slope -= stiffness_[i] * masses_[i];
     largest_slope_ = std::max(largest_slope_, columns_->price(passive_[i], std::abs(slope)));
-  });
+  }
   return largest_slope_;
 }
 
@@ -271,7 +255,8 @@ bool PassiveMasses::stays_settled(const std::vector<int>& massless) noexcept {
   scale_prices();
   const double threshold = lambda_ > 0.0 ? -certainly_held : smallest_slope;
   return std::ranges::all_of(massless, [this, threshold](int j) {
-    return columns_->price(j, columns_->column(j).dot(slopes_)) <= threshold;
+    const auto g = slopes_.segment<10>(Eigen::Index{10} * columns_->link(j));
+    return columns_->price(j, columns_->column(j).dot(g)) <= threshold;
   });
 }
 
@@ -290,15 +275,9 @@ bool PassiveMasses::settle(NormalEquations& normal) noexcept {
 /// One step of refinement of the masses; whether all stay positive.
 bool PassiveMasses::correct(NormalEquations& normal) noexcept {
   ++corrections_;
-  if (columns_->links() == 1) {
-    static_cast<void>(largest_slope());
-    coefficients_.head(static_cast<Eigen::Index>(masses_.size())) =
-        gradient_.head(static_cast<Eigen::Index>(masses_.size()));
-  } else {
-    for_each_slope([this](std::size_t i, double slope) {
-      coefficients_[static_cast<Eigen::Index>(i)] = slope;
-    });
-  }
+  static_cast<void>(largest_slope());
+  coefficients_.head(static_cast<Eigen::Index>(masses_.size())) =
+      gradient_.head(static_cast<Eigen::Index>(masses_.size()));
   normal.solve_normal(coefficients_);
   evaluated_ = false;
   double smallest = std::numeric_limits<double>::infinity();

@@ -62,6 +62,13 @@ class PassiveMasses {
     if (mass != 0.0) evaluated_ = false;
   }
   void erase(std::size_t place) noexcept;
+  /// The shape at this place, whose volume is another now, gives `part` of its mass to shape
+  /// `other`.
+  void divide(std::size_t place, int other, double part) noexcept {
+    change()[place] -= part;
+    stiffness_[place] = lambda_ / (*V_)[passive_[place]];
+    add(other, part);
+  }
   /// As many as there are, kg.
   void set(const Eigen::VectorXd& masses) noexcept;
   /// The masses, to be changed.
@@ -70,6 +77,8 @@ class PassiveMasses {
     return masses_;
   }
 
+  /// No corrections are counted yet.
+  void count_anew() noexcept { corrections_ = 0; }
   /// Remembers masses and what belongs to them, and goes back to it.
   void save() noexcept;
   void restore() noexcept;
@@ -104,7 +113,7 @@ class PassiveMasses {
   [[nodiscard]] const Eigen::VectorXd& slopes() const noexcept { return slopes_; }
   [[nodiscard]] const Objective& value() const noexcept { return value_; }
   [[nodiscard]] double lambda() const noexcept { return lambda_; }
-  /// Of the masses since save(), or of the guess that was settled at.
+  /// Of the masses since save() or count_anew(), or of the guess that was settled at.
   [[nodiscard]] int corrections() const noexcept { return corrections_; }
   [[nodiscard]] bool has_rows() const noexcept { return rows_->R != nullptr; }
   [[nodiscard]] const Eigen::MatrixXd& R() const noexcept { return *rows_->R; }
@@ -125,8 +134,6 @@ class PassiveMasses {
 
   void evaluate_links() noexcept;
   void take_value(double density) noexcept;
-  template <typename Use>
-  void for_each_slope(Use use) const noexcept;
   [[nodiscard]] bool settle(NormalEquations& normal) noexcept;
   [[nodiscard]] bool correct(NormalEquations& normal) noexcept;
   /// Whether the rows determine the passive masses.
@@ -150,7 +157,7 @@ class PassiveMasses {
   std::vector<double> tried_;      ///< masses to come back to, or of a guess
   std::vector<int> guessed_;       ///< its passive shapes
   Eigen::VectorXd coefficients_, Phi_, r_, slopes_;
-  Eigen::VectorXd gradient_;  ///< of the passive shapes, if judged_ and there is one link
+  Eigen::VectorXd gradient_;  ///< -1/2 df/dm of the passive shapes, if judged_
   Objective value_;
   double largest_slope_ = 0.0;  ///< over its terms
   std::vector<ShapeMass> saved_;

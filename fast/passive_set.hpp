@@ -41,6 +41,12 @@ class PassiveSet {
   virtual void dependence(Eigen::VectorXd& coefficients) noexcept = 0;
   /// The shape at this place leaves; those behind it move forward.
   virtual void leave(int place) noexcept = 0;
+  /// Whether any number of shapes of a link may be passive, so that those that are may be divided
+  /// where they stand.
+  [[nodiscard]] virtual bool can_divide() const noexcept { return false; }
+  /// If so: the shape at this place has been divided, `other` is its second part and enters behind
+  /// the others. Columns and volumes of both parts are known.
+  virtual void divide(int /*place*/, int /*other*/) noexcept {}
   /// False if rounding has made a column dependent that was not when it entered: shapes may still
   /// enter and leave, but masses mean nothing, and nothing but start() helps.
   [[nodiscard]] virtual bool sound() const noexcept { return true; }

@@ -25,7 +25,7 @@ using test::few_hundred_eps;
 using test::scaled;
 using Ten = LinkDensity::Ten;
 
-MatrixXd matrix(const LinkDensity::Rows& rows) {
+MatrixXd matrix(const TenRows& rows) {
   MatrixXd E(10, 10);
   for (Index i = 0; i < 10; ++i) {
     for (Index j = 0; j < 10; ++j) {
@@ -134,12 +134,12 @@ RC_GTEST_PROP(DampedTen, AsDenseLeastSquares, ()) {
   test::Draw draw(*rc::gen::arbitrary<std::uint64_t>());
   // A triangle of more rows than the one link has, which are not to be read.
   MatrixXd R = MatrixXd::NullaryExpr(14, 14, [&] { return draw.sign(); });
-  LinkDensity::Rows E{};
+  TenRows E{};
   for (int i = 0; i < rank; ++i) {
     for (std::size_t j = 0; j < 10; ++j) E[static_cast<std::size_t>(i)][j] = draw.sign();
   }
   DampedTen damped;
-  damped.factorise(R, E, lambda);
+  damped.factorise(R, E, rank, lambda);
   VectorXd y(10);
   damped.solve(y);
 

@@ -42,8 +42,11 @@ enum class Kind { one_link, many_links, even_density };
 /// A set of one of the three kinds, and beside it the places of the shapes that it should hold.
 class Watched {
  public:
-  Watched(const TriangleCase& given, Kind kind)
-      : given_(given), columns_(given.link_count(), given.shapes()) {
+  /// `room`: for parts of shapes that are divided.
+  Watched(const TriangleCase& given, Kind kind, int room = 0)
+      : given_(given), columns_(given.link_count(), given.shapes() + room) {
+    V_.setOnes(columns_.capacity());
+    V_.head(given.shapes()) = given.problem.V;
     for (int j = 0; j < given.shapes(); ++j) {
       static_cast<void>(columns_.append(given.links[static_cast<std::size_t>(j)], given.column(j)));
     }
@@ -52,11 +55,13 @@ class Watched {
     } else if (kind == Kind::many_links) {
       set_ = std::make_unique<ManyLinks>(columns_);
     } else {
-      auto set = std::make_unique<EvenDensity>(columns_, given.problem.V);
+      auto set = std::make_unique<EvenDensity>(columns_, V_);
       set->set_lambda(given.problem.lambda);
       set_ = std::move(set);
     }
-    set_->start(given.R);
+    columns_.set_scale(given_.problem.Y.cwiseAbs().colwise().sum().transpose(),
+                       given_.problem.F.norm());
+    set_->start(given_.R);
   }
 
   [[nodiscard]] const std::vector<int>& passive() const { return passive_; }
@@ -98,6 +103,18 @@ class Watched {
     set_->leave(static_cast<int>(place));
     passive_.erase(passive_.begin() + place);
   }
+
+  /// The cuboid at this place is cut somewhere.
+  void divide(Index place, test::Draw& draw) {
+    const int j = passive_[static_cast<std::size_t>(place)], other = given_.shapes();
+    test::divide(given_, j, draw);
+    V_.head(other + 1) = given_.problem.V;
+    columns_.replace(j, given_.column(j));
+    RC_ASSERT(columns_.append(given_.links[static_cast<std::size_t>(j)], given_.column(other)));
+    set_->divide(static_cast<int>(place), other);
+    passive_.push_back(other);
+  }
+  [[nodiscard]] bool has_room() const { return columns_.size() < columns_.capacity(); }
 
   /// Where the passive shapes alone minimise f, whatever the signs of their masses.
   [[nodiscard]] LongVector minimum() const {
@@ -166,8 +183,8 @@ class Watched {
     return Phi;
   }
 
-  const TriangleCase& given_;
-
+  TriangleCase given_;
+  VectorXd V_;
   ShapeColumns columns_;
   std::unique_ptr<PassiveSet> set_;
   std::vector<int> passive_;
@@ -188,7 +205,8 @@ double run(const TriangleCase& given, Kind kind, std::uint64_t seed, int steps, 
       const auto at = static_cast<std::size_t>(draw.between(0.0, static_cast<double>(held.size())));
       const auto from = held.begin() + static_cast<std::ptrdiff_t>(at);
       if (draw.between(0.0, 1.0) < 0.3) {
-        const std::size_t count = std::min<std::size_t>(held.size() - at, 1 + step % 7);
+        const std::size_t count =
+            std::min(held.size() - at, static_cast<std::size_t>(1 + step % 7));
         held.erase(from, from + static_cast<std::ptrdiff_t>(set.enter_first({&held[at], count})));
       } else if (set.enter(held[at])) {
         held.erase(from);
@@ -237,6 +255,26 @@ TEST(ManyLinks, TheirShapesEnterWhereRoomForReflectionsEnds) {
     ASSERT_EQ(set.enter_first(last), last.size());
     set.check(worst_move);
   }
+}
+
+RC_GTEST_PROP(EvenDensity, DividedShapesAsDenseLeastSquares, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  const TriangleCase given = test::body_case(
+      seed, {.links = *rc::gen::inRange(1, 4), .shapes_a_link = *rc::gen::inRange(1, 12)});
+  RC_PRE(given.problem.lambda > 0.0);
+  test::Draw draw(seed);
+  Watched set(given, Kind::even_density, 30);
+  for (int j = 0; j < given.shapes(); ++j) RC_ASSERT(set.enter(j));
+  double worst_move = 0.0;
+  while (set.has_room()) {
+    const auto place = [&] {
+      return static_cast<Index>(draw.between(0.0, static_cast<double>(set.passive().size())));
+    };
+    if (set.passive().size() > 1 && draw.between(0.0, 1.0) < 0.2) set.leave(place());
+    set.divide(place(), draw);
+    if (set.passive().size() % 3 == 0) set.check(worst_move);
+  }
+  RC_ASSERT(worst_move < damped_rounding);
 }
 
 RC_GTEST_PROP(EvenDensity, AsDenseLeastSquares, ()) {

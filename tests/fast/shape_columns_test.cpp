@@ -9,9 +9,11 @@
 #include <set>
 #include <vector>
 
+#include "shapeid/fast/column_products.hpp"
 #include "shapeid/fast/shape_columns.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/load_problem.hpp"
+#include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid::fast {
 namespace {
@@ -91,6 +93,32 @@ Market any_market(double size) {
     market.barred.push_back(draw.between(0.0, 1.0) < 0.3);
   }
   return market;
+}
+
+/// Shapes in any order, some more than once.
+RC_GTEST_PROP(ColumnProducts, AsOneByOne, ()) {
+  const Market market = any_market(1.0);
+  RC_PRE(!market.columns.empty());
+  const ShapeColumns stored = market.stored();
+  test::Draw draw(*rc::gen::arbitrary<std::uint64_t>());
+  std::vector<int> shapes;
+  for (int k = *rc::gen::inRange(0, 60); k > 0; --k) {
+    const int j = static_cast<int>(draw.between(0.0, stored.size()));
+    shapes.push_back(j);
+    while (draw.between(0.0, 1.0) < 0.8) shapes.push_back(j);  // of a link, one after the other
+  }
+  const auto n = static_cast<Index>(shapes.size());
+  constexpr double untouched = 3.25;
+  VectorXd products = VectorXd::Constant(n + 1, untouched);
+  column_products(stored, shapes, market.g, products);
+  for (Index i = 0; i < n; ++i) {
+    const auto at = static_cast<std::size_t>(shapes[static_cast<std::size_t>(i)]);
+    const auto g = market.g.segment<10>(Index{10} * market.link_of[at]);
+    const double terms = market.columns[at].cwiseAbs().dot(g.cwiseAbs());
+    RC_ASSERT(test::scaled(products[i] - market.columns[at].dot(g), terms, 10) <
+              test::few_hundred_eps);
+  }
+  RC_ASSERT(products[n] == untouched);
 }
 
 RC_GTEST_PROP(ShapeColumns, SteepestIsThatOfDoubleButForSinglePrecision, ()) {
