@@ -154,6 +154,7 @@ class ActiveSet {
   std::vector<int> joining_;         ///< the same without masses
   Eigen::VectorXd coefficients_;
   int iterations_ = 0;
+  bool one_by_one_ = false;          ///< of each link, shapes enter
   bool started_ = false;             ///< set_ holds the passive shapes
   bool ended_with_refused_ = false;  ///< so that some were not asked at the end
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace shapeid::fast {
 namespace {
@@ -36,6 +37,31 @@ void ColumnQr::start(const Eigen::Ref<const Eigen::VectorXd>& b) noexcept {
   rotated_.tail(rotated_.size() - rows_).setZero();
   reflections_.clear();
   used_ = 0;
+}
+
+// What is kept of the reflections is as long as it was, so there is room.
+void ColumnQr::keep(Eigen::Index columns, const Eigen::Ref<const Eigen::VectorXd>& b) noexcept {
+  SHAPEID_CONTRACT(why_not_kept(columns));
+  size_ = columns;
+  reflections_.erase(reflections_.begin() + columns, reflections_.end());
+  used_ = 0;
+  if (!reflections_.empty()) {
+    const RowReflection& last = reflections_.back();
+    used_ = last.place + static_cast<std::size_t>(four_rows::numbers(last.first, last.end));
+  }
+  rotated_.head(rows_) = b;
+  rotated_.tail(rotated_.size() - rows_).setZero();
+  Eigen::Index rows = rows_;
+  reflect_columns(reflections_.data(), reflections_.data() + columns, vectors_.data(),
+                  {rotated_.data(), 0, &rows}, 1);
+}
+
+Violation ColumnQr::why_not_kept(Eigen::Index columns) const {
+  if (columns > size_) return "more columns are to be kept than there are";
+  if (reflections_.size() != static_cast<std::size_t>(size_)) {
+    return "columns are kept of which others were removed";
+  }
+  return std::nullopt;
 }
 
 bool ColumnQr::has_room(std::size_t reflections, std::size_t numbers) const noexcept {

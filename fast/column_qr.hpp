@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shapeid/fast/row_reflection.hpp"
+#include "shapeid/models/contract.hpp"
 
 namespace shapeid::fast {
 
@@ -26,6 +27,11 @@ class ColumnQr {
   /// No columns; the right-hand side is `b`, as many rows as said at construction.
   void start(const Eigen::Ref<const Eigen::VectorXd>& b) noexcept;
 
+  /// The first `columns` remain, as if no others had come since start() or the last keep(); none
+  /// may have been removed since then. `b` is that of start().
+  void keep(Eigen::Index columns, const Eigen::Ref<const Eigen::VectorXd>& b) noexcept;
+  [[nodiscard]] Violation why_not_kept(Eigen::Index columns) const;
+
   enum class Push {
     entered,
     dependent,  ///< nothing changed; dependence() tells of what
@@ -34,6 +40,8 @@ class ColumnQr {
 
   /// Where the caller writes the column that enters next; or the one that enters `k` behind it.
   [[nodiscard]] auto entering(Eigen::Index k = 0) noexcept { return entering_.col(k).head(rows_); }
+  /// Numbers from one such column to the next.
+  [[nodiscard]] Eigen::Index stride() const noexcept { return entering_.rows(); }
 
   /// Adds entering() as the last column. Only its first `end` rows are read; the others count as
   /// zero. It is dependent if less than `smallest_share` of its length is new, or no more than

@@ -47,6 +47,7 @@ EvenDensity::EvenDensity(const ShapeColumns& columns, const Eigen::VectorXd& V)
 void EvenDensity::set_lambda(double lambda) noexcept {
   lambda_ = lambda;
   solved_ = false;
+  factorised_ = 0;
 }
 
 void EvenDensity::start(const Eigen::MatrixXd& R) noexcept {
@@ -54,6 +55,7 @@ void EvenDensity::start(const Eigen::MatrixXd& R) noexcept {
   passive_.clear();
   sound_ = true;
   solved_ = false;
+  factorised_ = 0;
   for (Density& density : densities_) density.rows.clear();
   for (int l = 0; l < columns_->links(); ++l) {
     b_.segment<10>(rows_of_link * l) = right_hand_side(R).segment<10>(Eigen::Index{10} * l);
@@ -115,48 +117,59 @@ EvenDensity::Ten EvenDensity::Density::weights(const Ten& y) const noexcept {
 }
 
 void EvenDensity::factorise() noexcept {
+  int unchanged = factorised_;
   for (int l = 0; l < columns_->links(); ++l) {
     LinkDensity& rows = densities_[static_cast<std::size_t>(l)].rows;
     if (rows.outdated()) rebuild(l);
-    rows.reveal();
+    if (rows.reveal()) unchanged = std::min(unchanged, l);
   }
   if (is_one_link()) {
     const LinkDensity& rows = densities_.front().rows;
     ten_.factorise(*R_, rows.E(), rows.rank(), lambda_);
   } else {
-    factorise_many_links();
+    factorise_from(unchanged);
   }
 }
 
-void EvenDensity::factorise_many_links() noexcept {
+/// Columns of the links before `link`, which have not changed, stay: mostly one link has. (One that
+/// changes could not be the last one for that: its columns are longer than those of links before.)
+void EvenDensity::factorise_from(int link) noexcept {
   const double damping = std::sqrt(lambda_);
+  Eigen::Index first = 0;
+  if (link > 0) {
+    const Density& before = densities_[static_cast<std::size_t>(link) - 1];
+    first = before.first + before.rows.rank();
+  }
   // A column that counts as dependent and those behind it stay out: a set that is not sound gives
   // no answer.
-  qr_.start(b_);
-  unfelt_.clear();
+  if (first > 0) {
+    qr_.keep(first, b_);
+  } else {
+    qr_.start(b_);
+  }
+  while (!unfelt_.empty() && unfelt_.back() >= first) unfelt_.pop_back();
   Eigen::Index count = 0;
-  for (int l = 0; l < columns_->links(); ++l) {
+  for (int l = link; l < columns_->links(); ++l) {
     Density& density = densities_[static_cast<std::size_t>(l)];
-    density.first = count;
-    for (int k = 0; k < density.rows.rank(); ++k) {
-      Ten e;
-      for (int i = 0; i < 10; ++i) {
-        e[i] = density.rows.E()[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
-      }
+    density.first = first + count;
+    const int rank = density.rows.rank();
+    if (rank == 0) continue;
+    link_columns(*R_, l, density.rows.E(), rank, rows_of_link, qr_.entering(count).data(),
+                 qr_.stride());
+    for (int k = 0; k < rank; ++k) {
       double* a = qr_.entering(count).data();
       const Eigen::Index damped = rows_of_link * l + 10 + k;
-      std::fill(a, a + damped, 0.0);
-      for (int b = 0; b <= l; ++b) {
-        Eigen::Map<Ten>(a + rows_of_link * b).noalias() =
-            R_->block<10, 10>(Eigen::Index{10} * b, Eigen::Index{10} * l).lazyProduct(e);
-      }
+      for (int b = 0; b < l; ++b) std::fill_n(a + rows_of_link * b + 10, 10, 0.0);
+      std::fill_n(a + rows_of_link * l + 10, k, 0.0);
       a[damped] = damping;
-      if (qr_.entering(count).head(damped).isZero(0.0)) unfelt_.push_back(count);
+      if (qr_.entering(count).head(damped).isZero(0.0)) unfelt_.push_back(first + count);
       ends_[static_cast<std::size_t>(count++)] = damped + 1;
     }
   }
   const std::span ends(ends_.data(), static_cast<std::size_t>(count));
-  sound_ = qr_.push_all(ends) == count && sound_;
+  const bool have_entered = qr_.push_all(ends) == count;
+  sound_ = have_entered && sound_;
+  factorised_ = have_entered ? columns_->links() : 0;
 }
 
 void EvenDensity::solve() noexcept {

@@ -55,7 +55,7 @@ class EvenDensity final : public PassiveSet {
   void rebuild(int link) noexcept;
   [[nodiscard]] Ten row_of(int j) const noexcept;
   void factorise() noexcept;
-  void factorise_many_links() noexcept;
+  void factorise_from(int link) noexcept;
   void solve() noexcept;
   void solve_normal(Eigen::VectorXd& x) const noexcept;
   void spread(const Eigen::VectorXd& y) noexcept;
@@ -72,6 +72,7 @@ class EvenDensity final : public PassiveSet {
   bool solved_ = false;               ///< y_ and the weights are those of the passive shapes
   DampedTen ten_;                     ///< of one link
   ColumnQr qr_;                       ///< of several
+  int factorised_ = 0;                ///< links whose columns are in qr_, if E is still the same
   std::vector<Eigen::Index> unfelt_;  ///< unknowns y that no row of several links feels
   Eigen::VectorXd b_, y_, correction_, target_, slopes_;
   // Ten numbers a link:

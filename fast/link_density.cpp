@@ -252,8 +252,8 @@ void LinkDensity::leave(const Ten& row) noexcept {
   if (!outdated_ && !remove_row(X_, row.data())) outdated_ = true;
 }
 
-void LinkDensity::reveal() noexcept {
-  if (revealed_) return;
+bool LinkDensity::reveal() noexcept {
+  if (revealed_) return false;
   revealed_ = true;
   if (shapes_ >= 10 && shows_its_rank(X_, certain_)) {
     E_ = X_;
@@ -265,6 +265,7 @@ void LinkDensity::reveal() noexcept {
     certain_ = ranks.certain;
   }
   prepare(E_, pivots_, rank_, inverse_pivots_, above_);
+  return true;
 }
 
 LinkDensity::Ten LinkDensity::weights(int rank, const Ten& y, const Ten& rest) const noexcept {

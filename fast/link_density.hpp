@@ -28,10 +28,10 @@ class LinkDensity {
   void begin_anew() noexcept;
   void again(const Ten& row) noexcept;
 
-  /// Makes E of X, unless that is done. With Q^T X = E, its first rank() rows in the order of their
-  /// pivots and zeros below them: Phi = E^T y of the link, and lambda || y ||^2 is its density
-  /// term.
-  void reveal() noexcept;
+  /// Makes E of X, unless that is done; whether it was not. With Q^T X = E, its first rank() rows
+  /// in the order of their pivots and zeros below them: Phi = E^T y of the link, and lambda || y
+  /// ||^2 is its density term.
+  bool reveal() noexcept;
   [[nodiscard]] const TenRows& E() const noexcept { return E_; }
   [[nodiscard]] int rank() const noexcept { return rank_; }
   /// Of these, directions in which the shapes spread well.

@@ -156,6 +156,7 @@ Outcome MassSolver::solve_by_method() noexcept {
   if (lambda_ == 0.0) {
     outcome = method_.run();
   } else {
+    if (is_new_ && links() > 1) forget_useless_masses();
     outcome = is_new_ && links() == 1 ? solve_damped_anew() : solve_damped();
   }
   if (outcome != Outcome::solved) method_.restore();
@@ -251,6 +252,15 @@ Outcome MassSolver::solve_damped() noexcept {
     if (outcome != Outcome::solved) method_.restore();
   }
   return spread_evenly();
+}
+
+/// Of several links, on new rows: masses that are worse than none.
+void MassSolver::forget_useless_masses() noexcept {
+  if (at_vertex_) return;
+  method_.use(even_, lambda_);
+  if (!method_.is_far_off()) return;
+  method_.clear();
+  at_vertex_ = true;
 }
 
 // On new rows of one link a guess has looked for a vertex already; or there were more masses than

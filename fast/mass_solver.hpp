@@ -92,6 +92,7 @@ class MassSolver {
   [[nodiscard]] Outcome solve_by_method() noexcept;
   void keep_failed_guess() noexcept;
   void start_at_failed_guess() noexcept;
+  void forget_useless_masses() noexcept;
   [[nodiscard]] Outcome solve_damped() noexcept;
   [[nodiscard]] Outcome solve_damped_anew() noexcept;
   [[nodiscard]] Outcome spread_evenly() noexcept;

@@ -15,8 +15,9 @@ namespace {
 /// Kept away from zero, so that a shape which no row feels has the price zero and not NaN.
 constexpr float smallest_scale = 1e-30F;
 
-/// Of the largest price: what counts as almost as large.
-constexpr float almost = 0.1F;
+/// Of the largest price: what counts as almost as large. With lambda any shape may enter, and one
+/// that must leave again costs more than one that waits.
+constexpr float almost_on_links = 0.1F, almost = 0.3F;
 
 using Ten = Eigen::Array<float, 10, 1>;
 
@@ -110,9 +111,9 @@ ShapeColumns::ShapeColumns(int links, int most_shapes)
       last_of_link_(static_cast<std::size_t>(links), -1),
       lengths_(Eigen::VectorXd::Ones(Eigen::Index{10} * links)) {
   uncertain_.reserve(chunks_.size());
-  best_.reserve(chunks_.size());
-  best_by_terms_.reserve(chunks_.size());
-  steep_ones_.reserve(chunks_.size() + 1);
+  best_.reserve(std::max(chunks_.size(), slots_.size()));
+  best_by_terms_.reserve(best_.capacity());  // the two are swapped
+  steep_ones_.reserve(best_.capacity() + 1);
 }
 
 void ShapeColumns::clear() noexcept {
@@ -238,8 +239,7 @@ int ShapeColumns::steepest(const Eigen::VectorXd& g, double threshold) noexcept 
     }
   }
   if (steepest_ < 0 && !uncertain_.empty()) {
-    best_.clear();
-    steepest_ = steepest_in_double(g, threshold, below, Judged::by_lengths);
+    steepest_ = steepest_in_double(g, threshold, below, Judged::by_lengths, Kept::best);
   }
   return steepest_;
 }
@@ -282,14 +282,14 @@ int ShapeColumns::steepest_or_by_terms(const Eigen::VectorXd& g, double threshol
     }
   }
   if (steepest_ >= 0) return steepest_;
-  best_.clear();
-  steepest_ = steepest_in_double(g, threshold, -uncertain, Judged::by_lengths);
+  steepest_ = steepest_in_double(g, threshold, -uncertain, Judged::by_lengths, Kept::all);
   if (steepest_ >= 0) return steepest_;
   if (steepest_by_terms >= 0) {
     best_.swap(best_by_terms_);
     return steepest_ = steepest_by_terms;
   }
-  return steepest_ = steepest_in_double(g, threshold_by_terms, -uncertain, Judged::by_terms);
+  return steepest_ =
+             steepest_in_double(g, threshold_by_terms, -uncertain, Judged::by_terms, Kept::all);
 }
 
 const std::vector<int>& ShapeColumns::steep_ones(Among among) noexcept {
@@ -299,8 +299,9 @@ const std::vector<int>& ShapeColumns::steep_ones(Among among) noexcept {
   if (links() == 1 && among == Among::links) return steep_ones_;
   float most = 0.0F;
   for (const Priced& best : best_) most = std::max(most, best.price);
+  const float enough = most * (among == Among::links ? almost_on_links : almost);
   for (const Priced& best : best_) {
-    if (best.price < almost * most || best.shape == steepest_) continue;
+    if (best.price < enough || best.shape == steepest_) continue;
     const bool beaten =
         among == Among::links && std::any_of(best_.begin(), best_.end(), [&](const Priced& other) {
           return link(other.shape) == link(best.shape) && other.price > best.price;
@@ -311,14 +312,17 @@ const std::vector<int>& ShapeColumns::steep_ones(Among among) noexcept {
 }
 
 int ShapeColumns::steepest_in_double(const Eigen::VectorXd& g, double threshold, float below,
-                                     Judged judged) const noexcept {
-  int best = -1;
+                                     Judged judged, Kept kept) noexcept {
+  int steepest = -1;
   double most = threshold;
   std::array<Asked, lanes> asked;
+  best_.clear();
   for (const int c : uncertain_) {
     const PriceChunk& chunk = chunks_[static_cast<std::size_t>(c)];
     unsigned left =
         ask(chunk, data(), g.data() + std::ptrdiff_t{10} * chunk.link, below, asked.data());
+    Priced best{-1, 0.0F};
+    double most_here = threshold;
     for (; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
       const int j = chunk.shape[lane];
@@ -326,13 +330,19 @@ int ShapeColumns::steepest_in_double(const Eigen::VectorXd& g, double threshold,
       const double here = judged == Judged::by_terms
                               ? slope / std::max(terms, std::numeric_limits<double>::min())
                               : price(j, slope);
-      if (here > most) {
-        most = here;
-        best = j;
+      if (here > threshold && kept == Kept::all) best_.push_back({j, static_cast<float>(here)});
+      if (here > most_here) {
+        most_here = here;
+        best = {j, static_cast<float>(here)};
       }
     }
+    if (best.shape >= 0 && kept == Kept::best) best_.push_back(best);
+    if (most_here > most) {
+      most = most_here;
+      steepest = best.shape;
+    }
   }
-  return best;
+  return steepest;
 }
 
 }  // namespace shapeid::fast

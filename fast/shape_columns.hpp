@@ -68,10 +68,9 @@ class ShapeColumns {
   /// what set_scale() judges by. Thresholds: zero or positive.
   [[nodiscard]] int steepest_or_by_terms(const Eigen::VectorXd& g, double threshold,
                                          double threshold_by_terms) noexcept;
-  /// After either: that shape, then steep ones of other links, or of other groups of sixteen,
-  /// with prices almost as large. Single precision decides; where it could not, the steepest stands
-  /// alone.
-  enum class Among { links, groups };
+  /// After either: that shape, then others with prices almost as large, by what decided of that
+  /// one: the best of other links, or any. (Single precision knows the best of every sixteen.)
+  enum class Among { links, all };
   [[nodiscard]] const std::vector<int>& steep_ones(Among among) noexcept;
   /// Bars a shape from steepest(), or admits it again.
   void bar(int j, bool is_barred) noexcept {
@@ -110,11 +109,12 @@ class ShapeColumns {
   };
 
   enum class Judged { by_lengths, by_terms };
+  enum class Kept { best, all };  ///< of a chunk
   void write(int j, const Column& u) noexcept;
   void write_lane(PriceChunk& chunk, int lane, const double* u) noexcept;
   void set_scale(PriceChunk& chunk) noexcept;
   [[nodiscard]] int steepest_in_double(const Eigen::VectorXd& g, double threshold, float below,
-                                       Judged judged) const noexcept;
+                                       Judged judged, Kept kept) noexcept;
 
   int size_ = 0;
   int used_chunks_ = 0;
@@ -124,7 +124,7 @@ class ShapeColumns {
   std::vector<int> links_;                             ///< of every shape
   Eigen::Matrix<double, 10, Eigen::Dynamic> columns_;  ///< in double, one behind the other
   std::vector<int> last_of_link_;  ///< the chunk that a link's next shape goes to, or -1
-  std::vector<Priced> best_;       ///< of every chunk, at the last steepest()
+  std::vector<Priced> best_;       ///< of every chunk, or all that exceeded, at the last steepest()
   std::vector<Priced> best_by_terms_;
   int steepest_ = -1;  ///< at the last steepest()
   std::vector<int> steep_ones_;

@@ -44,6 +44,27 @@ SHAPEID_WIDE void add_ten(Columns columns, std::ptrdiff_t rows, const double* u,
   }
 }
 
+/// Two columns at a time, so that what is loaded serves twice.
+SHAPEID_WIDE void make_columns(Columns columns, std::ptrdiff_t links, const TenRows& E,
+                               std::size_t rank, std::ptrdiff_t apart, double* a,
+                               std::ptrdiff_t stride) noexcept {
+  for (std::size_t k = 0; k < rank; k += 2) {
+    const std::size_t other = k + 1 < rank ? k + 1 : k;
+    double* const to = a + static_cast<std::ptrdiff_t>(k) * stride;
+    double* const other_to = a + static_cast<std::ptrdiff_t>(other) * stride;
+    for (std::ptrdiff_t b = 0; b < links; ++b) {
+      Dozen sum, other_sum, here;
+      for (std::size_t i = 0; i < 10; ++i) {
+        load_ten(columns[static_cast<std::ptrdiff_t>(i)] + 10 * b, here);
+        add(sum, E[k][i], here);
+        add(other_sum, E[other][i], here);
+      }
+      store_ten(sum, to + apart * b);
+      store_ten(other_sum, other_to + apart * b);
+    }
+  }
+}
+
 /// Of links: sums[j] = sum over the rows i that link reaches of what `term` makes of R_ij.
 template <typename Term>
 [[gnu::always_inline]] inline void sum_columns(Columns columns, std::ptrdiff_t links, double* sums,
@@ -101,6 +122,12 @@ SHAPEID_WIDE void sum_sizes(Columns columns, std::ptrdiff_t links, double* sums)
 void add_column(const Eigen::MatrixXd& R, int link, const double* u, double* a) noexcept {
   const Eigen::Index first = Eigen::Index{10} * link;
   add_ten({R.col(first).data(), R.outerStride()}, first + 10, u, a);
+}
+
+void link_columns(const Eigen::MatrixXd& R, int link, const TenRows& E, int rank,
+                  Eigen::Index apart, double* a, Eigen::Index stride) noexcept {
+  make_columns({R.col(Eigen::Index{10} * link).data(), R.outerStride()}, link + 1, E,
+               static_cast<std::size_t>(rank), apart, a, stride);
 }
 
 void slopes_of(const Eigen::MatrixXd& R, const Eigen::VectorXd& r, Eigen::VectorXd& g) noexcept {

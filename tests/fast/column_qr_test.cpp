@@ -81,6 +81,11 @@ class ShadowedQr {
     return entered;
   }
 
+  void keep(Index count) {
+    qr_.keep(count, b_);
+    columns_.resize(static_cast<std::size_t>(count));
+  }
+
   void remove(Index place) {
     const bool removed = qr_.remove(place);
     columns_.erase(columns_.begin() + place);
@@ -205,6 +210,26 @@ RC_GTEST_PROP(ColumnQr, ColumnsEnterTogetherAsOneAfterTheOther, ()) {
   }
   RC_ASSERT(set.push_all(columns) == static_cast<Index>(wanted));
   set.check();
+}
+
+// Again and again, which must not fill the room for reflections.
+RC_GTEST_PROP(ColumnQr, TheFirstColumnsAreKept, ()) {
+  const Index rows = *rc::gen::inRange<Index>(1, 40);
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  ShadowedQr set(rows, rows, seed);
+  test::Draw draw(seed + 1);
+  for (int turn = 0; turn < 12; ++turn) {
+    const auto count = static_cast<Index>(set.columns().size());
+    const auto kept = static_cast<Index>(draw.between(0.0, static_cast<double>(count + 1)));
+    set.keep(kept);
+    set.check();
+    std::vector<std::pair<VectorXd, Index>> columns;
+    while (kept + static_cast<Index>(columns.size()) < rows && draw.between(0.0, 1.0) < 0.9) {
+      columns.emplace_back(set.random_column(rows), rows);
+    }
+    RC_ASSERT(set.push_all(columns) == static_cast<Index>(columns.size()));
+    set.check();
+  }
 }
 
 // As those of ManyLinks.TheirShapesEnterWhereRoomForReflectionsEnds do: the last ones leave, which

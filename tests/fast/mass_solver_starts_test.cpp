@@ -31,7 +31,7 @@ TEST(FastMassStarts, ManyLeaveAtOnce) {
 }
 
 /// Where pivots do not settle a new triangle, they have done a part of the way: the method takes
-/// 0.74 of the steps that it takes from no masses (1530 of 2069).
+/// 0.39 of the steps that it takes from no masses (288 of 735).
 TEST(FastMassStarts, TheMethodBeginsWhereAGuessHasFailed) {
   int steps = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -42,15 +42,15 @@ TEST(FastMassStarts, TheMethodBeginsWhereAGuessHasFailed) {
     ASSERT_EQ(solver.solve(given.R), Outcome::solved);
     steps += solver.iterations();
   }
-  EXPECT_LT(steps, 1800);
+  EXPECT_LT(steps, 500);
 }
 
-/// A guess that leads nowhere costs no answer: of two hundred problems whose shapes have a twin
-/// each, 1e-11 apart, 25 are declined; 38 if the method does not begin once more at the last
-/// masses, 31 if it never began elsewhere.
+/// A guess that leads nowhere costs no answer: of a thousand problems whose shapes have a twin
+/// each, 1e-11 apart, 111 are declined; 137 if the method does not begin once more at the last
+/// masses, 123 if it never began elsewhere, 135 if shapes never enter one by one.
 TEST(FastMassStarts, TheMethodBeginsAnewWhereAFailedGuessLeadsNowhere) {
   int declined = 0;
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
     const test::TriangleCase given =
         test::body_case(seed, {.shapes_a_link = 10, .samples = 10, .noise = 1e-6});
     MassSolver solver(1, 2 * given.shapes());
@@ -63,12 +63,12 @@ TEST(FastMassStarts, TheMethodBeginsAnewWhereAFailedGuessLeadsNowhere) {
     }
     if (solver.solve(given.R) != Outcome::solved) ++declined;
   }
-  EXPECT_LE(declined, 28);
+  EXPECT_LE(declined, 120);
 }
 
 /// Masses of which many are of no use to new rows are not gone on from: on rows that have nothing
-/// to do with each other, calls that begin at the last masses take 0.74 of the steps of those that
-/// begin with none; 1.18 if they always go on, 0.97 if they never do. The answers are the same.
+/// to do with each other, calls that begin at the last masses take 0.98 of the steps of those that
+/// begin with none; 2.8 times as many if they always go on. The answers are the same.
 TEST(FastMassStarts, MassesThatAreFarOffAreNoStart) {
   int with_masses = 0, with_none = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -88,7 +88,31 @@ TEST(FastMassStarts, MassesThatAreFarOffAreNoStart) {
   }
   RecordProperty("steps from the last masses", with_masses);
   RecordProperty("steps from none", with_none);
-  EXPECT_LT(with_masses, 0.85 * with_none);
+  EXPECT_LT(with_masses, 1.2 * with_none);
+}
+
+/// The same of several links, where they take 1.03 times as many; 1.6 if they always go on.
+TEST(FastMassStarts, MassesOfSeveralLinksThatAreFarOffAreNoStart) {
+  int with_masses = 0, with_none = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const test::BodyStyle style{.links = 3, .shapes_a_link = 40, .samples = 10, .noise = 0.01};
+    const test::TriangleCase first = test::body_case(seed, style);
+    const test::TriangleCase second = test::body_case(1000 + seed, style);
+    MassSolver warm(3, first.shapes()), cold(3, first.shapes());
+    test::load(first, warm);
+    test::load(first, cold);
+    ASSERT_EQ(warm.solve(first.R), Outcome::solved);
+    ASSERT_EQ(warm.solve(second.R), Outcome::solved);
+    ASSERT_EQ(cold.solve(second.R), Outcome::solved);
+    EXPECT_LT(std::abs(warm.value().total() - cold.value().total()),
+              1e-12 * second.R.col(30).squaredNorm())
+        << seed;
+    with_masses += warm.iterations();
+    with_none += cold.iterations();
+  }
+  RecordProperty("steps from the last masses", with_masses);
+  RecordProperty("steps from none", with_none);
+  EXPECT_LT(with_masses, 1.4 * with_none);
 }
 
 }  // namespace

@@ -280,7 +280,7 @@ RC_GTEST_PROP(ShapeColumns, SmallSlopesAreJudgedByTheirOwnTerms, ()) {
     RC_ASSERT(market.price_by_terms(chosen) > 0.0);
     RC_ASSERT(market.price_by_terms(chosen) >= (1.0 - lane_bits) * most - single_rounding);
   }
-  RC_ASSERT(stored.steep_ones(ShapeColumns::Among::groups).empty() == (chosen < 0));
+  RC_ASSERT(stored.steep_ones(ShapeColumns::Among::all).empty() == (chosen < 0));
 }
 
 TEST(ShapeColumns, RoomIsForAllShapesOnAnyLinks) {
@@ -332,8 +332,8 @@ TEST(ShapeColumns, ThresholdsBelowZeroFindWhatIsNotCertainlyHeld) {
   EXPECT_NE(stored.steepest(VectorXd::Zero(10), -1e-13), -1);
 }
 
-/// Two links of twenty shapes, more than one group each: what enters beside the steepest.
-TEST(ShapeColumns, SteepOnesAreTheBestOfOtherLinksOrGroups) {
+/// Two links of twenty shapes, more than one chunk each: what enters beside the steepest.
+TEST(ShapeColumns, SteepOnesAreTheBestOfOtherLinksOrSixteens) {
   constexpr int each = 20;
   ShapeColumns columns(2, 2 * each);
   for (int j = 0; j < 2 * each; ++j) {
@@ -356,10 +356,39 @@ TEST(ShapeColumns, SteepOnesAreTheBestOfOtherLinksOrGroups) {
   };
   EXPECT_EQ(steep(0.5, Among::links), (std::set{3, 25}));
   EXPECT_EQ(steep(2.0, Among::links), (std::set{3, 25}));
-  EXPECT_EQ(steep(0.5, Among::groups), (std::set{3, 18, 25, 38}));
-  // Less than a tenth of the largest price is not almost as large.
+  EXPECT_EQ(steep(0.5, Among::all), (std::set{3, 18, 25, 38}));
+  // Less than a tenth of the largest price is not almost as large; where any may enter, three.
   EXPECT_EQ(steep(0.05, Among::links), (std::set{3}));
-  EXPECT_EQ(steep(-0.5, Among::groups), (std::set{3, 18}));
+  EXPECT_EQ(steep(0.2, Among::links), (std::set{3, 25}));
+  EXPECT_EQ(steep(0.2, Among::all), (std::set{3, 18}));
+  EXPECT_EQ(steep(-0.5, Among::all), (std::set{3, 18}));
+}
+
+/// Slopes whose terms cancel to less than single precision sees: double decides of each shape, and
+/// any that is almost as steep enters beside the steepest, also of the same sixteen.
+TEST(ShapeColumns, SteepOnesAreThoseThatDoubleFinds) {
+  constexpr double tiny = 1e-9;
+  ShapeColumns columns(2, 8);
+  for (const double steepness : {1.0, 0.5, 0.2, -1.0, 0.4, 0.9, 0.0, 0.35}) {
+    ShapeColumns::Column u = ShapeColumns::Column::Zero();
+    u[0] = 1.0 + tiny * steepness;
+    u[1] = 1.0;
+    ASSERT_TRUE(columns.append(columns.size() % 2, u));
+  }
+  VectorXd g = VectorXd::Zero(20);
+  g[0] = g[10] = 1.0;
+  g[1] = g[11] = -1.0;
+  using Among = ShapeColumns::Among;
+  const auto steep = [&](Among among) {
+    const std::vector<int>& found = columns.steep_ones(among);
+    return std::set<int>(found.begin(), found.end());
+  };
+  for (const double by_lengths : {1e-14, 1e-3}) {  // judged by their terms then
+    EXPECT_EQ(columns.steepest_or_by_terms(g, by_lengths, 1e-12), 0);
+    EXPECT_EQ(steep(Among::all), (std::set{0, 1, 4, 5, 7}));
+  }
+  EXPECT_EQ(columns.steepest(g, 1e-14), 0);
+  EXPECT_EQ(steep(Among::links), (std::set{0, 5}));
 }
 
 }  // namespace
