@@ -34,6 +34,13 @@ Eigen::Vector3d turn(Random& random) {
   return rpy;
 }
 
+/// So far, m, in any direction. One is drawn before the other: compilers differ in which operand of
+/// a product they draw first, and a seed would be another arm.
+Eigen::Vector3d away(Random& random, double least, double most) {
+  const Eigen::Vector3d where = direction(random);
+  return random.uniform(least, most) * where;
+}
+
 struct DrawnLink {
   bool slides = false;
   Eigen::Vector3d place, rpy, axis;  ///< of its joint
@@ -53,13 +60,12 @@ std::vector<DrawnLink> links(Random& random) {
     link.slides = chance(random, 1.0 / 8.0);
     // Where axes meet, as in a wrist, there is no length.
     const bool meets = chance(random, 0.2);
-    link.place = meets ? Eigen::Vector3d(Eigen::Vector3d::Zero())
-                       : Eigen::Vector3d(random.uniform(0.05, 0.4) * direction(random));
+    link.place = meets ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : away(random, 0.05, 0.4);
     link.rpy = turn(random);
     link.axis = axis(random);
     link.half_range = link.slides ? random.uniform(0.15, 0.5) : random.uniform(1.0, 2.8);
     link.velocity = link.slides ? random.uniform(0.5, 1.5) : random.uniform(1.5, 4.0);
-    link.centre = random.uniform(0.02, 0.2) * direction(random);
+    link.centre = away(random, 0.02, 0.2);
     link.inertia_rpy = turn(random);
     for (double& edge : link.edges) edge = random.uniform(0.05, 0.35);
     link.mass = mass;
