@@ -58,13 +58,13 @@ void ActiveSet::clear() noexcept {
   started_ = false;
 }
 
-double ActiveSet::divide(int j, int other, double share) noexcept {
+double ActiveSet::divide(int j, int other, double share, bool adds_up) noexcept {
   const std::size_t at = now_.place_of(j);
   if (at == now_.masses().size()) return 0.0;
   const double part = share * now_.masses()[at];
   now_.divide(at, other, part);
   if (divides_where_it_stands()) {
-    set_->divide(static_cast<int>(at), other);
+    set_->divide(static_cast<int>(at), other, adds_up);
     columns_->bar(other, true);
   } else {
     started_ = false;

@@ -61,8 +61,9 @@ class ActiveSet {
   /// No passive shapes.
   void clear() noexcept;
   /// Shape `j`, if it is passive, gives `share` of its mass to shape `other`, which is not; where
-  /// the next run starts. Returns what it gives, kg. Columns and volumes of both are known.
-  double divide(int j, int other, double share) noexcept;
+  /// the next run starts. Returns what it gives, kg. Columns and volumes of both are known,
+  /// and whether they make up the whole to a few roundings.
+  double divide(int j, int other, double share, bool adds_up) noexcept;
   /// Shape `j` has this mass (kg, > 0) where the next run starts.
   void start_at(int j, double mass) noexcept;
 
@@ -74,10 +75,11 @@ class ActiveSet {
   /// Likewise; but if its column depends on them, nothing changes, and the answer is false.
   [[nodiscard]] bool enter_beside(int j, double mass) noexcept;
 
-  /// Whether most of the passive shapes are without mass where these shapes alone are at their
-  /// minimum: then masses to start from are of little use.
+  /// Whether more than a few of the passive shapes are without mass where these shapes alone are at
+  /// their minimum: then masses to start from are of little use.
   [[nodiscard]] bool is_far_off() noexcept;
-  /// To the minimum from the present masses; checked.
+  /// To the minimum from the present masses; checked. An answer that does not pass is sought once
+  /// more, shapes of a link entering one by one.
   Outcome run() noexcept;
   /// After run() with lambda = 0 on `set`: on to the minimum for this lambda, if that has the same
   /// passive shapes. False if that is not certain; then the masses stay.

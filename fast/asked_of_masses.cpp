@@ -10,6 +10,9 @@ namespace {
 /// part that is not the shape's is off by its own size.
 constexpr double cut_rounding = 1.5e-8;
 
+/// Some fifty roundings: what a cut costs that is computed as the shape itself was.
+constexpr double exact_rounding = 1e-14;
+
 /// What the moments of a unit mass are rounded by: its mass, its arm, the tensor's size.
 Eigen::Vector3d sizes(const Vector10& u) {
   const double tensor = u.tail<6>().norm();
@@ -50,6 +53,19 @@ Violation why_no_start(int j, double mass, int shapes) {
   }
   if (mass > 0.0 && std::isfinite(mass)) return std::nullopt;
   return "a mass to start at is " + std::to_string(mass);
+}
+
+// Without a root: this is asked at every division.
+bool adds_up(const Vector10& u, double V, const Vector10& first, double V1, const Vector10& second,
+             double V2) noexcept {
+  const Vector10 missing = (V1 * first + V2 * second - V * u).cwiseAbs();
+  const Vector10 terms = V1 * first.cwiseAbs() + V2 * second.cwiseAbs();
+  const double tensor = terms.tail<6>().maxCoeff(), arm = terms.segment<3>(1).maxCoeff();
+  const double missing_arm = missing.segment<3>(1).maxCoeff();
+  constexpr double share = exact_rounding;
+  return std::abs(V1 + V2 - V) <= share * V && missing[0] <= share * terms[0] &&
+         missing_arm * missing_arm <= share * share * (arm * arm + terms[0] * tensor) &&
+         missing.tail<6>().maxCoeff() <= share * tensor;
 }
 
 Violation why_no_parts(const Vector10& u, double V, const Vector10& first, double V1,

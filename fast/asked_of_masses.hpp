@@ -31,4 +31,8 @@ namespace shapeid::fast {
 [[nodiscard]] Violation why_no_parts(const Vector10& u, double V, const Vector10& first, double V1,
                                      const Vector10& second, double V2);
 
+/// Whether they do to a few roundings, so that the one may be taken for the other.
+[[nodiscard]] bool adds_up(const Vector10& u, double V, const Vector10& first, double V1,
+                           const Vector10& second, double V2) noexcept;
+
 }  // namespace shapeid::fast

@@ -7,7 +7,7 @@
 namespace shapeid::fast {
 namespace {
 
-/// Products in pairs of places, four of them in all, whose sum is u . x.
+/// Four numbers whose sum is u . x.
 [[gnu::always_inline]] inline void four_sums(const double* u, const Dozen& x, Four& sums) noexcept {
   Dozen ten;
   load_ten(u, ten);

@@ -83,13 +83,14 @@ void EvenDensity::leave(int place) noexcept {
   solved_ = false;
 }
 
-// V u = V1 u1 + V2 u2, so X^T X grows by one row's square alone: V1 V2 / V of the difference's.
-void EvenDensity::divide(int place, int other) noexcept {
+// Where V u = V1 u1 + V2 u2, X^T X grows by one row's square alone: V1 V2 / V of the difference's.
+void EvenDensity::divide(int place, int other, bool adds_up) noexcept {
   const int j = passive_[static_cast<std::size_t>(place)];
+  LinkDensity& rows = densities_[static_cast<std::size_t>(columns_->link(j))].rows;
   const double V1 = (*V_)[j], V2 = (*V_)[other];
   const double root = std::sqrt(V1) * std::sqrt(V2 / (V1 + V2));
-  densities_[static_cast<std::size_t>(columns_->link(j))].rows.enter(
-      root * (columns_->column(j) - columns_->column(other)));
+  if (!adds_up) rows.outdate();
+  rows.enter(root * (columns_->column(j) - columns_->column(other)));
   passive_.push_back(other);
   solved_ = false;
 }

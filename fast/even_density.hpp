@@ -32,7 +32,7 @@ class EvenDensity final : public PassiveSet {
   void dependence(Eigen::VectorXd& coefficients) noexcept override;
   void leave(int place) noexcept override;
   [[nodiscard]] bool can_divide() const noexcept override { return true; }
-  void divide(int place, int other) noexcept override;
+  void divide(int place, int other, bool adds_up) noexcept override;
   void refine(const Eigen::VectorXd& slopes) noexcept override;
   [[nodiscard]] bool sound() const noexcept override { return sound_; }
   [[nodiscard]] const Eigen::VectorXd& target() noexcept override;

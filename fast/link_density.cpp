@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 
 namespace shapeid::fast {
@@ -21,9 +20,13 @@ constexpr double smallest_pivot = 1e-13;
 /// shapes the inverse of this in digits.
 constexpr double well_spread = 1e-2;
 
-/// A direction that is left of a column by more than this share is one, whatever columns came
-/// before it: ten columns of a triangle multiply an error by a thousand at most.
+/// A direction that is left of a column by more than this share is one, far above what rounding
+/// leaves of none.
 constexpr double certainly_a_direction = 1e-6;
+
+/// Of a triangle whose rank is taken as its diagonal shows it no entry exceeds that of the diagonal
+/// in its row by more than this factor. (Pivots would make it one.)
+constexpr double beside_diagonal = 10.0;
 
 /// A row whose leverage is closer to one than this is not taken out of a triangle but left out of a
 /// new one: taking it out would multiply rounding errors by the inverse of the distance's root.
@@ -170,20 +173,29 @@ SHAPEID_WIDE Ranks reveal_rank(const TenRows& X, int most, TenRows& E,
 /// well; none of its columns, measured as above, needs another place then, which is so most of the
 /// time. `certain`: these directions, the first ones.
 SHAPEID_WIDE bool shows_its_rank(const TenRows& X, int& certain) noexcept {
-  const Dozen squares = squares_from(X, 0), sizes = sizes_of(squares);
-  double largest = 0.0;
-  std::array<double, 10> measured;
+  const Dozen sizes = sizes_of(squares_from(X, 0));
+  std::array<double, 10> left;  // of each column, beside those before it
+  double longest = 0.0;
   for (std::size_t k = 0; k < 10; ++k) {
-    const double inverse = 1.0 / (sizes[k] * sizes[k]);
-    largest = std::max(largest, squares[k] * inverse);
-    measured[k] = X[k][k] * X[k][k] * inverse;
+    Dozen row = X[k];
+    Four most = {};
+    for (std::size_t p = 0; p < 3; ++p) {
+      row.part[p] /= sizes.part[p];
+      take_sign(row.part[p]);
+      const Four beside = dozen_places[p] > k ? row.part[p] : Four{};
+      most = beside > most ? beside : most;
+    }
+    left[k] = row[k];
+    const double in_row = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+    longest = std::max(longest, std::max(in_row, left[k]));
+    if (in_row > beside_diagonal * left[k]) return false;
   }
-  const double well = well_spread * well_spread * largest;
-  const double enough = certainly_a_direction * certainly_a_direction * largest;
   certain = 0;
-  while (certain < 10 && measured[at(certain)] > well) ++certain;
+  while (certain < 10 && left[at(certain)] > well_spread * longest) ++certain;
   for (std::size_t k = at(certain); k < 10; ++k) {
-    if (!(measured[k] > enough) || measured[k] > well) return false;
+    if (!(left[k] > certainly_a_direction * longest) || left[k] > well_spread * longest) {
+      return false;
+    }
   }
   return true;
 }
@@ -205,8 +217,8 @@ SHAPEID_WIDE void prepare(const TenRows& E, const std::array<int, 10>& pivots, i
 }
 
 /// Of E w = y, w at the pivots, in their order; zero behind `rank`.
-SHAPEID_WIDE void substitute(const TenRows& above, const Dozen& inverse_pivots, int rank,
-                             const double* y, double* w) noexcept {
+SHAPEID_WIDE void solve_pivots(const TenRows& above, const Dozen& inverse_pivots, int rank,
+                               const double* y, double* w) noexcept {
   Dozen x;
   load_ten(y, x);
   const FourBits end = FourBits{} + static_cast<std::uint64_t>(rank);
@@ -272,7 +284,7 @@ LinkDensity::Ten LinkDensity::weights(int rank, const Ten& y, const Ten& rest) c
   Ten w = rest, found;
   for (int i = 0; i < rank; ++i) w[pivots_[at(i)]] = 0.0;
   const Ten left = rank < 10 ? Ten(y - share_of(w)) : y;
-  substitute(above_, inverse_pivots_, rank, left.data(), found.data());
+  solve_pivots(above_, inverse_pivots_, rank, left.data(), found.data());
   for (int i = 0; i < rank; ++i) w[pivots_[at(i)]] = found[i];
   return w;
 }

@@ -25,6 +25,7 @@ class LinkDensity {
   void leave(const Ten& row) noexcept;
   /// Whether X must be made anew from its rows: by begin_anew(), and again() for every shape.
   [[nodiscard]] bool outdated() const noexcept { return outdated_; }
+  void outdate() noexcept { outdated_ = true; }
   void begin_anew() noexcept;
   void again(const Ten& row) noexcept;
 

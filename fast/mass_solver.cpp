@@ -95,7 +95,6 @@ Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
   SHAPEID_CONTRACT(why_no_triangle(R, links()));
   if (!method_.take(R)) return Outcome::not_finite;
   const bool has_many = links() == 1 && !few_.fits();  // few enter at little cost
-  start_watching();
   failed_guess_.clear();
   if (!start_guess(has_many ? worth_starting_from() : passive()) || !try_guess()) {
     is_new_ = true;
@@ -107,6 +106,7 @@ Outcome MassSolver::solve(const Eigen::MatrixXd& R) noexcept {
     }
   }
   if (has_many) see_what_stayed();
+  start_watching();
   has_answer_ = true;
   return Outcome::solved;
 }
@@ -152,6 +152,7 @@ void MassSolver::watch(int j, int other) noexcept {
 Outcome MassSolver::solve_by_method() noexcept {
   method_.save();
   take_masses_out();
+  const bool was_at_vertex = at_vertex_;
   Outcome outcome = Outcome::solved;
   if (lambda_ == 0.0) {
     outcome = method_.run();
@@ -159,7 +160,10 @@ Outcome MassSolver::solve_by_method() noexcept {
     if (is_new_ && links() > 1) forget_useless_masses();
     outcome = is_new_ && links() == 1 ? solve_damped_anew() : solve_damped();
   }
-  if (outcome != Outcome::solved) method_.restore();
+  if (outcome != Outcome::solved) {
+    method_.restore();
+    at_vertex_ = was_at_vertex;
+  }
   put_masses_in();
   return outcome;
 }
@@ -303,12 +307,14 @@ bool MassSolver::divide(int j, const Column& first, double V1, const Column& sec
   const bool at_once = by_guess || method_.divides_where_it_stands() ||
                        (method_.has_rows() && !method_.has_started());
   if (at_once) {
+    const bool exact = !method_.divides_where_it_stands() ||
+                       adds_up(columns_.column(j), V_[j], first, V1, second, V2);
     columns_.replace(j, first);
     few_.put(j, first);
     V_[j] = V1;
     if (by_guess && !guess_->divide(j, other, V1, V2)) guess_ = nullptr;
     watch(j, other);
-    m_[other] = method_.divide(j, other, V2 / (V1 + V2));
+    m_[other] = method_.divide(j, other, V2 / (V1 + V2), exact);
     m_[j] -= m_[other];
     SHAPEID_CONTRACT(why_changed());
     return true;

@@ -38,9 +38,10 @@ class MassSolver {
   void set_lambda(double lambda) noexcept;
 
   /// Solves for the triangle [R c], (10 links + 1) x (10 links + 1) as Triangle::R() has it,
-  /// starting from the present masses. R is not copied: it must live, and stay as it is, as long as
-  /// divide(), solve_again() or why_changed() are used after it. If the call declines, these speak
-  /// of the triangle that was solved last, which therefore must still be there.
+  /// starting from the present masses, or without where these are of little use. R is not copied:
+  /// it must live, and stay as it is, as long as divide(), solve_again() or why_changed() are used
+  /// after it. If the call declines, these speak of the triangle that was solved last, which
+  /// therefore must still be there.
   Outcome solve(const Eigen::MatrixXd& R) noexcept;
   /// Back to no masses: the next solve() starts cold.
   void forget_masses() noexcept;

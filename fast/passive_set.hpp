@@ -45,8 +45,9 @@ class PassiveSet {
   /// where they stand.
   [[nodiscard]] virtual bool can_divide() const noexcept { return false; }
   /// If so: the shape at this place has been divided, `other` is its second part and enters behind
-  /// the others. Columns and volumes of both parts are known.
-  virtual void divide(int /*place*/, int /*other*/) noexcept {}
+  /// the others. Columns and volumes of both parts are known; `adds_up`: those of the parts make up
+  /// those of the whole to a few roundings.
+  virtual void divide(int /*place*/, int /*other*/, bool /*adds_up*/) noexcept {}
   /// False if rounding has made a column dependent that was not when it entered: shapes may still
   /// enter and leave, but masses mean nothing, and nothing but start() helps.
   [[nodiscard]] virtual bool sound() const noexcept { return true; }

@@ -109,6 +109,7 @@ ShapeColumns::ShapeColumns(int links, int most_shapes)
       links_(static_cast<std::size_t>(most_shapes)),
       columns_(10, most_shapes),
       last_of_link_(static_cast<std::size_t>(links), -1),
+      best_of_link_(static_cast<std::size_t>(links)),
       lengths_(Eigen::VectorXd::Ones(Eigen::Index{10} * links)) {
   uncertain_.reserve(chunks_.size());
   best_.reserve(std::max(chunks_.size(), slots_.size()));
@@ -299,14 +300,20 @@ const std::vector<int>& ShapeColumns::steep_ones(Among among) noexcept {
   if (links() == 1 && among == Among::links) return steep_ones_;
   float most = 0.0F;
   for (const Priced& best : best_) most = std::max(most, best.price);
-  const float enough = most * (among == Among::links ? almost_on_links : almost);
+  if (among == Among::all) {
+    for (const Priced& best : best_) {
+      if (best.price >= almost * most && best.shape != steepest_) steep_ones_.push_back(best.shape);
+    }
+    return steep_ones_;
+  }
+  std::fill(best_of_link_.begin(), best_of_link_.end(), Priced{-1, 0.0F});
   for (const Priced& best : best_) {
-    if (best.price < enough || best.shape == steepest_) continue;
-    const bool beaten =
-        among == Among::links && std::any_of(best_.begin(), best_.end(), [&](const Priced& other) {
-          return link(other.shape) == link(best.shape) && other.price > best.price;
-        });
-    if (!beaten) steep_ones_.push_back(best.shape);
+    Priced& of_link = best_of_link_[static_cast<std::size_t>(link(best.shape))];
+    if (of_link.shape < 0 || best.price > of_link.price) of_link = best;
+  }
+  best_of_link_[static_cast<std::size_t>(link(steepest_))].shape = -1;
+  for (const Priced& best : best_of_link_) {
+    if (best.shape >= 0 && best.price >= almost_on_links * most) steep_ones_.push_back(best.shape);
   }
   return steep_ones_;
 }

@@ -126,6 +126,7 @@ class ShapeColumns {
   std::vector<int> last_of_link_;  ///< the chunk that a link's next shape goes to, or -1
   std::vector<Priced> best_;       ///< of every chunk, or all that exceeded, at the last steepest()
   std::vector<Priced> best_by_terms_;
+  std::vector<Priced> best_of_link_;
   int steepest_ = -1;  ///< at the last steepest()
   std::vector<int> steep_ones_;
   std::vector<int> uncertain_;  ///< chunks that single precision cannot decide

@@ -38,7 +38,7 @@ enum class Beside { before, behind };
 
 /// One number of a dozen, four times.
 template <std::size_t k>
-[[gnu::always_inline]] inline void spread(const Dozen& x, Four& all) noexcept {
+[[gnu::always_inline]] inline void all_alike(const Dozen& x, Four& all) noexcept {
   all = __builtin_shufflevector(x.part[k / 4], x.part[k / 4], k % 4, k % 4, k % 4, k % 4);
 }
 
@@ -48,7 +48,7 @@ template <std::size_t k>
 template <std::size_t k>
 [[gnu::always_inline]] inline void solve_above(const TenRows& columns, Dozen& x) noexcept {
   Four found;
-  spread<k>(x, found);
+  all_alike<k>(x, found);
   for (std::size_t p = 0; p <= k / 4; ++p) x.part[p] -= found * columns[k].part[p];
   if constexpr (k > 1) solve_above<k - 1>(columns, x);
 }
@@ -57,7 +57,7 @@ template <std::size_t k>
 template <std::size_t k>
 [[gnu::always_inline]] inline void solve_below(const TenRows& rows, Dozen& x) noexcept {
   Four found;
-  spread<k>(x, found);
+  all_alike<k>(x, found);
   for (std::size_t p = k / 4; p < 3; ++p) x.part[p] -= found * rows[k].part[p];
   if constexpr (k < 8) solve_below<k + 1>(rows, x);
 }

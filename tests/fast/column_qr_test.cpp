@@ -145,9 +145,10 @@ class ShadowedQr {
   void rebuild() {
     ++rebuilt_;
     qr_.start(b_);
-    for (const VectorXd& a : columns_) {
-      RC_ASSERT(push_once(a, rows()) == ColumnQr::Push::entered);
-    }
+    // One that was new by no more than rounding need not be so again.
+    std::erase_if(columns_, [this](const VectorXd& a) {
+      return push_once(a, rows()) != ColumnQr::Push::entered;
+    });
   }
 
   ColumnQr qr_;

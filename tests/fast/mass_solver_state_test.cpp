@@ -62,6 +62,53 @@ TEST(FastMassState, PartsOfAShapeWithoutMassAreAskedInAnyUnit) {
   }
 }
 
+/// A shape that comes after an answer is asked, too, as parts are of shapes that have no mass.
+TEST(FastMassState, AShapeThatComesAfterAnAnswerIsAsked) {
+  for (const int links : {1, 2}) {
+    for (const double lambda : {0.0, 1e-6}) {
+      MatrixXd R = MatrixXd::Identity(10 * links + 1, 10 * links + 1);
+      R.rightCols<1>().setOnes();
+      MassSolver solver(links, 40);
+      solver.set_lambda(lambda);
+      for (int j = 0; j < 16; ++j) {
+        ASSERT_TRUE(solver.append(0, (1.0 + 0.01 * j) * MassSolver::Column::Unit(0), 1.0));
+      }
+      ASSERT_EQ(solver.solve(R), Outcome::solved);
+      ASSERT_EQ(solver.solve_again(), Outcome::solved);
+      ASSERT_TRUE(solver.append(links - 1, MassSolver::Column::Unit(1), 1.0));
+      ASSERT_EQ(solver.solve_again(), Outcome::solved);
+      EXPECT_NEAR(solver.m()[16], 1.0, 1e-5) << links << " links, lambda " << lambda;
+    }
+  }
+}
+
+/// Slopes of lambda's size let a part in that rows do not tell from the others: it stands where the
+/// density of these, which is a polynomial in the place, is positive.
+TEST(FastMassState, APartEntersByWhatLambdaAlone) {
+  const auto u = [](double x) {
+    MassSolver::Column point = MassSolver::Column::Zero();
+    point[0] = 1.0;
+    point[1] = x;
+    return point;
+  };
+  MatrixXd R = MatrixXd::Zero(11, 11);
+  R(0, 0) = R(1, 1) = 1.0;
+  R(0, 10) = 6.0;  // kg, at 1/6 m
+  R(1, 10) = 1.0;
+  MassSolver solver(1, 20);
+  solver.set_lambda(1e-15);
+  // One more than pivots have places for, and a long one far out, where the density is below zero.
+  for (int j = 0; j < 13; ++j) ASSERT_TRUE(solver.append(0, u(0.1 * (j - 6)), 1.0));
+  ASSERT_TRUE(solver.append(0, u(-4.0), 2.0));
+  ASSERT_EQ(solver.solve(R), Outcome::solved);
+  ASSERT_EQ(solver.m()[13], 0.0);
+  ASSERT_GT(solver.passive().size(), 12U);
+  ASSERT_TRUE(solver.divide(13, u(-8.1), 1.0, u(0.1), 1.0));
+  ASSERT_EQ(solver.solve_again(), Outcome::solved);
+  EXPECT_EQ(solver.m()[13], 0.0);
+  EXPECT_GT(solver.m()[14], 0.1);
+}
+
 /// The density term is that of the lambda that is set, whatever it was before.
 TEST(FastMassState, ALambdaThatIsTakenAwayLeavesNothing) {
   MatrixXd R = MatrixXd::Zero(21, 21);

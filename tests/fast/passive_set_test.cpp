@@ -56,7 +56,8 @@ class Watched {
       set_ = std::make_unique<ManyLinks>(columns_);
     } else {
       auto set = std::make_unique<EvenDensity>(columns_, V_);
-      set->set_lambda(given.problem.lambda);
+      even_ = set.get();
+      even_->set_lambda(given.problem.lambda);
       set_ = std::move(set);
     }
     columns_.set_scale(given_.problem.Y.cwiseAbs().colwise().sum().transpose(),
@@ -111,10 +112,16 @@ class Watched {
     V_.head(other + 1) = given_.problem.V;
     columns_.replace(j, given_.column(j));
     RC_ASSERT(columns_.append(given_.links[static_cast<std::size_t>(j)], given_.column(other)));
-    set_->divide(static_cast<int>(place), other);
+    set_->divide(static_cast<int>(place), other, true);
     passive_.push_back(other);
   }
   [[nodiscard]] bool has_room() const { return columns_.size() < columns_.capacity(); }
+
+  /// Of even density, in the midst of everything.
+  void set_lambda(double lambda) {
+    given_.problem.lambda = lambda;
+    even_->set_lambda(lambda);
+  }
 
   /// Where the passive shapes alone minimise f, whatever the signs of their masses.
   [[nodiscard]] LongVector minimum() const {
@@ -187,6 +194,7 @@ class Watched {
   VectorXd V_;
   ShapeColumns columns_;
   std::unique_ptr<PassiveSet> set_;
+  EvenDensity* even_ = nullptr;  ///< set_, if it is one
   std::vector<int> passive_;
 };
 
@@ -272,6 +280,9 @@ RC_GTEST_PROP(EvenDensity, DividedShapesAsDenseLeastSquares, ()) {
     };
     if (set.passive().size() > 1 && draw.between(0.0, 1.0) < 0.2) set.leave(place());
     set.divide(place(), draw);
+    if (set.passive().size() % 7 == 0) {
+      set.set_lambda(given.problem.lambda * draw.between(0.5, 2.0));
+    }
     if (set.passive().size() % 3 == 0) set.check(worst_move);
   }
   RC_ASSERT(worst_move < damped_rounding);
@@ -299,6 +310,43 @@ TEST(EvenDensity, HundredsOfShapesOnALinkAsDenseLeastSquares) {
   fmt::print("masses off by {:.1e} of their sum filling up, {:.1e} coming and going\n", filling,
              coming_and_going);
   EXPECT_LT(std::max(filling, coming_and_going), damped_rounding);
+}
+
+/// What no row feels stays nothing to the last digit, also where the columns of its link are kept.
+TEST(EvenDensity, WhatNoRowFeelsIsNothingWhileOtherLinksChange) {
+  TriangleCase given = test::body_case(5, {.links = 3, .shapes_a_link = 6});
+  given.R.topLeftCorner(10, 10).setZero();
+  given.R.block(0, 10, 10, 20).setZero();
+  given.problem.Y = given.R.leftCols(30);
+  ShapeColumns columns(3, given.shapes());
+  EvenDensity set(columns, given.problem.V);
+  set.set_lambda(given.problem.lambda);
+  for (int j = 0; j < given.shapes(); ++j) {
+    ASSERT_TRUE(columns.append(given.links[static_cast<std::size_t>(j)], given.column(j)));
+  }
+  set.start(given.R);
+  std::vector<int> passive;
+  for (const int link : {0, 1, 2, 1, 2}) {  // of which the first is not felt
+    int entered = 0;
+    for (int j = 0; j < given.shapes() && entered < 3; ++j) {
+      const bool is_there = std::ranges::find(passive, j) != passive.end();
+      if (given.links[static_cast<std::size_t>(j)] != link || is_there) continue;
+      ASSERT_TRUE(set.enter(j));
+      passive.push_back(j);
+      ++entered;
+    }
+    const VectorXd& target = set.target();
+    double others = 0.0;
+    for (std::size_t i = 0; i < passive.size(); ++i) {
+      const double mass = target[static_cast<Index>(i)];
+      if (given.links[static_cast<std::size_t>(passive[i])] == 0) {
+        EXPECT_EQ(mass, 0.0) << "after link " << link;
+      } else {
+        others += std::abs(mass);
+      }
+    }
+    EXPECT_EQ(others > 0.0, passive.size() > 3);
+  }
 }
 
 /// A column that rounding makes dependent when the set is made anew, here by another one in its

@@ -368,8 +368,8 @@ TEST(ShapeColumns, SteepOnesAreTheBestOfOtherLinksOrSixteens) {
 /// any that is almost as steep enters beside the steepest, also of the same sixteen.
 TEST(ShapeColumns, SteepOnesAreThoseThatDoubleFinds) {
   constexpr double tiny = 1e-9;
-  ShapeColumns columns(2, 8);
-  for (const double steepness : {1.0, 0.5, 0.2, -1.0, 0.4, 0.9, 0.0, 0.35}) {
+  ShapeColumns columns(2, 10);
+  for (const double steepness : {1.0, 0.5, 0.2, -1.0, 0.4, 0.9, 0.0, 0.35, 1.0, 0.9}) {
     ShapeColumns::Column u = ShapeColumns::Column::Zero();
     u[0] = 1.0 + tiny * steepness;
     u[1] = 1.0;
@@ -385,9 +385,12 @@ TEST(ShapeColumns, SteepOnesAreThoseThatDoubleFinds) {
   };
   for (const double by_lengths : {1e-14, 1e-3}) {  // judged by their terms then
     EXPECT_EQ(columns.steepest_or_by_terms(g, by_lengths, 1e-12), 0);
-    EXPECT_EQ(steep(Among::all), (std::set{0, 1, 4, 5, 7}));
+    EXPECT_EQ(steep(Among::all), (std::set{0, 1, 4, 5, 7, 8, 9}));
   }
   EXPECT_EQ(columns.steepest(g, 1e-14), 0);
+  EXPECT_EQ(steep(Among::links), (std::set{0, 5}));
+  // Twins of the steepest ones do not enter with them where one of a link does.
+  EXPECT_EQ(columns.steepest_or_by_terms(g, 1e-14, 1e-12), 0);
   EXPECT_EQ(steep(Among::links), (std::set{0, 5}));
 }
 
