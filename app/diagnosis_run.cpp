@@ -334,7 +334,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   note_contact_reach(closed.reach, run);
   log.recording.set_correction(run.loop.correction);
   NoiseOfMotion noise(same, same_earlier, flags, closed.reach);
-  noise.question_laws(log.recording, run);
+  noise.question_laws(log.recording, reference, run);
   for (diagnosis::Found& f : flags) {
     f.beside_unknown = diagnosis::is_beside_unknown(robot.robot, run.loop, f);
   }
@@ -384,13 +384,15 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                                                 run.settings.stride, s));
   }
   run.structures.insert(run.structures.begin(), unnamed_effects.begin(), unnamed_effects.end());
-  // Where no curve was found the residual may still be no noise.
+  // Where no curve was found the residual may still be no noise; but if one was that noise of
+  // motion made, what is slow there is a part of that.
   const double cutoff = options.inputs.cutoff > 0.0 ? options.inputs.cutoff : 0.5 * run.motion.rate;
   for (const diagnosis::Structure& slow :
        diagnosis::slow_remains(robot.robot, log.recording, remaining, cutoff)) {
     const bool known = std::any_of(run.structures.begin(), run.structures.end(),
                                    [&](const auto& s) { return s.joint == slow.joint; });
-    if (!known) run.structures.push_back(slow);
+    const bool is_noise = std::ranges::find(noise.silent(), slow.joint) != noise.silent().end();
+    if (!known && !is_noise) run.structures.push_back(slow);
   }
   add_flags(flags, run);
   noise.note(run);

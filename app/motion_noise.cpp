@@ -19,7 +19,7 @@ NoiseOfMotion::NoiseOfMotion(SameLogs log, std::optional<SameLogs> reference,
       flags_(flags),
       reach_(reach) {}
 
-diagnosis::SmootherLogs NoiseOfMotion::smoother(const DiagnosisRun& run) {
+diagnosis::FilteredLogs NoiseOfMotion::smoother(const DiagnosisRun& run) {
   if (!log_) {
     log_ = log_inputs_.smoother();
     if (reference_inputs_) reference_ = reference_inputs_->smoother();
@@ -42,26 +42,43 @@ diagnosis::SmootherLogs NoiseOfMotion::smoother(const DiagnosisRun& run) {
   return {log_->recording, reference_ ? &reference_->recording : nullptr, settings_};
 }
 
-void NoiseOfMotion::question_laws(const diagnosis::Recording& log, DiagnosisRun& run) {
+void NoiseOfMotion::question_laws(const diagnosis::Recording& log,
+                                  const diagnosis::Recording* reference, DiagnosisRun& run) {
   const Robot& robot = log_inputs_.robot.robot;
   if (log_inputs_.inputs.exact || !(log_inputs_.inputs.cutoff > 0.0)) return;
   fast_shares_ = diagnosis::fast_shares(
       robot, log,
       diagnosis::series(robot, run.settings.rows, run.loop.model, log, run.settings.stride),
       run.settings.cutoff);
-  const auto& laws = run.loop.strangers;
-  if (std::none_of(laws.begin(), laws.end(), [&](const diagnosis::Stranger& s) {
-        return is_noisy(robot.joint(s.law.joint).name);
-      })) {
-    return;
-  }
+  const bool asks_names =
+      !run.loop.found.empty() && std::ranges::any_of(fast_shares_, diagnosis::is_noise_of_motion);
   try {
+    if (asks_names) take_back_names(log, reference, run);
+    const auto& laws = run.loop.strangers;
+    if (std::none_of(laws.begin(), laws.end(), [&](const diagnosis::Stranger& s) {
+          return is_noisy(robot.joint(s.law.joint).name);
+        })) {
+      return;
+    }
     for (const diagnosis::Stranger& s :
          diagnosis::take_back_noise(robot, smoother(run), fast_shares_, run.loop)) {
       taken_back_.push_back(diagnosis::law_text(s, robot));
     }
   } catch (const Refusal&) {
     is_too_short_ = true;
+  }
+}
+
+/// Where a name was noise, so may be a law without one.
+void NoiseOfMotion::take_back_names(const diagnosis::Recording& log,
+                                    const diagnosis::Recording* reference, DiagnosisRun& run) {
+  const Robot& robot = log_inputs_.robot.robot;
+  for (const diagnosis::Found& f :
+       diagnosis::take_back_names(robot, {log, reference, run.settings}, smoother(run), run.loop)) {
+    names_taken_back_.push_back(f.id);
+    const std::vector<bool> reach = diagnosis::reach_of(robot, f.effect);
+    if (std::ranges::count(reach, true) != 1) continue;  // all the joints that move a link
+    fast_shares_[static_cast<std::size_t>(std::ranges::find(reach, true) - reach.begin())] = 1.0;
   }
 }
 
@@ -109,6 +126,10 @@ void NoiseOfMotion::note(DiagnosisRun& run) const {
         "behind a filter of {:.3g} Hz too little of the log is left to tell whether what is "
         "unexplained is noise of differentiated positions",
         slower));
+  }
+  if (!names_taken_back_.empty()) {
+    run.notes.push_back(fmt::format("gone behind a filter of {:.3g} Hz, and so no cause: {}",
+                                    slower, fmt::join(names_taken_back_, ", ")));
   }
   if (taken_back_.empty()) return;
   run.notes.push_back(fmt::format("gone behind a filter of {:.3g} Hz, and so not unexplained: {}",

@@ -18,8 +18,10 @@ class NoiseOfMotion {
   NoiseOfMotion(SameLogs log, std::optional<SameLogs> reference,
                 const std::vector<diagnosis::Found>& flags, const diagnosis::ContactReach& reach);
 
-  /// Laws without a name that noise of motion may be are taken back if these logs do not have them.
-  void question_laws(const diagnosis::Recording& log, DiagnosisRun& run);
+  /// What was found, and laws without a name, that noise of motion may be are taken back if these
+  /// logs do not have them. `reference` may be null.
+  void question_laws(const diagnosis::Recording& log, const diagnosis::Recording* reference,
+                     DiagnosisRun& run);
   /// Likewise curves; `remaining` is what the run's model leaves of `log`. Joints of which curves
   /// were taken back are silent.
   void question_curves(const diagnosis::Recording& log, const diagnosis::Series& remaining,
@@ -29,8 +31,10 @@ class NoiseOfMotion {
   void note(DiagnosisRun& run) const;
 
  private:
+  void take_back_names(const diagnosis::Recording& log, const diagnosis::Recording* reference,
+                       DiagnosisRun& run);
   [[nodiscard]] bool is_noisy(const std::string& joint) const;
-  [[nodiscard]] diagnosis::SmootherLogs smoother(const DiagnosisRun& run);
+  [[nodiscard]] diagnosis::FilteredLogs smoother(const DiagnosisRun& run);
 
   SameLogs log_inputs_;
   std::optional<SameLogs> reference_inputs_;
@@ -39,7 +43,7 @@ class NoiseOfMotion {
   std::optional<RecordedLog> log_, reference_;
   diagnosis::LoopSettings settings_;
   std::vector<double> fast_shares_;
-  std::vector<std::string> taken_back_, silent_;
+  std::vector<std::string> names_taken_back_, taken_back_, silent_;
   bool is_too_short_ = false;  ///< behind the slower filter, to be asked
 };
 

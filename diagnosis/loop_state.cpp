@@ -185,6 +185,18 @@ Eigen::VectorXd LoopState::held_out_of_model() {
   return fits.held_out(terms_of_model(fits, fits.tally().hypotheses.size()));
 }
 
+std::vector<Gain> LoopState::gains() {
+  std::vector<Gain> gains = gains_by_derivative();
+  const BlockFits fits = tallied(result.model.effects);
+  const FitsAround around(fits, terms_of_model(fits, gains.size()));
+  std::size_t next = 1;  // after the masses
+  for (std::size_t k = 0; k < gains.size(); ++k) {
+    if (result.model.effects[k].effect->transform.any()) continue;
+    gains[k] = gain_of(around.without(next++), around.error());
+  }
+  return gains;
+}
+
 std::vector<Gain> LoopState::gains_by_derivative() {
   const BlockFits fits = tallied(result.model.effects);
   std::vector<Term> terms = {masses};

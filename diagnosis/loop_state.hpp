@@ -61,6 +61,8 @@ struct LoopState {
   [[nodiscard]] std::vector<Term> terms_of_model(const BlockFits& fits, std::size_t effects) const;
   /// Held-out error of the present effects, linear numbers refitted.
   [[nodiscard]] Eigen::VectorXd held_out_of_model();
+  /// Of each effect what it gains, all others in.
+  [[nodiscard]] std::vector<Gain> gains();
   /// Of each effect that is an applied transformation what it gains, all others in, as far as its
   /// derivative tells: its numbers go back to zero as if the rows were linear in them.
   [[nodiscard]] std::vector<Gain> gains_by_derivative();

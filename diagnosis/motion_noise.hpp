@@ -22,25 +22,33 @@ inline constexpr double slower_by = 0.5;  // of the cutoff
 /// Whether so much is noise of motion: two thirds, beside noise of torque.
 [[nodiscard]] bool is_noise_of_motion(double fast_share);
 
-/// The same logs behind a filter of `slower_by` times the cutoff, with the settings that go with
-/// it.
-struct SmootherLogs {
+/// Logs with the settings that go with their filter. The smoother ones are the same behind a filter
+/// of `slower_by` times the cutoff.
+struct FilteredLogs {
   const Recording& log;
   const Recording* reference;  ///< may be null
   const LoopSettings& settings;
 };
 
+/// Takes back what was found and is noise of motion. Numbers that fit noisy accelerations come out
+/// too small (errors in variables), and a law whose column goes with the motion makes up for that:
+/// it predicts, and is no cause. What is slow loses nothing to a slower filter, and noise does, so
+/// a cause gains a larger share of the error there; what gains less than half the share is taken
+/// back, and the others' numbers are fitted anew. Returns it. Throws Refusal "too-short" as
+/// close_loop() does: a slower filter leaves less of a log.
+std::vector<Found> take_back_names(const Robot& robot, const FilteredLogs& logs,
+                                   const FilteredLogs& smoother, LoopResult& loop);
+
 /// Takes back laws without a name at joints of which `fast_shares` is noise of motion, if the
 /// smoother logs have none there; names are then questioned as these have it. Returns what was
-/// taken back. Throws Refusal "too-short" as close_loop() does: a slower filter leaves less of a
-/// log.
-std::vector<Stranger> take_back_noise(const Robot& robot, const SmootherLogs& smoother,
+/// taken back. Throws likewise.
+std::vector<Stranger> take_back_noise(const Robot& robot, const FilteredLogs& smoother,
                                       const std::vector<double>& fast_shares, LoopResult& loop);
 
 /// unexplained() of the smoother log, by the loop's model with its numbers fitted anew there: noise
 /// of motion has spoilt these, too. Throws likewise.
 [[nodiscard]] std::vector<Structure> unexplained_behind(const Robot& robot,
-                                                        const SmootherLogs& smoother,
+                                                        const FilteredLogs& smoother,
                                                         const LoopResult& loop);
 
 }  // namespace shapeid::diagnosis

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <tuple>
+#include <vector>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/segment_filter.hpp"
@@ -128,6 +130,40 @@ TEST(NoiseOfMotion, NamesAreQuestionedAnew) {
   loop.found[0].displaced = true;
   EXPECT_EQ(taken_back(log, all_noise, loop).size(), 1U);
   EXPECT_TRUE(loop.found[0].name_stands());
+}
+
+/// Two causes, of which the smoother log has one: the other goes out of the model with its name,
+/// and what is said of the one is said without it.
+TEST(NoiseOfMotion, WhatTheSmootherLogLacksIsNoCause) {
+  const AppliedEffect offset = test::effect("torque_offset", 1, {0.3});
+  const AppliedEffect friction = test::effect("viscous_friction", 2, {0.4});
+  const Recording log = record({{offset, friction}}), smoother = record({{friction}});
+  const LoopSettings settings = test::arm_settings();
+  const auto take_back = [&](const Recording& behind, LoopResult& loop) {
+    return take_back_names(arm(), {log, nullptr, settings}, {behind, nullptr, settings}, loop);
+  };
+  LoopResult loop = loop_of(log);
+  ASSERT_EQ(loop.found.size(), 2U);
+  LoopResult same = loop;
+  EXPECT_TRUE(take_back(log, same).empty());
+  EXPECT_EQ(same.found.size(), 2U);
+  EXPECT_EQ(same.error_end, loop.error_end);
+
+  EXPECT_THROW(std::ignore = take_back(record({{friction}, 3.0}), same), Refusal);
+  EXPECT_EQ(same.found.size(), 2U);
+
+  const LoopResult before = loop;
+  const std::vector<Found> gone = take_back(smoother, loop);
+  ASSERT_EQ(gone.size(), 1U);
+  EXPECT_EQ(gone[0].id, "torque_offset@joint2");
+  ASSERT_EQ(loop.found.size(), 1U);
+  ASSERT_EQ(loop.model.effects.size(), 1U);
+  EXPECT_EQ(loop.found[0].id, "viscous_friction@joint3");
+  EXPECT_NEAR(loop.found[0].effect.value[0], 0.4, 0.1);
+  EXPECT_GT(loop.error_end, 2.0 * before.error_end);  // the offset is not explained any more
+  const auto gain_before = std::ranges::find(before.found, loop.found[0].id, &Found::id)->gain;
+  EXPECT_LT(loop.found[0].gain, gain_before);
+  EXPECT_GT(loop.found[0].gain, 0.0);
 }
 
 /// Numbers are fitted anew: what noise has made of the masses is no structure of a log that has
