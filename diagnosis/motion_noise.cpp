@@ -21,8 +21,8 @@ constexpr double mostly_fast = 0.8;
 // Noise of motion is as strong in what is predicted as in what remains; motion itself is not.
 constexpr double motion_as_fast = 2.0;
 
-// Of what a finding gained: of 146 that were right none gained less behind the slower filter, of
-// four that were not none gained more than a tenth.
+// Of what a finding gained: of 150 on drawn arms four false ones had a tenth of it at most behind
+// the slower filter, and all others more than it (docs/derivations/diagnosis.md).
 constexpr double kept_share = 0.5;
 
 /// Of unit power still, and without ends from which a slow motion would seem fast.
