@@ -66,7 +66,7 @@ class PassiveMasses {
   /// `other`.
   void divide(std::size_t place, int other, double part) noexcept {
     change()[place] -= part;
-    stiffness_[place] = lambda_ / (*V_)[passive_[place]];
+    if (lambda_ > 0.0) stiffness_[place] = lambda_ / (*V_)[passive_[place]];
     add(other, part);
   }
   /// As many as there are, kg.
