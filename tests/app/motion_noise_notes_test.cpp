@@ -52,7 +52,7 @@ struct Questioned {
   std::vector<std::string> silent;
 };
 
-/// A run on noisy arms that found a law and a curve of j1 which are not there.
+/// A run on noisy arms that found a name, a law and a curve of j1 which are not there.
 Questioned with_false_findings(const std::string& name, double noise) {
   write_noisy_arms(name, noise);
   app::MotionInputs inputs;
@@ -72,6 +72,13 @@ Questioned with_false_findings(const std::string& name, double noise) {
   run.settings.margin = app::margin_of(inputs, log.motion.rate);
   run.settings.log_starts = log.starts;
   run.loop = diagnosis::close_loop(robot.robot, log.recording, nullptr, run.settings);
+  diagnosis::Found offset;
+  offset.effect = diagnosis::at_start(*diagnosis::find_effect("torque_offset"), 0);
+  offset.effect.value[0] = 0.01;
+  offset.id = "torque_offset@j1";
+  offset.gain = 0.2;  // of the error
+  run.loop.found = {offset};
+  run.loop.model.effects = {offset.effect};
   diagnosis::Stranger law;
   law.law = {0, diagnosis::Signal::position, 0};
   law.carrier = diagnosis::at_start(*diagnosis::find_effect("torque_offset"), 0);
@@ -84,7 +91,7 @@ Questioned with_false_findings(const std::string& name, double noise) {
   const std::vector<diagnosis::Found> no_flags;
   app::NoiseOfMotion questions({robot, inputs, {inputs.log}, std::nullopt, log.motion.rate, {}},
                                std::nullopt, no_flags, diagnosis::ContactReach());
-  questions.question_laws(log.recording, run);
+  questions.question_laws(log.recording, nullptr, run);
   questions.question_curves(log.recording,
                             diagnosis::series(robot.robot, run.settings.rows, run.loop.model,
                                               log.recording, run.settings.stride),
@@ -95,9 +102,13 @@ Questioned with_false_findings(const std::string& name, double noise) {
 
 TEST(NoisyEncoders, WhatIsGoneBehindASlowerFilterIsTakenBackAndSaid) {
   const auto [run, silent] = with_false_findings("suspected", encoder_noise);
+  EXPECT_TRUE(run.loop.found.empty());
+  EXPECT_TRUE(run.loop.model.effects.empty());
   EXPECT_TRUE(run.loop.strangers.empty());
   EXPECT_TRUE(run.structures.empty());
   EXPECT_EQ(silent, std::vector<std::string>{"j1"});
+  EXPECT_TRUE(
+      any_says(run.notes, "gone behind a filter of 8 Hz, and so no cause: torque_offset@j1"));
   EXPECT_TRUE(any_says(run.notes, "so not unexplained: torque_offset@j1 over q.j1, j1 over q.j1"))
       << fmt::format("{}", fmt::join(run.notes, "\n"));
 }
@@ -105,6 +116,7 @@ TEST(NoisyEncoders, WhatIsGoneBehindASlowerFilterIsTakenBackAndSaid) {
 /// Where little of what remains is noise of motion nothing is taken back.
 TEST(NoisyEncoders, WithQuietOnesFindingsStand) {
   const auto [run, silent] = with_false_findings("trusted", 0.0);
+  EXPECT_EQ(run.loop.found.size(), 1U);
   EXPECT_EQ(run.loop.strangers.size(), 1U);
   EXPECT_EQ(run.structures.size(), 1U);
   EXPECT_TRUE(silent.empty());
