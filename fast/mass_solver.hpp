@@ -49,7 +49,8 @@ class MassSolver {
   void start_at(int j, double mass) noexcept;
 
   /// Divides shape `j` at equal density: `first` (volume V1) takes its place, `second` (V2) becomes
-  /// the last shape. The objective stays as it is, and so does Phi as far as the rows feel it.
+  /// the last shape. The objective stays as it is, and so does Phi as far as the rows feel it, and
+  /// both as far as the parts make up the shape.
   /// False if there is no room.
   [[nodiscard]] bool divide(int j, const Column& first, double V1, const Column& second,
                             double V2) noexcept;
