@@ -84,7 +84,6 @@ std::vector<Found> take_back_names(const Robot& robot, const FilteredLogs& logs,
   }
   if (gone.empty()) return gone;
   LoopState state(robot, logs.log, logs.reference, logs.settings);
-  state.fit_masses();
   state.result = loop;
   state.use_correction(loop.correction, loop.reference_correction);
   state.result.found = std::move(stay);

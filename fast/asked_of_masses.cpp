@@ -55,7 +55,7 @@ Violation why_no_start(int j, double mass, int shapes) {
   return "a mass to start at is " + std::to_string(mass);
 }
 
-// Without a root: this is asked at every division.
+// Without a root: this is asked at divisions that are to take a microsecond.
 bool adds_up(const Vector10& u, double V, const Vector10& first, double V1, const Vector10& second,
              double V2) noexcept {
   const Vector10 missing = (V1 * first + V2 * second - V * u).cwiseAbs();

@@ -146,9 +146,17 @@ class ShadowedQr {
     ++rebuilt_;
     qr_.start(b_);
     // One that was new by no more than rounding need not be so again.
-    std::erase_if(columns_, [this](const VectorXd& a) {
-      return push_once(a, rows()) != ColumnQr::Push::entered;
-    });
+    std::vector<VectorXd> all;
+    all.swap(columns_);
+    for (const VectorXd& a : all) {
+      if (push_once(a, rows()) == ColumnQr::Push::entered) {
+        columns_.push_back(a);
+        continue;
+      }
+      const MatrixXd unit = A().colwise().normalized();
+      const VectorXd left = a - unit * unit.householderQr().solve(a);
+      RC_ASSERT(left.norm() <= 100.0 * ColumnQr::smallest_share * a.norm());
+    }
   }
 
   ColumnQr qr_;
