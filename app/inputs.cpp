@@ -241,7 +241,7 @@ LogSamples::LogSamples(const std::string& path, const RobotInputs& robot,
     : reader_(path, robot.robot, robot.notes, robot.mapping, motion_options(inputs, robot.robot)),
       contacts_(contact_treatment(inputs, robot.robot)),
       quiet_(inputs.quiet || ::isatty(STDERR_FILENO) == 0) {
-  if (contacts_ == reference::ContactTreatment::measured && !reader_.report().forces_logged) {
+  if (contacts_ == ContactTreatment::measured && !reader_.report().forces_logged) {
     throw InputError({path}, "--contacts measured, but there are no force.* columns",
                      "log force.<link>.x, .y, .z for every contact, or choose another treatment");
   }

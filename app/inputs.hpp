@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shapeid/models/body_model.hpp"
+#include "shapeid/models/contact_treatment.hpp"
 #include "shapeid/models/motion.hpp"
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/robot_yaml.hpp"
@@ -86,11 +87,11 @@ class LogSamples {
 
   std::optional<Sample> next();
   [[nodiscard]] const MotionReport& report() const { return reader_.report(); }
-  [[nodiscard]] reference::ContactTreatment contacts() const { return contacts_; }
+  [[nodiscard]] ContactTreatment contacts() const { return contacts_; }
 
  private:
   MotionReader reader_;
-  reference::ContactTreatment contacts_;
+  ContactTreatment contacts_;
   bool quiet_;
   std::size_t count_ = 0;
 };

@@ -13,7 +13,7 @@ namespace shapeid::app {
 struct RecordedLog {
   diagnosis::Recording recording;
   MotionReport motion;
-  reference::ContactTreatment contacts;
+  ContactTreatment contacts;
   /// s: first and last time of the first log and the last, whatever part of them this is
   double begins = 0.0, ends = 0.0;
   std::vector<double> shifts = {};       ///< s that each of several logs was moved by
@@ -31,7 +31,7 @@ struct ContactSource {
   bool derived;
 };
 void check_contacts_alike(const ContactSource& first, const ContactSource& other,
-                          reference::ContactTreatment contacts);
+                          ContactTreatment contacts);
 
 /// Several logs of the same robot as one, a second's pause between them, or moved in time by
 /// `shifts`, so that the same logs with another filter, or other parts of them, have the same

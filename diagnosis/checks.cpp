@@ -47,8 +47,7 @@ Eigen::VectorXd load_without_torque(const Viewer& viewer, const View& view,
   return (carried - view.J.transpose() * f).tail(viewer.robot().joint_count());
 }
 
-void check_torque_scale(const Robot& robot, const Recording& recording,
-                        reference::ContactTreatment contacts) {
+void check_torque_scale(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
   const RichModel given{stacked_parameters(robot), {}};
   const Viewer viewer(robot, contacts, {});
   const Eigen::Index n = robot.joint_count();
@@ -100,8 +99,7 @@ void check_torque_scale(const Robot& robot, const Recording& recording,
 }
 
 /// Where motion is fast, torque need not run against the model of a base that hangs.
-void check_base(const Robot& robot, const Recording& recording,
-                reference::ContactTreatment contacts) {
+void check_base(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
   if (robot.root != Root::fixed) return;
   const auto squared_error = [&](const std::vector<AppliedEffect>& effects) {
     const RichModel model{stacked_parameters(robot), effects};
@@ -152,19 +150,17 @@ void check_contact_labels(const Robot& robot, const Recording& recording) {
 
 }  // namespace
 
-void check_recording(const Robot& robot, const Recording& recording,
-                     reference::ContactTreatment contacts) {
+void check_recording(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
   if (recording.samples().empty()) throw Refusal("no-data", "the log has no usable sample");
   check_excitation(robot, recording);
   check_meaning(robot, recording, contacts);
 }
 
-void check_meaning(const Robot& robot, const Recording& recording,
-                   reference::ContactTreatment contacts) {
+void check_meaning(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
   check_torque_scale(robot, recording, contacts);
   check_base(robot, recording, contacts);
   check_joint_zeros(robot, recording, contacts);
-  if (contacts == reference::ContactTreatment::project) check_contact_labels(robot, recording);
+  if (contacts == ContactTreatment::project) check_contact_labels(robot, recording);
 }
 
 void check_clocks(const Robot& robot, const Recording& recording, const LoopSettings& settings) {

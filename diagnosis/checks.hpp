@@ -8,8 +8,7 @@ namespace shapeid::diagnosis {
 /// Throws Refusal:
 ///  * "not-excited": no joint moves;
 ///  and what check_meaning() refuses.
-void check_recording(const Robot& robot, const Recording& recording,
-                     reference::ContactTreatment contacts);
+void check_recording(const Robot& robot, const Recording& recording, ContactTreatment contacts);
 
 /// What holds of a log that is only tested on, too. Throws Refusal:
 ///  * "torque-scale": the torque that the given model predicts, and that the logged one follows,
@@ -21,8 +20,7 @@ void check_recording(const Robot& robot, const Recording& recording,
 ///    the air.
 /// Units, signs, frozen channels and clocks that cannot be are refused when the log is read
 /// (models/plausibility.hpp), a torque column that is a current by its name as well.
-void check_meaning(const Robot& robot, const Recording& recording,
-                   reference::ContactTreatment contacts);
+void check_meaning(const Robot& robot, const Recording& recording, ContactTreatment contacts);
 
 /// Throws Refusal "clock-skew" if torque and joints drift apart in time: the delay that explains
 /// the first half of the log best differs from that of the second half.

@@ -92,8 +92,7 @@ class Zeros {
 
 }  // namespace
 
-void check_joint_zeros(const Robot& robot, const Recording& recording,
-                       reference::ContactTreatment contacts) {
+void check_joint_zeros(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
   if (robot.root != Root::fixed) return;
   const std::vector<AppliedEffect> turns = Zeros(robot, recording, contacts).sought();
   if (turns.empty()) return;

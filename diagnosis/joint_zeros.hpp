@@ -2,8 +2,8 @@
 #pragma once
 
 #include "shapeid/diagnosis/recording.hpp"
+#include "shapeid/models/contact_treatment.hpp"
 #include "shapeid/models/robot.hpp"
-#include "shapeid/reference/sample_rows.hpp"
 
 namespace shapeid::diagnosis {
 
@@ -11,7 +11,6 @@ namespace shapeid::diagnosis {
 /// or half a turn further: the given links then predict the logged torque well, far better than as
 /// it is, and better than with the base on its side. Masses that are fitted would hide it: they may
 /// lie anywhere about the axis.
-void check_joint_zeros(const Robot& robot, const Recording& recording,
-                       reference::ContactTreatment contacts);
+void check_joint_zeros(const Robot& robot, const Recording& recording, ContactTreatment contacts);
 
 }  // namespace shapeid::diagnosis

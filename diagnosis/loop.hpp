@@ -14,14 +14,14 @@
 namespace shapeid::diagnosis {
 
 struct LoopSettings {
-  RowSource rows = reference::ContactTreatment::project;
+  RowSource rows = ContactTreatment::project;
   BodyModel shapes;            ///< of the free links; where their mass may be
   double expected_mass = 0.0;  ///< M0 > 0, kg, of all free links
   int divisions = 100;         ///< most divisions of the shapes
-  Eigen::VectorXd size;    ///< 10 links: how far parameters may reasonably be from the given ones
-  Eigen::VectorXd weight;  ///< diagonal of W to begin with; empty: ones
-  std::size_t stride = 1;  ///< every how many samples count
-  double margin = 0.0;     ///< s between blocks
+  Eigen::VectorXd size;        ///< 10 per link: how far parameters may be from the given ones
+  Eigen::VectorXd weight;      ///< diagonal of W to begin with; empty: ones
+  std::size_t stride = 1;      ///< every how many samples count
+  double margin = 0.0;         ///< s between blocks
   double block_seconds = 0.0;  ///< 0: so that there are about forty, and none below half a second
   int folds = 8;               ///< of one or two logs; of more, each is one
   std::vector<std::size_t> log_starts;  ///< samples at which a further log begins

@@ -255,7 +255,7 @@ std::string rotor_code(const Robot& robot) {
 }  // namespace
 
 std::string torque_header(const Robot& robot, const RichModel& model) {
-  const Viewer viewer(robot, reference::ContactTreatment::ignore, model.effects);
+  const Viewer viewer(robot, ContactTreatment::ignore, model.effects);
   std::string inertias, motion, between, torque, scaling, left_out;
   for (const AppliedEffect& a : model.effects) {
     const TorqueCode& code = a.effect->code;

@@ -21,9 +21,6 @@ namespace {
 // Rows from which the median steps are taken. A stream must not wait for as many.
 constexpr std::size_t head_of_log = 4096;
 constexpr std::size_t head_of_stream = 256;
-// From half a period of the cutoff on, the impulse response of two passes of second order stays
-// below 5 percent of its peak (docs/derivations/filtering.md).
-constexpr double margin_periods = 0.5;
 
 void check_exact(const ChannelPlan& plan, const std::string& path) {
   if (plan.dq < 0 || plan.ddq < 0 || (plan.floating() && plan.gyrodot < 0)) {

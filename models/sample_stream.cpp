@@ -11,8 +11,7 @@
 namespace shapeid {
 namespace {
 
-constexpr double gap = 5.0;             // steps, as in MotionOptions
-constexpr double margin_periods = 0.5;  // of the cutoff, as in MotionOptions::contact_margin
+constexpr double gap = 5.0;  // steps, as in MotionOptions
 
 }  // namespace
 

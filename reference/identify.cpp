@@ -131,10 +131,11 @@ Eigen::VectorXd natural_sizes(const BodyModel& model, double expected_mass) {
 
 Eigen::VectorXd sizes_of_links(const BodyModel& model, const Eigen::VectorXd& masses) {
   if (model.free_links.empty()) return {};
-  const Eigen::VectorXd largest = shape_columns(model).cwiseAbs().rowwise().maxCoeff();
+  Eigen::VectorXd size = shape_columns(model).cwiseAbs().rowwise().maxCoeff();
   // A parameter that every shape leaves at zero by symmetry still needs a positive size to be
-  // measured against: that of the largest of its group on the same link.
-  Eigen::VectorXd size = largest;
+  // measured against: none is less than a tenth of the largest of its group on the same link. Where
+  // the whole group is zero (points at the origin) the link's mass stands for the largest, its kg
+  // read as kg m or kg m^2.
   for (Eigen::Index link = 0; link < size.size(); link += 10) {
     size.segment<10>(link) *= masses[link / 10];
     for (const auto& [first, count] : {std::pair{1, 3}, std::pair{4, 6}}) {

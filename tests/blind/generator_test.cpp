@@ -33,8 +33,8 @@ double left_by_the_truth(const Machine& m, const Item& item, const Readings& rea
   const diagnosis::Recording log(samples, m.rate);
   const diagnosis::RichModel truth{stacked_parameters(m.robot), {applied(m, item)}};
   const diagnosis::RichModel rigid{truth.Phi, {}};
-  const diagnosis::Viewer with(m.robot, reference::ContactTreatment::ignore, truth.effects);
-  const diagnosis::Viewer without(m.robot, reference::ContactTreatment::ignore, {});
+  const diagnosis::Viewer with(m.robot, ContactTreatment::ignore, truth.effects);
+  const diagnosis::Viewer without(m.robot, ContactTreatment::ignore, {});
   double told = 0.0, untold = 0.0;
   for (const std::size_t i : log.usable(20)) {
     told += diagnosis::residual(with, with.view(log, i), truth).squaredNorm();
@@ -152,7 +152,7 @@ TEST(Yardstick, DetectableSizeFollowsTheNoise) {
 /// Rows that are missing from a log by the true model: its noise.
 Eigen::MatrixXd noise_of(const Machine& m, const diagnosis::Recording& log) {
   const diagnosis::RichModel truth{stacked_parameters(m.robot), {}};
-  const diagnosis::Viewer viewer(m.robot, reference::ContactTreatment::ignore, {});
+  const diagnosis::Viewer viewer(m.robot, ContactTreatment::ignore, {});
   const auto indices = log.usable(1);
   Eigen::MatrixXd noise(m.robot.dof(), std::ssize(indices));
   for (std::size_t i = 0; i < indices.size(); ++i) {

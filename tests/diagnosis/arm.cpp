@@ -62,7 +62,7 @@ Recording moved_as_arm(const Robot& robot, const std::vector<diagnosis::AppliedE
   const Recording log = record({});
   std::vector<Sample> samples = log.samples();
   const diagnosis::RichModel truth{stacked_parameters(robot), effects};
-  const diagnosis::Viewer viewer(robot, reference::ContactTreatment::ignore, effects);
+  const diagnosis::Viewer viewer(robot, ContactTreatment::ignore, effects);
   for (const std::size_t i : log.usable(1)) {
     samples[i].tau = diagnosis::predict(viewer, viewer.view(log, i), truth).force;
   }
@@ -77,7 +77,7 @@ Recording record(const ArmLog& log) {
   const Recording bare(samples, rate);
   const Robot robot = arm();
   const diagnosis::RichModel truth{stacked_parameters(robot), log.effects};
-  const diagnosis::Viewer viewer(robot, reference::ContactTreatment::ignore, log.effects);
+  const diagnosis::Viewer viewer(robot, ContactTreatment::ignore, log.effects);
   std::mt19937 generator(log.seed);
   std::normal_distribution<double> normal;  // of a spread of zero it is undefined
   for (const std::size_t i : bare.usable(1)) {
@@ -115,7 +115,7 @@ Recording before_a_gear(double (*lead)(double torque)) {
 diagnosis::LoopSettings arm_settings() {
   const Robot robot = arm();
   diagnosis::LoopSettings settings;
-  settings.rows = reference::ContactTreatment::ignore;
+  settings.rows = ContactTreatment::ignore;
   settings.shapes = diagnosis::generous_regions(robot, {1, 2, 3});
   settings.expected_mass = 6.0;
   settings.size = Eigen::VectorXd::Ones(40);

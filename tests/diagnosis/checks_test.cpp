@@ -28,7 +28,7 @@ std::string refusal(const std::function<void()>& call) {
 }
 
 std::string check(const Recording& recording) {
-  return refusal([&] { check_recording(arm(), recording, reference::ContactTreatment::ignore); });
+  return refusal([&] { check_recording(arm(), recording, ContactTreatment::ignore); });
 }
 
 /// The recording with every sample changed.
@@ -59,7 +59,7 @@ TEST(Checks, TorqueOfATrotThatIsACurrent) {
   const Trot trot;
   const auto check_scaled = [&](double factor) {
     const Recording log = changed({trot.samples, Trot::rate}, [&](Sample& s) { s.tau *= factor; });
-    return refusal([&] { check_meaning(trot.robot, log, reference::ContactTreatment::project); });
+    return refusal([&] { check_meaning(trot.robot, log, ContactTreatment::project); });
   };
   for (const double factor : {0.1, 8.0}) EXPECT_EQ(check_scaled(factor), "torque-scale") << factor;
   EXPECT_EQ(check_scaled(-1.0), "torque-sign");
@@ -96,7 +96,7 @@ TEST(Checks, BasesThatHang) {
 TEST(Checks, ABaseUpsideDownIsNamedBesideTheSign) {
   const Recording turned = changed(record({}), [](Sample& s) { s.tau = -s.tau; });
   try {
-    check_recording(arm(), turned, reference::ContactTreatment::ignore);
+    check_recording(arm(), turned, ContactTreatment::ignore);
     ADD_FAILURE() << "accepted";
   } catch (const Refusal& r) {
     EXPECT_EQ(r.code(), "torque-sign");
@@ -153,8 +153,7 @@ TEST(Checks, ContactLabelsAtOddsWithTheFeet) {
     return Recording(samples, 100.0);
   };
   const auto check_log = [&](bool right) {
-    return refusal(
-        [&] { check_recording(robot, log(right), reference::ContactTreatment::project); });
+    return refusal([&] { check_recording(robot, log(right), ContactTreatment::project); });
   };
   EXPECT_EQ(check_log(true), "accepted");
   EXPECT_EQ(check_log(false), "contact-labels");

@@ -105,8 +105,8 @@ RC_GTEST_PROP(ContactFlags, AreTheSameAsAnEffectAndCorrectedInTheLog, ()) {
   effect.value[0] = 0.001 * *rc::gen::inRange(0, 80);
   Recording lengthened = log;
   correct_contact_flags(lengthened, {Found{effect, "", Eigen::VectorXd::Zero(1)}});
-  const Viewer viewer(robot, reference::ContactTreatment::project, {effect});
-  const Viewer plain(robot, reference::ContactTreatment::project, {});
+  const Viewer viewer(robot, ContactTreatment::project, {effect});
+  const Viewer plain(robot, ContactTreatment::project, {});
   for (std::size_t i = 0; i < log.samples().size(); ++i) {
     const View as_effect = viewer.view(log, i), corrected = plain.view(lengthened, i);
     RC_ASSERT(as_effect.sample.in_contact == corrected.sample.in_contact);

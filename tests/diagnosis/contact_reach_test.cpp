@@ -56,8 +56,8 @@ RC_GTEST_PROP(ContactReach, MakesRowsTheSameWithADelayAndWithout, ()) {
   const Found delay = delay_of_torque(1e-4 * *rc::gen::inRange(-180, 181));
   const ContactReach reach = contact_reach({delay}, rate, {});
   log.extend_contacts(reach.before, reach.after);
-  const Viewer with(robot, reference::ContactTreatment::project, {delay.effect});
-  const Viewer without(robot, reference::ContactTreatment::project, {});
+  const Viewer with(robot, ContactTreatment::project, {delay.effect});
+  const Viewer without(robot, ContactTreatment::project, {});
   for (const std::size_t i : log.usable(1)) {
     RC_ASSERT(with.view(log, i).sample.in_contact == without.view(log, i).sample.in_contact);
   }

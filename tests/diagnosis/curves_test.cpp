@@ -16,7 +16,7 @@
 namespace shapeid::diagnosis {
 namespace {
 
-constexpr auto no_contacts = reference::ContactTreatment::ignore;
+constexpr auto no_contacts = ContactTreatment::ignore;
 constexpr std::size_t stride = 2;
 
 Curve curve(const std::string& law, int site, CurveVariable over, std::vector<double> at,

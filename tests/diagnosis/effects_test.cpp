@@ -321,8 +321,7 @@ RC_GTEST_PROP(Transformations, OfContactsChangeNothingWhereNoneIsProjected, ()) 
     }
   }
   const Recording recording = held(scene.sample);
-  const HypothesisColumns columns(scene.robot, reference::ContactTreatment::ignore, model,
-                                  model.effects);
+  const HypothesisColumns columns(scene.robot, ContactTreatment::ignore, model, model.effects);
   const View view = columns.viewer().view(recording, middle_of_held);
   const Prediction predicted = predict(columns.viewer(), view, model);
   RC_ASSERT(predicted.J.rows() == 0);
@@ -340,7 +339,7 @@ RC_GTEST_PROP(Transformations, ThatScaleComeLast, ()) {
   point.value = *test::vector3(0.1);
   const Recording recording = held(scene.sample);
   const auto said = [&](const std::vector<AppliedEffect>& effects) {
-    const Viewer viewer(scene.robot, reference::ContactTreatment::project, effects);
+    const Viewer viewer(scene.robot, ContactTreatment::project, effects);
     return predict(viewer, viewer.view(recording, middle_of_held), {scene.Phi, effects});
   };
   const Prediction one = said({gain, point}), other = said({point, gain});
@@ -357,7 +356,7 @@ RC_GTEST_PROP(MeasuredForces, AreScaledWithTheTorqueThatTheySpare, ()) {
   for (std::size_t c = 0; c < scene.robot.contacts.size(); ++c) {
     scene.sample.contact_force.push_back(*test::vector3(50.0));
   }
-  const auto measured = reference::ContactTreatment::measured;
+  const auto measured = ContactTreatment::measured;
   AppliedEffect gain = at_start(*find_effect("torque_gain"), 0);
   gain.value[0] = 0.2;
   const RichModel model{scene.Phi, {gain}};
@@ -405,8 +404,7 @@ RC_GTEST_PROP(Transformations, ContactsAreHeldWhereADelayLooksAcrossATouchdown, 
   AppliedEffect delay = at_start(*find_effect("torque_delay"), 0);
   delay.value[0] = 0.5 / rate;  // where the nearest sample changes
   const RichModel model{scene.Phi, {delay}};
-  const HypothesisColumns columns(scene.robot, reference::ContactTreatment::project, model,
-                                  {delay});
+  const HypothesisColumns columns(scene.robot, ContactTreatment::project, model, {delay});
   const View view = columns.viewer().view(recording, middle);
   const Prediction predicted = predict(columns.viewer(), view, model);
   const Eigen::MatrixXd change = columns.at(recording, middle, view, predicted);

@@ -27,7 +27,7 @@ Recording record_two_joints(const Robot& robot, const std::vector<AppliedEffect>
     for (Eigen::VectorXd* signal : {&s.q, &s.dq, &s.ddq, &s.tau}) signal->conservativeResize(2);
   }
   const Recording bare(samples, whole.rate());
-  const Viewer viewer(robot, reference::ContactTreatment::ignore, effects);
+  const Viewer viewer(robot, ContactTreatment::ignore, effects);
   std::mt19937 generator(1);
   std::normal_distribution<double> noise(0.0, 0.02);
   const std::vector<std::size_t> usable = bare.usable(1);

@@ -76,7 +76,7 @@ TEST_P(FilterError, IsTheResidualOfATrueModel) {
   if (const std::string id = GetParam(); id != "rigid") {
     truth.effects.push_back(test::effect(id, 1, {0.8}));
   }
-  const Viewer viewer(robot, reference::ContactTreatment::ignore, truth.effects);
+  const Viewer viewer(robot, ContactTreatment::ignore, truth.effects);
   std::vector<Sample> exact;
   for (int k = 0; k < 10 * static_cast<int>(rate); ++k) {
     Sample s = motion(k / rate);
@@ -126,7 +126,7 @@ TEST(FilterError, IsTheResidualOfATrueModelOnItsFeet) {
   const Recording rough = read(path, robot, notes, 3.0 * of_log);
 
   const RichModel truth{stacked_parameters(robot), {}};
-  const Viewer viewer(robot, reference::ContactTreatment::project, {});
+  const Viewer viewer(robot, ContactTreatment::project, {});
   const double before = rms(viewer, truth, smooth);
   smooth.set_correction(filter_error(viewer, truth, smooth, rough, of_log));
   const double after = rms(viewer, truth, smooth);

@@ -24,8 +24,8 @@ Tally sums() {
   TallyOptions options;
   options.weight = Eigen::Vector3d(1.0, 4.0, 9.0);
   options.block_seconds = 0.5;
-  add_to_tally(tally, robot, reference::ContactTreatment::ignore,
-               RichModel{stacked_parameters(robot), {}}, log, options, false);
+  add_to_tally(tally, robot, ContactTreatment::ignore, RichModel{stacked_parameters(robot), {}},
+               log, options, false);
   return tally;
 }
 

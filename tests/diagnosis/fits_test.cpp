@@ -142,8 +142,8 @@ TEST(Folds, NoBlockHasTwoLogs) {
   options.block_seconds = log.duration() / 4.0;
   const std::size_t third = log.samples().size() / 3;
   options.log_starts = {third, 2 * third};
-  add_to_tally(tally, robot, reference::ContactTreatment::ignore,
-               RichModel{stacked_parameters(robot), {}}, log, options, false);
+  add_to_tally(tally, robot, ContactTreatment::ignore, RichModel{stacked_parameters(robot), {}},
+               log, options, false);
   ASSERT_EQ(tally.blocks.size(), 6U);
   const std::vector<std::size_t> logs = {0, 0, 1, 1, 2, 2};
   for (std::size_t b = 0; b < logs.size(); ++b) EXPECT_EQ(tally.blocks[b].log, logs[b]);

@@ -20,7 +20,7 @@ constexpr double a_quarter = 0.5 * std::numbers::pi;
 /// What is refused of the arm's log with these in it; empty if nothing is.
 std::string zeros_of(const Robot& robot, const Recording& log) {
   try {
-    check_joint_zeros(robot, log, reference::ContactTreatment::ignore);
+    check_joint_zeros(robot, log, ContactTreatment::ignore);
   } catch (const Refusal& r) {
     EXPECT_EQ(r.code(), "joint-zero");
     return r.what();

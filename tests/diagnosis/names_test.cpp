@@ -95,9 +95,8 @@ void expect_drift(int joint) {
   std::erase_if(without.effects, [&](const AppliedEffect& a) {
     return a.effect == offset->effect.effect && a.site == offset->effect.site;
   });
-  const Structure curve =
-      unnamed(arm(), log, series(arm(), reference::ContactTreatment::ignore, without, log, 2),
-              *offset->varies);
+  const Structure curve = unnamed(
+      arm(), log, series(arm(), ContactTreatment::ignore, without, log, 2), *offset->varies);
   EXPECT_EQ(curve.joint, name);
   ASSERT_GT(curve.at.size(), 2U);
   // Predicted minus logged falls by what the torque grew.
@@ -154,7 +153,7 @@ TEST(Placebos, AreLawsOfOtherJointsInTheRowOfOne) {
   const std::vector<AppliedEffect> list = placebos(robot);
   EXPECT_EQ(list.size(), 4U * 2U * 3U) << "four laws, two donors, three joints";
   const RichModel model{stacked_parameters(robot), {}};
-  const HypothesisColumns columns(robot, reference::ContactTreatment::ignore, model, list);
+  const HypothesisColumns columns(robot, ContactTreatment::ignore, model, list);
   const std::size_t index = log.usable(1).front();
   const View view = columns.viewer().view(log, index);
   const Eigen::MatrixXd E = columns.at(log, index, view, predict(columns.viewer(), view, model));

@@ -30,7 +30,7 @@ struct Standing {
   explicit Standing(const Robot& r) : Standing(r, touching(r)) {}
   Standing(const Robot& r, Sample sample)
       : robot(r),
-        viewer(robot, reference::ContactTreatment::project, {}),
+        viewer(robot, ContactTreatment::project, {}),
         model{stacked_parameters(robot), {}} {
     view = viewer.view(std::move(sample), {});
     f = *test::vector(view.J.rows(), 50.0);

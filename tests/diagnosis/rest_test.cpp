@@ -69,7 +69,7 @@ TEST(Rest, TorqueThatHoldsAJointStillChangesNoFitAndNoError) {
 TEST(Rest, WithContactsEveryRowCounts) {
   const Recording log = with_rest(0.0);
   const Robot robot = arm();
-  const Viewer viewer(robot, reference::ContactTreatment::ignore, {});
+  const Viewer viewer(robot, ContactTreatment::ignore, {});
   const std::size_t index = log.samples().size() - 50;
   View view = viewer.view(log, index);
   EXPECT_FALSE(counted_rows(viewer, log, index, view)[rested]);

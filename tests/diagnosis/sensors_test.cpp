@@ -27,8 +27,7 @@ const Trot& trot() {
 }
 
 double squares(const Robot& robot, const std::vector<Sample>& samples,
-               const std::vector<AppliedEffect>& effects, double rate,
-               reference::ContactTreatment contacts) {
+               const std::vector<AppliedEffect>& effects, double rate, ContactTreatment contacts) {
   const RichModel model{stacked_parameters(robot), effects};
   constexpr std::size_t stride = 4;
   return series(robot, contacts, model, Recording(samples, rate), stride).residual.squaredNorm();
@@ -37,7 +36,7 @@ double squares(const Robot& robot, const std::vector<Sample>& samples,
 /// The effect takes away what it brought in, and its opposite doubles it.
 void expect_restored(const Robot& robot, const std::vector<Sample>& right,
                      const std::vector<Sample>& spoilt, const AppliedEffect& by, double rate,
-                     reference::ContactTreatment contacts) {
+                     ContactTreatment contacts) {
   AppliedEffect opposite = by;
   opposite.value *= -1.0;
   const auto of = [&](const std::vector<Sample>& samples, const std::vector<AppliedEffect>& e) {
@@ -53,8 +52,7 @@ void expect_restored_on_the_trot(const std::function<void(std::vector<Sample>&)>
                                  const AppliedEffect& by) {
   std::vector<Sample> spoilt = trot().samples;
   spoil(spoilt);
-  expect_restored(trot().robot, trot().samples, spoilt, by, Trot::rate,
-                  reference::ContactTreatment::project);
+  expect_restored(trot().robot, trot().samples, spoilt, by, Trot::rate, ContactTreatment::project);
 }
 
 TEST(Sensors, AnAccelerometerThatReadsTooMuch) {
@@ -105,7 +103,7 @@ TEST(Sensors, ABaseThatLeans) {
     s.tau = reference::regressor(robot, leaning) * stacked_parameters(robot);
   }
   expect_restored(robot, upright, spoilt, effect("gravity_tilt", 0, {0.05, -0.03}), 100.0,
-                  reference::ContactTreatment::ignore);
+                  ContactTreatment::ignore);
 }
 
 /// The robot's file says that a foot touches elsewhere than it did.
@@ -115,8 +113,7 @@ TEST(Sensors, AFootThatTouchesElsewhere) {
   constexpr std::size_t foot = 2;
   declared.contacts[foot].frame.translation() -= by;
   const auto of = [&](const Robot& robot, const std::vector<AppliedEffect>& effects) {
-    return squares(robot, trot().samples, effects, Trot::rate,
-                   reference::ContactTreatment::project);
+    return squares(robot, trot().samples, effects, Trot::rate, ContactTreatment::project);
   };
   const auto moved = [&](double times) {
     return effect("contact_point", foot, {times * by[0], times * by[1], times * by[2]});
@@ -133,8 +130,7 @@ TEST(Sensors, AFootThatIsABall) {
   constexpr int foot = 1;
   const Robot& robot = trot().robot;
   const Recording log(trot().samples, Trot::rate);
-  const Viewer viewer(robot, reference::ContactTreatment::project,
-                      {effect("foot_radius", foot, {radius})});
+  const Viewer viewer(robot, ContactTreatment::project, {effect("foot_radius", foot, {radius})});
   int seen = 0;
   for (std::size_t i = 200; i < log.samples().size(); i += 50) {
     if (!log[i].in_contact[foot]) continue;

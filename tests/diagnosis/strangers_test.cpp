@@ -49,8 +49,8 @@ TEST(Strangers, SeeAGainOnOneSide) {
   EXPECT_EQ(followed(result.strangers.front()), "tau.joint2");
 
   // The gain's number is a step from nothing to 0.04, or, beside masses, from -0.02 to 0.02.
-  const Structure curve = lawless(arm(), reference::ContactTreatment::ignore, result.model, log, 2,
-                                  result.strangers.front());
+  const Structure curve =
+      lawless(arm(), ContactTreatment::ignore, result.model, log, 2, result.strangers.front());
   EXPECT_EQ(curve.joint, "joint2");
   EXPECT_EQ(curve.variable, "tau.joint2");
   EXPECT_FALSE(curve.law.empty());

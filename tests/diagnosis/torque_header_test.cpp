@@ -86,7 +86,7 @@ TEST(TorqueHeader, PredictsWhatTheModelPredicts) {
                          follows("coulomb_friction", 2, CurveSignal::speed, 1),
                          follows("rotor_inertia", 1, CurveSignal::load, 1)}};
   const Recording recording = test::record({});
-  const Viewer viewer(robot, reference::ContactTreatment::ignore, effects);
+  const Viewer viewer(robot, ContactTreatment::ignore, effects);
   const Eigen::VectorXd wanted = predict(viewer, viewer.view(recording, 500), model).force;
   std::string arrays;
   const std::string call = arguments(recording[500], robot.root, arrays);
@@ -125,7 +125,7 @@ void expect_lag_follows_the_rigid_links(Root root) {
       s.base_specific_force = {std::sin(5.0 * t), 0.3, 9.6 + 1.5 * std::cos(2.0 * t)};
     }
   });
-  const Viewer viewer(robot, reference::ContactTreatment::ignore, effects);
+  const Viewer viewer(robot, ContactTreatment::ignore, effects);
   const std::vector<std::size_t> instants = {300, 551, 902, 1203, 1604};
   Eigen::MatrixXd wanted(3, std::ssize(instants));
   std::string arrays;
@@ -178,7 +178,7 @@ TEST(TorqueHeader, TakesOffContactForcesBeforeWhatDependsOnThem) {
       s.in_contact = {true};
     }
   });
-  const Viewer viewer(robot, reference::ContactTreatment::project, effects);
+  const Viewer viewer(robot, ContactTreatment::project, effects);
   const std::size_t at = 700;
   const View view = viewer.view(recording, at);
   const Prediction predicted = predict(viewer, view, model);
@@ -212,7 +212,7 @@ TEST(TorqueHeader, NamesEndNoLine) {
   robot.links[2].joint.name = "elbow\\";
   const RichModel model{stacked_parameters(robot), {}};
   const Recording recording = test::record({});
-  const Viewer viewer(robot, reference::ContactTreatment::ignore, {});
+  const Viewer viewer(robot, ContactTreatment::ignore, {});
   const Eigen::VectorXd wanted = predict(viewer, viewer.view(recording, 500), model).force;
   std::string arrays;
   const std::string call = arguments(recording[500], robot.root, arrays);

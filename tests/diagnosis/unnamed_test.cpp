@@ -60,8 +60,7 @@ TEST(Unnamed, GearsNumberIsWhatTheGearYields) {
   const Stranger& law = result.strangers.front();
   EXPECT_GT(law.number, 0.0004);
   EXPECT_LT(law.number, 0.0006);
-  const Structure curve =
-      lawless(arm(), reference::ContactTreatment::ignore, result.model, log, 2, law);
+  const Structure curve = lawless(arm(), ContactTreatment::ignore, result.model, log, 2, law);
   EXPECT_EQ(curve.law, "gear@joint2 that yields");
   ASSERT_GT(curve.at.size(), 1U);
   ASSERT_EQ(curve.value.size(), curve.at.size());
@@ -146,7 +145,7 @@ TEST(RipplePlacebos, AreOverThePositionOfEveryOtherJoint) {
     change_each(samples, [](Sample& s) { s.tau[1] += 0.3 * std::cos(20.0 * s.q[2]); });
   });
   const RichModel model{stacked_parameters(robot), {}};
-  const Series left = series(robot, reference::ContactTreatment::ignore, model, log, 2);
+  const Series left = series(robot, ContactTreatment::ignore, model, log, 2);
   const auto list = ripple_placebos(robot, log, left, 1);
   ASSERT_EQ(list.size(), 2U);
   for (const AppliedEffect& a : list) EXPECT_EQ(joint_of_placebo(robot, a), 1);
@@ -165,7 +164,7 @@ TEST(Unnamed, WhatIsOfNoJointIsDrawnWhereMostIsLeft) {
     for (Sample& s : samples) s.tau[1] += 0.2 * std::sin(s.time);
   });
   const RichModel model{stacked_parameters(robot), {}};
-  Series left = series(robot, reference::ContactTreatment::ignore, model, log, 2);
+  Series left = series(robot, ContactTreatment::ignore, model, log, 2);
   const Variation varies{Signal::time, -1, 0.3, 9.0};
   const Structure drawn = unnamed(robot, log, left, varies);
   EXPECT_EQ(drawn.joint, "joint2");
@@ -190,7 +189,7 @@ TEST(Unexplained, FollowsColumnsThatAreLoggedRarely) {
   }
   const Recording log(std::move(samples), 100.0, {"temp"});
   const RichModel model{stacked_parameters(robot), {}};
-  const Series left = series(robot, reference::ContactTreatment::ignore, model, log, 2);
+  const Series left = series(robot, ContactTreatment::ignore, model, log, 2);
   const std::vector<Structure> found = unexplained(robot, log, left, 2);
   EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Structure& s) {
     return s.variable == "temp" && s.joint == "joint3" && s.share > 0.9;

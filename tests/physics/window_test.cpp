@@ -25,7 +25,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using reference::ContactTreatment;
 using reference::Window;
 using test::few_hundred_eps;
 using test::scaled;

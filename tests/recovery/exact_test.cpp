@@ -27,7 +27,6 @@
 namespace shapeid {
 namespace {
 
-using reference::ContactTreatment;
 using reference::natural_sizes;
 using reference::Window;
 using test::bundled_quadruped;
@@ -60,7 +59,7 @@ std::vector<Sample> samples_of(const std::vector<SimulatedSample>& motion) {
   return samples;
 }
 
-/// `truth`: 10 links of the robot that moved.
+/// `truth`: 10 per link of the robot that moved.
 Rows rows_of(const Robot& robot, const BodyModel& model, ContactTreatment contacts,
              const std::vector<Sample>& motion, const Eigen::VectorXd& truth, double mass) {
   Window window(robot, model, contacts, Eigen::VectorXd::Ones(robot.dof()));

@@ -41,7 +41,7 @@ Eigen::VectorXd viscous_friction(const Quadruped& quadruped, const std::vector<S
   Eigen::MatrixXd R(0, columns + 1);
   for (std::size_t i = 0; i < samples.size(); i += 5) {
     const auto rows = reference::sample_rows(robot, quadruped.base.known, quadruped.base.free_links,
-                                             reference::ContactTreatment::project, samples[i]);
+                                             ContactTreatment::project, samples[i]);
     Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(robot.dof(), columns);
     Y.leftCols<10>() = rows.Y;
     Y.bottomRightCorner(joints, joints) = samples[i].dq.asDiagonal();

@@ -16,7 +16,6 @@
 namespace shapeid {
 namespace {
 
-using reference::ContactTreatment;
 using reference::FilteredRows;
 using reference::RowFilter;
 using test::bundled_quadruped;

@@ -13,7 +13,6 @@
 namespace shapeid {
 namespace {
 
-using reference::ContactTreatment;
 using reference::Window;
 using test::bundled_quadruped;
 using test::Quadruped;

@@ -18,8 +18,7 @@ class ReferenceStack final : public WindowStack {
  public:
   ReferenceStack(const Robot& robot, const BodyModel& model)
       : model_(model),
-        window_(robot, model, reference::ContactTreatment::project,
-                Eigen::VectorXd::Ones(robot.dof())) {}
+        window_(robot, model, ContactTreatment::project, Eigen::VectorXd::Ones(robot.dof())) {}
 
   void take(const std::vector<Sample>& samples) override { samples_ = samples; }
 

@@ -72,7 +72,7 @@ std::vector<DenseProblem> body_windows(const BodyModel& model, SeedSet seeds, te
     const std::vector<Sample> samples =
         test::trot(quadruped(), some_bodies(seed), seed, count, noise);
     for (int w = 0; w < windows; ++w) {
-      reference::Window window(quadruped(), model, reference::ContactTreatment::project,
+      reference::Window window(quadruped(), model, ContactTreatment::project,
                                Eigen::VectorXd::Ones(quadruped().dof()));
       const std::size_t from = window_samples * static_cast<std::size_t>(w);
       for (std::size_t i = from; i < from + body_window_samples; ++i) window.add(samples[i]);

@@ -61,7 +61,7 @@ std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number, test
                                        Density density, PickedBy picked_by, int shapes) {
   const std::uint64_t seed = seed_of(seeds, number);
   BodyModel model = base_box();
-  reference::Window window(quadruped(), model, reference::ContactTreatment::project,
+  reference::Window window(quadruped(), model, ContactTreatment::project,
                            Eigen::VectorXd::Ones(quadruped().dof()));
   for (const Sample& s : test::trot(quadruped(), some_truth(seed), seed, run_samples, noise))
     window.add(s);

@@ -43,7 +43,7 @@ std::vector<DenseProblem> base_windows(const BodyModel& model, SeedSet seeds, te
     const std::size_t count = window_samples * static_cast<std::size_t>(windows);
     const std::vector<Sample> samples =
         test::trot(quadruped(), some_truth(seed), seed, count, noise);
-    reference::Window window(quadruped(), model, reference::ContactTreatment::project,
+    reference::Window window(quadruped(), model, ContactTreatment::project,
                              Eigen::VectorXd::Ones(quadruped().dof()));
     for (std::size_t i = 0; i < samples.size(); ++i) {
       window.add(samples[i]);

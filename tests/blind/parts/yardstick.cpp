@@ -20,9 +20,8 @@ using diagnosis::RichModel;
 using diagnosis::View;
 using diagnosis::Viewer;
 
-reference::ContactTreatment contacts(const Machine& machine) {
-  return machine.robot.contacts.empty() ? reference::ContactTreatment::ignore
-                                        : reference::ContactTreatment::project;
+ContactTreatment contacts(const Machine& machine) {
+  return machine.robot.contacts.empty() ? ContactTreatment::ignore : ContactTreatment::project;
 }
 
 std::vector<Eigen::Index> free_columns(const Machine& machine) {
