@@ -15,7 +15,7 @@ namespace shapeid::diagnosis {
 namespace {
 
 constexpr std::size_t fewest = 8;  // frequencies on either side
-// Two passes of second order leave 0.42 of white noise's power above half their cutoff, and 0.98 of
+// Two passes of second order leave 0.41 of white noise's power above half their cutoff, and 0.98 of
 // that of noise whose power grows with the fourth power of frequency.
 constexpr double mostly_fast = 0.8;
 // Noise of motion is as strong in what is predicted as in what remains; motion itself is not.

@@ -22,7 +22,7 @@ struct SoughtShape {
 /// is zero for a link identified from scratch, the given inertia for a known link, and the given
 /// inertia of a link that carries an unknown load.
 struct BodyModel {
-  Eigen::VectorXd known;        ///< 10 links of the robot, stacked
+  Eigen::VectorXd known;        ///< 10 per link of the robot, stacked
   std::vector<int> free_links;  ///< links with at least one shape, ascending
   std::vector<SoughtShape> shapes;
 };
@@ -33,14 +33,15 @@ struct BodyModel {
 /// Empty if every shape's link is free, every free link has a shape, and sizes agree.
 [[nodiscard]] Violation why_malformed(const BodyModel& model, const Robot& robot);
 
-/// Equations (10)-(14): column j holds the unit parameters of shape j in the ten rows of its link;
-/// 10 free links x shapes.
+/// U of equation (14): column j holds the unit parameters (13) of shape j in the ten rows of its
+/// link. (10 per free link) x shapes.
 [[nodiscard]] Eigen::MatrixXd shape_columns(const BodyModel& model);
 
 /// Volumes of the shapes, m^3.
 [[nodiscard]] Eigen::VectorXd shape_volumes(const BodyModel& model);
 
-/// Parameters of all links for masses m: known part plus shapes; 10 links of the robot.
+/// Parameters of all links, 10 per link of the robot: the known part, plus `Phi_free`, which the
+/// shapes of the free links add (U m; 10 per free link).
 [[nodiscard]] Eigen::VectorXd all_parameters(const BodyModel& model,
                                              const Eigen::VectorXd& Phi_free);
 

@@ -16,8 +16,9 @@ namespace shapeid {
 using Vector10 = Eigen::Matrix<double, 10, 1>;
 
 /// Sigma = [[ integral r r^T dm, m r ], [ (m r)^T, m ]], link axes, about the link origin.
-/// Positive semidefinite if and only if some nonnegative mass distribution has these moments
-/// (Wensing, Kim, Slotine 2017): mass >= 0, tensor >= 0 and the triangle inequalities together.
+/// With m > 0 it is positive semidefinite if and only if some nonnegative mass distribution has
+/// these moments (Wensing, Kim, Slotine 2017): tensor about the centre of mass >= 0 and the
+/// triangle inequalities together. With m = 0 only the zero matrix belongs to a body.
 using PseudoInertia = Eigen::Matrix4d;
 
 /// Inertial parameters of one body in one frame. A plain vector with names.
@@ -58,9 +59,10 @@ struct InertialParameters {
 [[nodiscard]] PseudoInertia pseudo_inertia(const InertialParameters& body);
 [[nodiscard]] InertialParameters from_pseudo_inertia(const PseudoInertia& sigma);
 
-/// The smallest eigenvalue of the pseudo-inertia after scaling it to unit trace blocks: mass and
-/// second moments measured in units of the body's own mass and size. Zero on the edge of the cone
-/// (a point, a rod, a plate), negative for a body that cannot exist. No unit.
+/// The smallest eigenvalue of the pseudo-inertia in units of the body's own mass and size: scaled
+/// so that |m| and the largest |entry| of the block of second moments become one. Zero on the edge
+/// of the cone (a point, a rod, a plate), negative for a body that cannot exist: -1 for one that
+/// has no mass, or no second moments, and is neither a point at the origin nor all zero. No unit.
 [[nodiscard]] double consistency_margin(const InertialParameters& body);
 
 /// Empty if the body can exist (margin not below -tolerance); else the inequality that is broken,

@@ -82,8 +82,8 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Polyhedron, Point>;
 /// "cuboid", "cylinder", "ellipsoid", "polyhedron", "point"
 [[nodiscard]] std::string kind_name(const Shape& shape);
 
-/// What a uniform solid weighs where, free of any distant origin: the central moments of a small
-/// part keep their digits however far it lies from the link origin.
+/// Volume, centroid and central covariance of a uniform solid (10). The covariance is about the
+/// centroid, so that a small part keeps its digits however far it lies from the link origin.
 struct Moments {
   double volume;               ///< m^3; the nominal one for a point
   Eigen::Vector3d centroid;    ///< m, link frame
@@ -95,8 +95,8 @@ struct Moments {
 /// m^3
 [[nodiscard]] double volume(const Shape& shape);
 
-/// Equations (10)-(14): the ten parameters of the shape with unit mass and uniform density, about
-/// the link origin in link axes. Times its mass this is the shape's share of the link's Phi.
+/// Equations (10)-(13): the ten parameters of the shape with unit mass and uniform density, about
+/// the link origin in link axes. Times its mass this is the shape's share of the link's Phi (14).
 [[nodiscard]] InertialParameters unit_parameters(const Shape& shape);
 
 /// Whether a point of the link frame lies inside or on the boundary. With slack (m), also whether

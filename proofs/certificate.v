@@ -1,5 +1,7 @@
-(** The bound of a certificate (design, "Certificate of an answer"): how far any masses are from
-    the optimum, from their gradient alone. The bound [M] of the total mass belongs to the problem.
+(** The bound of a certificate in terms of the gradient z: how far any masses are from the optimum,
+    from their gradient alone. The checker evaluates the equivalent form (B) of
+    docs/derivations/certificate.md, which duality.v models. The bound [M] of the total mass
+    belongs to the problem.
 
       f(m) - f* <= - min over { t >= 0, sum t <= M } of
                      sum_j [ z_j (t_j - m_j) + lambda (t_j - m_j)^2 / V_j ] *)
@@ -87,7 +89,7 @@ Section Certificate.
         * replace (r - 0) with r by ring. exact hr.
   Qed.
 
-  (** What the checker evaluates: any multiplier mu >= 0 gives a bound. *)
+  (** With any multiplier mu >= 0, a bound. *)
   Definition bound p M m mu (s : nat -> K) : K :=
     sum (shapes p) (fun j => term p m mu j (s j)) + mu * (sum (shapes p) m - M).
 

@@ -27,8 +27,9 @@ Section Cone.
     rewrite e. apply sum_nonneg. intros j hj. apply mul_nonneg; [now apply hm | now apply no_shape].
   Qed.
 
-  (** Claim C14. The nearest point of the cone proves it either way: with s = U m - x at right
-      angles to U m and no shape below s, either s is zero or it separates. *)
+  (** Claim C14. With s = U m - x at right angles to U m, as at the nearest point of the cone,
+      s . x = - |s|^2: negative unless s is zero. If no shape is below s either, s separates
+      (separated_parameters_cannot_be_made). *)
   Theorem nearest_point_decides p x m :
     let s k := Phi p m k - x k in
     dot (parameters p) s (Phi p m) = 0 ->

@@ -1,4 +1,4 @@
-(** A shape is cut in two and keeps its density: nothing changes, and the optimum can only fall. *)
+(** A shape is cut in two and keeps its density: nothing changes, and the optimum never rises. *)
 From Coq Require Import Ring Field Arith Lia.
 From Shapeid Require Import ordered_field sums mass_problem.
 
@@ -8,7 +8,7 @@ Section Split.
   Implicit Types (p q : MassProblem K) (m t : nat -> K).
 
   (** [q] is [p] with shape [j] cut: the first part takes its place, the second is appended. The
-      columns of the parts add up to the whole's by volume (moments.v: whatever is cut by whatever
+      columns of the parts add up to the whole's by volume (body.v: whatever is cut by whatever
       surface). All rows, weights and lambda stay. *)
   Record cut p q (j : nat) : Prop := {
     place : (j < shapes p)%nat;

@@ -66,7 +66,7 @@ RC_GTEST_PROP(Moments, NearlyWholeBallsAgreeWithQuadrature, ()) {
   check_against_quadrature(ball);
 }
 
-// Equations (10)-(14) put the moments together about the link origin: undo it by the parallel axis
+// Equations (10)-(13) put the moments together about the link origin: undo it by the parallel axis
 // theorem.
 RC_GTEST_PROP(Moments, UnitParametersHoldThem, ()) {
   const Shape shape = *test::solid();
