@@ -13,7 +13,7 @@ namespace shapeid::diagnosis {
 
 struct Consistent {
   RichModel model;
-  Eigen::VectorXd Phi_error;  ///< 10 links: standard errors, zero for known links
+  Eigen::VectorXd Phi_error;  ///< 10 per link: standard errors, zero for known links
   /// Of the free links' parameters, effects fitted along: what the data say without the given
   /// inertias. Empty if no link is free.
   reference::Determination data;

@@ -75,9 +75,9 @@ inline constexpr double not_worse_t = 2.0;
 
 class BlockFits {
  public:
-  /// Unknown inertial parameters are deviations from `given` (10 links), with a prior of zero mean
-  /// and standard deviation `size` / sqrt(prior). Blocks are held out in `folds` contiguous groups;
-  /// of three logs and more, in these.
+  /// Unknown inertial parameters are deviations from `given` (10 per link), with a prior of zero
+  /// mean and standard deviation `size` / sqrt(prior). Blocks are held out in `folds` contiguous
+  /// groups; of three logs and more, in these.
   BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::VectorXd& size, int folds);
 
   void set_prior(double prior) { prior_ = prior; }

@@ -19,7 +19,7 @@ struct LoopState {
   Recording log;
   std::optional<Recording> reference;
   const LoopSettings& settings;
-  Eigen::VectorXd centre;  ///< of the prior, 10 links
+  Eigen::VectorXd centre;  ///< of the prior, 10 per link
   Term masses;             ///< columns of the free links
   TallyOptions tally_options;
   RichModel rigid;  ///< masses alone, as fitted before anything was sought

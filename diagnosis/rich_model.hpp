@@ -18,7 +18,7 @@ namespace shapeid::diagnosis {
 [[nodiscard]] AppliedEffect at_start(const Effect& effect, int site);
 
 struct RichModel {
-  Eigen::VectorXd Phi;  ///< 10 links of the robot
+  Eigen::VectorXd Phi;  ///< 10 per link of the robot
   std::vector<AppliedEffect> effects;
   std::vector<Curve> curves = {};  ///< added to what the others predict
 };
@@ -34,7 +34,7 @@ struct Neighbour {
 struct View {
   Sample sample;
   std::vector<reference::LinkMotion> motions;
-  Eigen::MatrixXd Y;  ///< dof x 10 links, before Transformation::rows
+  Eigen::MatrixXd Y;  ///< dof x (10 per link), before Transformation::rows
   Eigen::MatrixXd J;  ///< contact rows x dof, likewise
   /// J^T f of measured contact forces, dof, likewise; zero where they are not used. It is on the
   /// side of the prediction: a gain scales what the joints need not provide as well.

@@ -32,7 +32,7 @@ class RigidRows {
   /// What the fast path needs of the robot is copied.
   RigidRows(const Robot& robot, Path path);
 
-  /// dof x 10 links. `robot` is that of the construction.
+  /// dof x (10 per link). `robot` is that of the construction.
   [[nodiscard]] Eigen::MatrixXd regressor(const Robot& robot, const Sample& sample);
   /// Contact rows x dof.
   [[nodiscard]] Eigen::MatrixXd contact_jacobian(const Robot& robot, const Sample& sample);

@@ -18,7 +18,7 @@ class ShapeMasses {
   ShapeMasses(const BodyModel& shapes, MassProblem problem, const DivisionOptions& options,
               Path path);
 
-  /// 10 free links.
+  /// 10 per free link.
   [[nodiscard]] const Eigen::VectorXd& Phi() const { return Phi_; }
   /// Of the shapes as they are divided, for rows [Y F] in the place of the problem's; the masses
   /// so far are the start.

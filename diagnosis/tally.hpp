@@ -46,7 +46,7 @@ struct Modulation {
 
 struct Tally {
   std::vector<Block> blocks;  ///< in the order of time, those of a reference log first
-  Eigen::Index inertial = 0;  ///< columns of Y: 10 links, all of the robot
+  Eigen::Index inertial = 0;  ///< columns of Y: 10 per link of the robot
   std::vector<AppliedEffect> hypotheses;
   std::vector<Eigen::Index> first;  ///< column of each hypothesis
   std::vector<Modulation> modulations;

@@ -9,10 +9,10 @@
 namespace shapeid::diagnosis {
 
 struct Unnoticed {
-  /// 10 links: root of the mean square error that a number has if the effect that moves it most is
-  /// there, as large as the data allow; never below its standard error. Zero for known links.
+  /// 10 per link: root of the mean square error that a number has if the effect that moves it most
+  /// is there, as large as the data allow; never below its standard error. Zero for known links.
   Eigen::VectorXd error;
-  std::vector<std::string> effect;  ///< 10 links: that effect; empty where none moves the number
+  std::vector<std::string> effect;  ///< 10 per link: that effect; empty where none moves the number
 };
 
 /// A standard error takes for granted that nothing acts but what was found. A rotor's inertia that
@@ -28,8 +28,8 @@ struct Unnoticed {
                                   const LoopResult& loop, const Consistent& consistent);
 
 /// Whether the link's mass is below half or above twice the given one, by more than three of
-/// `error` (10 links; Unnoticed's, if there is one). One of the two is wrong then, and the log does
-/// not say which: effects without a name, taken for granted, may carry most of a body.
+/// `error` (10 per link; Unnoticed's, if there is one). One of the two is wrong then, and the log
+/// does not say which: effects without a name, taken for granted, may carry most of a body.
 [[nodiscard]] bool is_far_from_given(const Robot& robot, const Consistent& consistent,
                                      const Eigen::VectorXd& error, int link);
 

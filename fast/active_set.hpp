@@ -116,7 +116,7 @@ class ActiveSet {
   [[nodiscard]] const std::vector<int>& passive() const noexcept { return now_.passive(); }
   [[nodiscard]] const std::vector<double>& masses() const noexcept { return now_.masses(); }
   [[nodiscard]] const Eigen::VectorXd& Phi() const noexcept { return now_.Phi(); }
-  /// R^T (c - R Phi), 10 links.
+  /// R^T (c - R Phi), 10 per link.
   [[nodiscard]] const Eigen::VectorXd& slopes() const noexcept { return now_.slopes(); }
   [[nodiscard]] const Objective& value() const noexcept { return now_.value(); }
   /// Steps since save().

@@ -16,7 +16,7 @@ namespace shapeid::fast {
 /// Empty for lambda >= 0; also where it is so large that no answer can be had.
 [[nodiscard]] Violation why_no_lambda(double lambda);
 
-/// Empty if R has 10 links + 1 rows and columns. Its numbers are judged by the solver.
+/// Empty if R has 10 `links` + 1 rows and columns. Its numbers are judged by the solver.
 [[nodiscard]] Violation why_no_triangle(const Eigen::MatrixXd& R, int links);
 
 /// Empty if there are rows to solve for again: some triangle was solved.

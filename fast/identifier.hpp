@@ -20,12 +20,13 @@ namespace shapeid::fast {
 
 struct IdentifierSettings {
   ContactTreatment contacts = ContactTreatment::project;
-  Eigen::VectorXd weight;            ///< diagonal of W, generalised order; empty: ones
-  std::size_t window = 10;           ///< samples a window
-  std::size_t stride = 10;           ///< samples from one window to the next: 10 at 500 Hz is 20 ms
-  double alpha = 0.5;                ///< equation (17), in (0, 1]
-  double expected_mass = 0.0;        ///< M0 > 0, kg, of all free shapes together
-  std::optional<double> lambda;      ///< default: that of the first solved with forces, then kept
+  Eigen::VectorXd weight;      ///< diagonal of W, generalised order; empty: ones
+  std::size_t window = 10;     ///< samples a window
+  std::size_t stride = 10;     ///< samples from one window to the next: 10 at 500 Hz is 20 ms
+  double alpha = 0.5;          ///< equation (17), in (0, 1]
+  double expected_mass = 0.0;  ///< M0 > 0, kg, of all free shapes together
+  /// Default: computed from the first window with nonzero forces, then fixed.
+  std::optional<double> lambda;
   std::optional<double> mass_bound;  ///< kg, for the gap; default: ten times M0
   /// Windows start at the masses of the one before. If not, an answer depends on its window alone,
   /// to the last bit: what a restart in the middle of a stream needs.
@@ -80,7 +81,7 @@ class Identifier {
   }
   /// Parameters of the free links, 10 each, before filter (17).
   [[nodiscard]] const Eigen::VectorXd& Phi() const noexcept { return Phi_; }
-  /// Phi_bar of the free links (17); the optimum of no window.
+  /// Phi_bar of the free links (17). It does not minimise any single window's objective.
   [[nodiscard]] const Eigen::VectorXd& filtered() const noexcept { return filtered_; }
   /// How the last window's solve ended.
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }

@@ -14,7 +14,7 @@ namespace shapeid::fast {
 /// Newton-Euler sweep over the links that have parameters, or carry such links.
 class InverseDynamics {
  public:
-  /// `Phi`: 10 links of the robot, stacked. The only call that allocates.
+  /// `Phi`: 10 per link of the robot, stacked. The only call that allocates.
   InverseDynamics(const Robot& robot, const Eigen::VectorXd& Phi);
 
   /// H qddot + C qdot + G of the sample that the kinematics of the same robot were started with, in

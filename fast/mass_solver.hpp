@@ -37,7 +37,7 @@ class MassSolver {
   /// lambda >= 0.
   void set_lambda(double lambda) noexcept;
 
-  /// Solves for the triangle [R c], (10 links + 1) x (10 links + 1) as Triangle::R() has it,
+  /// Solves for the triangle [R c], 10 n + 1 square for n links, as Triangle::R() has it,
   /// starting from the present masses, or without where these are of little use. R is not copied:
   /// it must live, and stay as it is, as long as divide(), solve_again() or why_changed() are used
   /// after it. If the call declines, these speak of the triangle that was solved last, which
@@ -67,7 +67,7 @@ class MassSolver {
   [[nodiscard]] auto m() const noexcept { return m_.head(shapes()); }
   /// m^3, one a shape.
   [[nodiscard]] auto V() const noexcept { return V_.head(shapes()); }
-  /// U m: 10 links.
+  /// U m: 10 per link.
   [[nodiscard]] const Eigen::VectorXd& Phi() const noexcept { return method_.Phi(); }
   /// f(m), the constant that no parameter reaches included.
   [[nodiscard]] const Objective& value() const noexcept { return method_.value(); }

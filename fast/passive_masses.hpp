@@ -109,7 +109,7 @@ class PassiveMasses {
   }
   [[nodiscard]] const std::vector<double>& masses() const noexcept { return masses_; }
   [[nodiscard]] const Eigen::VectorXd& Phi() const noexcept { return Phi_; }
-  /// R^T (c - R Phi), 10 links.
+  /// R^T (c - R Phi), 10 per link.
   [[nodiscard]] const Eigen::VectorXd& slopes() const noexcept { return slopes_; }
   [[nodiscard]] const Objective& value() const noexcept { return value_; }
   [[nodiscard]] double lambda() const noexcept { return lambda_; }

@@ -22,7 +22,7 @@ class PassiveSet {
   PassiveSet& operator=(const PassiveSet&) = delete;
   virtual ~PassiveSet() = default;
 
-  /// No passive shapes; the rows are those of the triangle R, (10 links + 1) x (10 links + 1),
+  /// No passive shapes; the rows are those of the triangle R, 10 n + 1 square for n links,
   /// which must stay as it is until the next start.
   virtual void start(const Eigen::MatrixXd& R) noexcept = 0;
 
@@ -54,8 +54,8 @@ class PassiveSet {
 
   /// Masses of the passive shapes (kg, of any sign) at their minimum; the first entries count.
   [[nodiscard]] virtual const Eigen::VectorXd& target() noexcept = 0;
-  /// A better target: one step of iterative refinement. `slopes` = R^T (c - R U m), 10 links, come
-  /// from the masses m of the present target alone. Only after target().
+  /// A better target: one step of iterative refinement. `slopes` = R^T (c - R U m), 10 per link,
+  /// come from the masses m of the present target alone. Only after target().
   virtual void refine(const Eigen::VectorXd& slopes) noexcept = 0;
   /// Whether slopes() are known without those of the residual, at no cost.
   [[nodiscard]] virtual bool keeps_slopes() const noexcept { return false; }

@@ -26,7 +26,7 @@ void write_columns(Kinematics& kinematics, int link,
 /// The same matrix as `reference::regressor`, of which it keeps the columns of the wanted links,
 /// under the same contract:
 ///
-/// Equations (2)-(3): Y with Y Phi = H qddot + C qdot + G, dof x 10 links. Rows in generalised
+/// Equations (2)-(3): Y with Y Phi = H qddot + C qdot + G, dof x (10 per link). Rows in generalised
 /// order: base force (N) and moment about the base origin (N m) in base axes, then joint torques.
 /// Columns: ten for each wanted link in the order they were wanted in. A fixed root's columns are
 /// zero.

@@ -41,7 +41,7 @@ class SampleRows {
   /// throws.
   [[nodiscard]] Verdict update(const Sample& sample) noexcept;
 
-  /// [Y F] at the last update: rows x (10 free links + 1). Valid until the next.
+  /// [Y F] at the last update: rows x (10 n + 1), n free links. Valid until the next.
   [[nodiscard]] Eigen::Block<const Eigen::MatrixXd> rows() const noexcept {
     return rows_.block(first_, 0, count_, rows_.cols());
   }

@@ -39,9 +39,9 @@ class ShapeColumns {
   /// All columns, one behind the other.
   [[nodiscard]] const double* data() const noexcept { return columns_.data(); }
 
-  /// What slopes are judged by. `lengths`: of the columns of R, or upper bounds of them (10 links);
-  /// `length`: of the right-hand side. No slope u_j . g that comes from a right-hand side of this
-  /// length is larger than length x sum_i |u_ij| lengths_i.
+  /// What slopes are judged by. `lengths`: of the columns of R, or upper bounds of them (10 per
+  /// link); `length`: of the right-hand side. No slope u_j . g that comes from a right-hand side of
+  /// this length is larger than length x sum_i |u_ij| lengths_i.
   void set_scale(const Eigen::VectorXd& lengths, double length) noexcept;
   /// No price is asked until the next set_scale(): columns that come until then are priced by it.
   void forget_scale() noexcept { has_scale_ = false; }
@@ -60,7 +60,7 @@ class ShapeColumns {
   }
 
   /// The shape of the largest price, if it exceeds `threshold`; of those that are not barred. -1 if
-  /// there is none. `g`: 10 links entries. All shapes are priced in single precision; double
+  /// there is none. `g`: 10 per link. All shapes are priced in single precision; double
   /// decides where single cannot.
   [[nodiscard]] int steepest(const Eigen::VectorXd& g, double threshold) noexcept;
   /// The same; but if there is none, that of the largest price by its own terms, its slope over

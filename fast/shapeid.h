@@ -170,7 +170,7 @@ shapeid_status shapeid_get_answer(const shapeid_identifier* identifier, shapeid_
  * if there is no such link. What the pointer shows is the identifier's: valid until
  * shapeid_destroy(), renewed by each feed that answers. */
 const double* shapeid_parameters(const shapeid_identifier* identifier, size_t free_link);
-/** The same after filter (17). It is the optimum of no window. */
+/** The same after filter (17). It does not minimise any single window's objective. */
 const double* shapeid_filtered_parameters(const shapeid_identifier* identifier, size_t free_link);
 /** Masses of the shapes before any division, kg, in the order of shapes.yaml: shapeid_shape_count()
  * numbers, valid as above; NULL for NULL. */

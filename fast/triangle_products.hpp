@@ -22,7 +22,7 @@ void add_column(const Eigen::MatrixXd& R, int link, const double* u, double* a) 
 void link_columns(const Eigen::MatrixXd& R, int link, const TenRows& E, int rank,
                   Eigen::Index apart, double* a, Eigen::Index stride) noexcept;
 
-/// g = R^T r: 10 links.
+/// g = R^T r: 10 per link.
 void slopes_of(const Eigen::MatrixXd& R, const Eigen::VectorXd& r, Eigen::VectorXd& g) noexcept;
 
 /// Sums of the absolute values in each column of R: upper bounds of the columns' lengths, without

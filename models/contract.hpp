@@ -22,7 +22,9 @@ void demand(const Violation& violation, const char* file, int line);
 
 }  // namespace shapeid
 
-// The one macro of the project: the argument is not even evaluated in release builds.
+// The argument is not even evaluated in release builds. The only macro of the libraries besides
+// SHAPEID_WIDE and SHAPEID_WIDE_AND_MANY, which mark what is compiled for several processors
+// (fast/wide.hpp).
 #ifdef NDEBUG
 #define SHAPEID_CONTRACT(violation) static_cast<void>(0)
 #else

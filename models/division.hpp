@@ -10,8 +10,8 @@
 namespace shapeid {
 
 /// A part that came about by this many cuts is not cut any further: it has 1e-12 of its shape's
-/// volume, and where it lies inside is nothing to the moments. Without an end a criterion that
-/// prefers dense shapes would cut one and the same until rounding forbids it.
+/// volume, and its position inside the shape no longer affects the moments. Without a limit a
+/// criterion that prefers dense shapes would cut one and the same until rounding forbids it.
 inline constexpr int most_cuts = 40;
 
 /// Equation (16), scaled to be free of units: v = k1 (m/M0)(V/V0) + k2 (m/M0)/(V/V0).

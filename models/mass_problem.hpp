@@ -15,18 +15,20 @@ namespace shapeid {
 /// integral of density squared. Y and U are kept apart because Y U rounded to double loses its
 /// exact rank of ten a link. W is the weight itself, never its square root.
 struct MassProblem {
-  Eigen::MatrixXd Y;        ///< rows x 10 free links
-  Eigen::VectorXd F;        ///< rows: what the free links must explain (known links moved over)
-  Eigen::VectorXd W;        ///< rows: positive weights
-  Eigen::MatrixXd U;        ///< 10 free links x shapes: unit parameters, one column a shape
-  Eigen::VectorXd V;        ///< shapes: volumes, m^3
-  double lambda = 0.0;      ///< >= 0
-  double mass_bound = 0.0;  ///< kg: a declared bound on the sum of m, used by certificates only
+  Eigen::MatrixXd Y;    ///< rows x (10 per free link)
+  Eigen::VectorXd F;    ///< rows: what the free links must explain (known links moved over)
+  Eigen::VectorXd W;    ///< rows: positive weights
+  Eigen::MatrixXd U;    ///< (10 per free link) x shapes: unit parameters, one column a shape
+  Eigen::VectorXd V;    ///< shapes: volumes, m^3
+  double lambda = 0.0;  ///< >= 0
+  /// kg: a declared bound on the sum of m, used by certificates only; 0: none is declared.
+  double mass_bound = 0.0;
 
   [[nodiscard]] Eigen::Index shapes() const { return U.cols(); }
 };
 
-/// Empty if sizes agree and all numbers are finite and of the right sign.
+/// Empty if sizes agree, all numbers but mass_bound are finite, and W, V and lambda have the right
+/// sign. The mass bound is checked with the StatedProblem.
 [[nodiscard]] Violation why_malformed(const MassProblem& problem);
 
 /// f(m), with the data term and the density term apart.
@@ -43,7 +45,7 @@ struct Objective {
 
 struct MassSolution {
   Eigen::VectorXd m;         ///< kg, >= 0
-  Eigen::VectorXd Phi;       ///< U m, 10 free links
+  Eigen::VectorXd Phi;       ///< U m, 10 per free link
   Objective value;           ///< f at m
   std::vector<bool> active;  ///< which bounds m_j = 0 hold with equality by the solver's choice
   int iterations = 0;

@@ -32,8 +32,9 @@ struct MotionOptions {
   int order = 2;         ///< of one pass, 1 to 8
   double rate = 0.0;     ///< Hz of the regular grid; 0: the log's median rate. Not below that.
   double gap = 5.0;      ///< a channel's step longer than this many of its median steps is a gap
-  /// Joint velocities from the logged dq instead of the differentiated q. Drives often log a
-  /// velocity that is a sample late or filtered on its own, so this is not the default.
+  /// Joint velocities from the logged dq instead of the differentiated q, and accelerations from
+  /// its first derivative instead of q's second. Drives often log a velocity that is a sample late
+  /// or filtered on its own, so this is not the default.
   bool use_logged_velocity = false;
   /// Logged dq, ddq and base.gyrodot are used as they are (simulation). Nothing is resampled,
   /// filtered or differentiated, and `smoothing` does not count.

@@ -137,7 +137,7 @@ struct Robot {
 /// Empty if indices, axes, poses and inertias are as promised above.
 [[nodiscard]] Violation why_malformed(const Robot& robot);
 
-/// All links' parameters stacked: 10 links.
+/// The parameters of all links stacked, 10 per link.
 [[nodiscard]] Eigen::VectorXd stacked_parameters(const Robot& robot);
 
 }  // namespace shapeid

@@ -18,7 +18,7 @@ struct RobotNotes {
     double lower = 0.0, upper = 0.0;  ///< kg
   };
   std::map<std::string, MassRange> expected_mass;  ///< per free link, or "load"
-  bool contacts_given = false;  ///< the robot's contacts are those of the file, if only none
+  bool contacts_given = false;  ///< the file lists the contacts (possibly an empty list)
 };
 
 /// Reads robot.yaml and puts its contacts (replacing those there) and rotors into `robot`. Throws

@@ -25,8 +25,9 @@ struct Determination {
   /// The error, widened for few blocks, is below `largest_share` of the size that the shapes could
   /// give the parameter.
   std::vector<bool> determined;
-  int rank = 0;        ///< directions of parameter space that the rows reach
-  double wider = 1.0;  ///< what errors are multiplied by for few blocks, at two of them
+  int rank = 0;  ///< directions of parameter space that the rows reach
+  /// Factor by which an interval of two standard errors is widened for few blocks (Student's t).
+  double wider = 1.0;
 
   /// Whether a number of this parameter lies within three of its widened errors from `value`.
   [[nodiscard]] bool agrees(Eigen::Index parameter, double number) const {
@@ -40,8 +41,8 @@ inline constexpr double largest_share = 0.5;
 /// The spread of answers that each miss one block (jackknife), of plain least squares by
 /// Phi = (Y^T Y)^+ Y^T F: variance (K - 1) / K sum_k d_k^2 with
 /// d_k = (Y^T Y - Y_k^T Y_k)^-1 Y_k^T (Y_k Phi - F_k) (Bell, McCaffrey 2002; within 1 / K of that
-/// around the answers' mean). The sandwich of the residuals as they are (Liang, Zeger 1986) is
-/// blind to what a block alone determines: there its residual is nothing.
+/// around the answers' mean). The sandwich of the residuals as they are (Liang, Zeger 1986)
+/// misses directions determined by a single block, whose residual is zero there.
 /// `natural_size`: for each parameter the size it could have, in its unit; positive. It scales the
 /// columns, so that rank and shares do not depend on units.
 [[nodiscard]] Determination determine(const std::vector<RowBlock>& blocks,

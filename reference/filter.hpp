@@ -9,7 +9,8 @@ namespace shapeid::reference {
 
 /// Phi_bar_k = alpha Phi_k + (1 - alpha) Phi_bar_(k-1), started at the first Phi. A convex
 /// combination of consistent parameters is consistent, since the cone of pseudo-inertias is convex.
-/// The filtered parameters are the optimum of no window: report objectives before this filter.
+/// The filtered parameters do not minimise any single window's objective: report objectives before
+/// this filter.
 class ParameterFilter {
  public:
   /// `alpha` in (0, 1]; 1 does not smooth. Throws std::invalid_argument otherwise.

@@ -19,12 +19,13 @@ namespace shapeid::reference {
 
 struct IdentifySettings {
   ContactTreatment contacts = ContactTreatment::project;
-  Eigen::VectorXd weight;            ///< diagonal of W, generalised order; empty: ones
-  double expected_mass = 0.0;        ///< M0 > 0, kg, of all free shapes together
-  std::optional<double> lambda;      ///< default: default_lambda()
-  std::optional<double> mass_bound;  ///< kg; default: ten times M0, or twice what is found
-  DivisionOptions division;          ///< most_divisions = 0 solves once and does not divide
-  double block_seconds = 0.5;        ///< contiguous blocks for standard errors
+  Eigen::VectorXd weight;        ///< diagonal of W, generalised order; empty: ones
+  double expected_mass = 0.0;    ///< M0 > 0, kg, of all free shapes together
+  std::optional<double> lambda;  ///< default: default_lambda()
+  /// kg; default: the larger of ten times M0 and twice what is found.
+  std::optional<double> mass_bound;
+  DivisionOptions division;    ///< most_divisions = 0 solves once and does not divide
+  double block_seconds = 0.5;  ///< contiguous blocks for standard errors
   /// Low-pass the rows in time; the samples then need little smoothing of their own.
   std::optional<RowFilterOptions> row_filter;
   /// Rows of a sample when more than rigid links is known of the robot (friction, ...); empty:
@@ -49,7 +50,8 @@ using SampleStream = std::function<std::optional<Sample>()>;
 
 /// The rows of a stream, weighted and free of contact forces, as contiguous blocks of time.
 struct CompressedRows {
-  std::vector<RowBlock> blocks;  ///< fewer than most_blocks; neighbours merge when there are more
+  /// Fewer than most_blocks: neighbours merge when there are that many.
+  std::vector<RowBlock> blocks;
   std::size_t samples = 0;
 };
 
@@ -62,23 +64,25 @@ struct CompressedRows {
 
 /// Identifies the free links of `model` from at least two blocks, whose spread is what errors are
 /// judged by. Throws Refusal "not-excited" if the rows determine no parameter at all, "too-short"
-/// if the blocks are so few or so unlike that nothing tells.
+/// if the blocks are so few or so unlike that nothing tells, "not-finite" as solve_masses() does;
+/// std::invalid_argument for division options, or an expected mass, that make no sense.
 [[nodiscard]] Identification identify(const BodyModel& model, const CompressedRows& rows,
                                       const IdentifySettings& settings,
                                       const std::function<void(const DivisionRun&)>& watch = {});
 
 /// Identifies the free links of `model`. Memory does not grow with the stream: blocks are
-/// triangles, and neighbours merge when there are more than most_blocks of them. Throws Refusal
-/// "no-data" for an empty stream, "too-short" for a single block (no spread to judge by) or
-/// too few, "not-excited" if the rows determine no parameter at all.
+/// triangles, and neighbours merge when there are most_blocks of them. Throws Refusal "no-data" for
+/// an empty stream, "too-short" for a single block (no spread to judge by); what the rows of a
+/// sample, the row filter and the function above throw is thrown here as well.
 [[nodiscard]] Identification identify(const Robot& robot, const BodyModel& model,
                                       const SampleStream& next, const IdentifySettings& settings,
                                       const std::function<void(const DivisionRun&)>& watch = {});
 
 inline constexpr std::size_t most_blocks = 64;
 
-/// For each parameter of the free links the largest size that the link's mass (kg, one a free link)
-/// can give it within the shapes. Empty if no link is free.
+/// For each parameter of the free links the largest size that the link's mass (`masses`: kg, one a
+/// free link) gives it in one whole shape; of a group (first moments, tensor) none is less than a
+/// tenth of the largest. Positive where the link's mass is. Empty if no link is free.
 [[nodiscard]] Eigen::VectorXd sizes_of_links(const BodyModel& model, const Eigen::VectorXd& masses);
 
 /// The same with M0 shared among the links as the volume of their shapes.

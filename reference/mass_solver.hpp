@@ -11,8 +11,9 @@ namespace shapeid::reference {
 /// Minimiser of the problem, started from `start` (kg, any m >= 0; zeros for a cold start). The
 /// shapes with mass at the start are free in the first KKT system. For lambda > 0 the answer does
 /// not depend on the start; for lambda = 0 it is one of the minimisers. Masses are exactly zero or
-/// positive. Throws Defect if the iteration bound, stated in the source with its reason, is
-/// exceeded.
+/// positive. Throws Refusal "not-finite" if numbers of the problem are not finite, or so large that
+/// they are not as soon as they are computed with; Defect if the iteration bound, stated in the
+/// source with its reason, is exceeded.
 [[nodiscard]] MassSolution solve_masses(const MassProblem& problem, const Eigen::VectorXd& start);
 [[nodiscard]] MassSolution solve_masses(const MassProblem& problem);
 

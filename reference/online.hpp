@@ -18,19 +18,20 @@ namespace shapeid::reference {
 
 struct OnlineSettings {
   ContactTreatment contacts = ContactTreatment::project;
-  Eigen::VectorXd weight;        ///< diagonal of W; empty: ones
-  std::size_t window = 10;       ///< samples a window
-  std::size_t stride = 10;       ///< samples from one window to the next: 10 at 500 Hz is 20 ms
-  double alpha = 0.5;            ///< equation (17)
-  double expected_mass = 0.0;    ///< M0 > 0, kg
-  std::optional<double> lambda;  ///< default: that of the first solved with forces, then kept
+  Eigen::VectorXd weight;      ///< diagonal of W; empty: ones
+  std::size_t window = 10;     ///< samples a window
+  std::size_t stride = 10;     ///< samples from one window to the next: 10 at 500 Hz is 20 ms
+  double alpha = 0.5;          ///< equation (17)
+  double expected_mass = 0.0;  ///< M0 > 0, kg
+  /// Default: computed from the first window with nonzero forces, then fixed.
+  std::optional<double> lambda;
 };
 
 /// One window's answer.
 struct OnlineResult {
   double time = 0.0;         ///< s, of the window's last sample
   MassSolution solution;     ///< before the filter
-  Eigen::VectorXd filtered;  ///< Phi_bar of the free links (17); the optimum of no window
+  Eigen::VectorXd filtered;  ///< Phi_bar of the free links (17); minimises no single window's f
 };
 
 /// Feed samples; every `stride` samples a window is solved, started at the last masses.

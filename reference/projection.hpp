@@ -23,14 +23,15 @@ struct ContactFreeBasis {
                                                   const Eigen::VectorXd& weight);
 
 /// Rows of one sample with contact forces eliminated: minimising || Y Phi - F || over Phi is
-/// minimising || W^(1/2) (Y_full Phi - S^T tau - J^T f) || over Phi and f (equation (9) for W = I).
+/// minimising || W^(1/2) (Y_full Phi - F_full - J^T f) || over Phi and f (equation (9) for W = I).
 struct ContactFreeRows {
   Eigen::MatrixXd Y;  ///< Q2^T W^(1/2) Y_full
-  Eigen::VectorXd F;  ///< Q2^T W^(1/2) S^T tau
+  Eigen::VectorXd F;  ///< Q2^T W^(1/2) F_full
   int rank = 0;       ///< of W^(1/2) J^T: how many rows the forces took
 };
 
-/// `Y` rows x columns, `F` = S^T tau (rows), `J` contact rows x rows, `weight` the diagonal of W.
+/// `Y` (Y_full): rows x columns. `F` (F_full), rows: S^T tau, less what known links take
+/// (SampleRows). `J`: contact rows x rows. `weight`: the diagonal of W.
 [[nodiscard]] ContactFreeRows eliminate_contacts(const Eigen::MatrixXd& Y, const Eigen::VectorXd& F,
                                                  const Eigen::MatrixXd& J,
                                                  const Eigen::VectorXd& weight);

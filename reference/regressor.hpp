@@ -9,7 +9,7 @@
 
 namespace shapeid::reference {
 
-/// Equations (2)-(3): Y with Y Phi = H qddot + C qdot + G, dof x 10 links. Rows in generalised
+/// Equations (2)-(3): Y with Y Phi = H qddot + C qdot + G, dof x (10 per link). Rows in generalised
 /// order: base force (N) and moment about the base origin (N m) in base axes, then joint torques.
 /// Columns: ten for each link in the robot's order. A fixed root's columns are zero.
 [[nodiscard]] Eigen::MatrixXd regressor(const Robot& robot, const Sample& sample);

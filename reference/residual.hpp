@@ -14,7 +14,7 @@ namespace shapeid::reference {
 
 /// P (Y Phi - S^T tau) in generalised order: predicted minus logged force, after the part that
 /// contact forces could explain is taken out (P = I - J^T (J^T)^+) or, with measured forces, moved
-/// over (4). `Phi`: 10 links, all of the robot.
+/// over (4). `Phi`: 10 per link of the robot.
 [[nodiscard]] Eigen::VectorXd residual(const Robot& robot, const Sample& sample,
                                        const Eigen::VectorXd& Phi, ContactTreatment contacts);
 

@@ -26,7 +26,7 @@ struct RowFilterOptions {
 /// Rows of one instant after the filter: Y Phi = F.
 struct FilteredRows {
   double time;        ///< s
-  Eigen::MatrixXd Y;  ///< dof x 10 free links
+  Eigen::MatrixXd Y;  ///< dof x (10 per free link)
   Eigen::VectorXd F;  ///< dof
 };
 

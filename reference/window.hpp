@@ -30,7 +30,7 @@ class Window {
   void clear();
 
   [[nodiscard]] std::size_t samples() const { return samples_; }
-  /// Rows of the free links: Y (rows x 10 free links) and F with the known links moved over.
+  /// Rows of the free links: Y, rows x (10 per free link), and F with the known links moved over.
   [[nodiscard]] Eigen::MatrixXd Y() const;
   [[nodiscard]] Eigen::VectorXd F() const;
 

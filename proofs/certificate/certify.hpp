@@ -64,7 +64,7 @@ struct Proof {
   /// The same of kg, kg m, kg m^2.
   Eigen::Vector3d parameter_distance = Eigen::Vector3d::Zero();
   bool made_of_shapes = false;  ///< the parameters claimed are exactly U m for some m >= 0
-  Eigen::VectorXd plane;        ///< if not: a separating plane, rounded (10 free links), else empty
+  Eigen::VectorXd plane;  ///< if not: a separating plane, rounded, 10 per free link; else empty
   std::vector<Existence> bodies;  ///< of the free links, U m exactly
   std::optional<double> floor;    ///< of infinitely many divisions; empty: none above zero
   Ordered relaxations;

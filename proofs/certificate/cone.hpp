@@ -12,7 +12,7 @@ namespace shapeid::certificate {
 struct NearestBody {
   Vector m;
   Rational square_distance;  ///< zero: U m = Phi exactly
-  Vector plane;              ///< 10 links; zeros if U m = Phi
+  Vector plane;              ///< 10 per free link; zeros if U m = Phi
 };
 
 /// By the method of Lawson and Hanson in exact arithmetic, which ends.

@@ -10,7 +10,7 @@ namespace shapeid::certificate {
 
 /// Claim C15. No mass distribution in the regions has a lower data term, however finely divided;
 /// nor have the shapes, with their columns as they are written (rounding may put a column outside
-/// of what its shape can make). From the residual of any parameters (10 free links) and other
+/// of what its shape can make). From the residual of any parameters (10 per free link) and other
 /// unknowns: the nearer they are to the limit, the higher the floor. For masses that add up to no
 /// more than the declared mass bound. Empty if the problem has no regions on some free link, or no
 /// declared bound where one is needed.

@@ -8,7 +8,7 @@
 
 namespace shapeid::certificate {
 
-/// A point of a problem in doubles, near some optimum: parameters (10 free links) and the other
+/// A point of a problem in doubles, near some optimum: parameters (10 per free link) and the other
 /// unknowns. Without parameters: none. What is proved from it does not ask who computed it.
 struct Guess {
   Eigen::VectorXd parameters, others;

@@ -13,7 +13,7 @@ namespace shapeid::test {
 
 /// Shapes on the links of a triangle.
 struct TriangleCase {
-  Eigen::MatrixXd R;       ///< (10 links + 1) x (10 links + 1)
+  Eigen::MatrixXd R;       ///< 10 n + 1 square, n links
   std::vector<int> links;  ///< of each shape
   MassProblem problem;     ///< Y and F are the columns of R, the weights are one
 

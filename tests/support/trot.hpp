@@ -20,7 +20,7 @@ enum class Noise {
 /// `count` samples at 500 Hz. Joints and base follow sums of sines; two diagonal feet stand at a
 /// time. Two point contacts cannot exert a moment about the line between them, so the base's
 /// acceleration is corrected, by as little as possible, until none is needed; then the forces of
-/// the feet and the torques follow from Phi (10 links, stacked). Noise comes after that.
+/// the feet and the torques follow from Phi (10 per link, stacked). Noise comes after that.
 [[nodiscard]] std::vector<Sample> trot(const Robot& robot, const Eigen::VectorXd& Phi,
                                        std::uint64_t seed, std::size_t count, Noise noise);
 

@@ -19,13 +19,13 @@ struct PinocchioMotion {
 
 class PinocchioRobot {
  public:
-  /// A floating robot of revolute joints; link inertias from Phi (10 links, our order).
+  /// A floating robot of revolute joints; link inertias from Phi (10 per link, our order).
   PinocchioRobot(const Robot& robot, const Eigen::VectorXd& Phi);
   ~PinocchioRobot();
 
   [[nodiscard]] static PinocchioMotion motion(const Sample& sample);
 
-  /// computeJointTorqueRegressor: dof x 10 links. Six inertia entries of each link stand in
+  /// computeJointTorqueRegressor: dof x (10 per link). Six inertia entries of each link stand in
   /// Pinocchio's order: Ixx Ixy Iyy Ixz Iyz Izz.
   const Eigen::MatrixXd& regressor(const PinocchioMotion& motion);
   /// bodyRegressor of the base alone: its six rows, without any other link's kinematics.

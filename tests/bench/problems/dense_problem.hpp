@@ -18,7 +18,7 @@ struct Cut {
   double first_share;  ///< of the volume
 };
 
-/// A mass problem whose rows are compressed: Y is the triangle R (10 links x 10 links), F the
+/// A mass problem whose rows are compressed: Y is the triangle R (10 n square, n links), F the
 /// right-hand side's part that parameters can reach, W is one. Columns of U stand link by link.
 struct DenseProblem {
   MassProblem triangle;
