@@ -22,7 +22,7 @@ constexpr double mostly_fast = 0.8;
 constexpr double motion_as_fast = 2.0;
 
 // Of what a finding gained: of 150 on drawn arms four false ones had a tenth of it at most behind
-// the slower filter, and all others more than it (docs/derivations/diagnosis.md).
+// the slower filter, and all others more than it (docs/derivations/diagnosis-history.md).
 constexpr double kept_share = 0.5;
 
 /// Of unit power still, and without ends from which a slow motion would seem fast.

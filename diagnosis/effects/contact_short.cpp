@@ -20,7 +20,7 @@ Effect contact_short() {
   e.confused_with = {"external_force on the same leg", "contact_point"};
   e.separate_by = "log foot switches, or declare contacts longer";
   e.under_contact = "seen: nothing projects the force away";
-  e.source = "docs/derivations/diagnosis.md";
+  e.source = "docs/derivations/diagnosis-rows.md";
   e.sought_first = true;
   e.transform.sample = touching;
   return e;
