@@ -296,7 +296,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   if (run.test.usable(run.test_stride).empty()) {
     throw Refusal("no-data", "nothing is left to test on; give --test, or a longer log");
   }
-  diagnosis::check_clocks(robot.robot, log.recording, run.settings);
+  diagnosis::check_clocks(robot.robot, log.recording, run.settings, log.starts);
   if (earlier) {
     check_other(options.reference,
                 [&] { diagnosis::check_clocks(robot.robot, earlier->recording, run.settings); });
@@ -304,7 +304,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   if (!split) {
     check_other(fmt::format("{}", fmt::join(options.test, ", ")), [&] {
       diagnosis::check_meaning(robot.robot, run.test, log.contacts);
-      diagnosis::check_clocks(robot.robot, run.test, run.settings);
+      diagnosis::check_clocks(robot.robot, run.test, run.settings, test.starts);
     });
   }
   const SameLogs same{robot,       options.inputs,  fitted_logs(options),

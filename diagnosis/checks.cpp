@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "shapeid/diagnosis/candidates.hpp"
@@ -148,31 +149,8 @@ void check_contact_labels(const Robot& robot, const Recording& recording) {
   }
 }
 
-}  // namespace
-
-void check_recording(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
-  if (recording.samples().empty()) throw Refusal("no-data", "the log has no usable sample");
-  check_excitation(robot, recording);
-  check_meaning(robot, recording, contacts);
-}
-
-void check_meaning(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
-  check_torque_scale(robot, recording, contacts);
-  check_base(robot, recording, contacts);
-  check_joint_zeros(robot, recording, contacts);
-  if (contacts == ContactTreatment::project) check_contact_labels(robot, recording);
-}
-
-void check_clocks(const Robot& robot, const Recording& recording, const LoopSettings& settings) {
-  const std::vector<AppliedEffect> delay = {at_start(*find_effect("torque_delay"), 0)};
-  Tally tally = empty_tally(robot, delay);
-  TallyOptions options;
-  options.stride = settings.stride;
-  options.weight = Eigen::VectorXd::Ones(robot.dof());
-  constexpr double blocks = 40.0;
-  options.block_seconds = recording.duration() / blocks;
-  const RichModel given{stacked_parameters(robot), {}};
-  add_to_tally(tally, robot, settings.rows, given, recording, options, false);
+/// Of one log.
+void check_clock(Tally tally, const RichModel& given, const LoopSettings& settings) {
   const Eigen::Index column = tally.inertial;
   const std::size_t half = tally.blocks.size() / 2;
   if (half < 4) return;
@@ -192,4 +170,41 @@ void check_clocks(const Robot& robot, const Recording& recording, const LoopSett
   }
 }
 
+}  // namespace
+
+void check_recording(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
+  if (recording.samples().empty()) throw Refusal("no-data", "the log has no usable sample");
+  check_excitation(robot, recording);
+  check_meaning(robot, recording, contacts);
+}
+
+void check_meaning(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
+  check_torque_scale(robot, recording, contacts);
+  check_base(robot, recording, contacts);
+  check_joint_zeros(robot, recording, contacts);
+  if (contacts == ContactTreatment::project) check_contact_labels(robot, recording);
+}
+
+void check_clocks(const Robot& robot, const Recording& recording, const LoopSettings& settings,
+                  const std::vector<std::size_t>& log_starts) {
+  const std::vector<AppliedEffect> delay = {at_start(*find_effect("torque_delay"), 0)};
+  const Tally nothing = empty_tally(robot, delay);
+  Tally all = nothing;
+  TallyOptions options;
+  options.stride = settings.stride;
+  options.weight = Eigen::VectorXd::Ones(robot.dof());
+  options.log_starts = log_starts;
+  constexpr double blocks = 40.0;
+  options.block_seconds =
+      recording.duration() / (blocks * static_cast<double>(log_starts.size() + 1));
+  const RichModel given{stacked_parameters(robot), {}};
+  add_to_tally(all, robot, settings.rows, given, recording, options, false);
+  // Each log by itself: clocks that were set anew between two logs do not drift.
+  for (std::size_t log = 0; log <= log_starts.size(); ++log) {
+    Tally own = nothing;
+    std::ranges::copy_if(all.blocks, std::back_inserter(own.blocks),
+                         [log](const Block& block) { return block.log == log; });
+    check_clock(std::move(own), given, settings);
+  }
+}
 }  // namespace shapeid::diagnosis

@@ -12,7 +12,8 @@ void check_recording(const Robot& robot, const Recording& recording, ContactTrea
 
 /// What holds of a log that is only tested on, too. Throws Refusal:
 ///  * "torque-scale": the torque that the given model predicts, and that the logged one follows,
-///    differs from it by the same large factor at every joint: a current, or the motor's side;
+///    is below a quarter or above four times of it at every joint where that tells: a current, or
+///    the motor's side;
 ///  * "torque-sign": the logged torque has the other sign at every joint where it tells;
 ///  * "upside-down": the base, if it hangs, explains far more;
 ///  * "joint-zero": so do joints that are read a quarter or half a turn further (joint_zeros.hpp);
@@ -23,7 +24,9 @@ void check_recording(const Robot& robot, const Recording& recording, ContactTrea
 void check_meaning(const Robot& robot, const Recording& recording, ContactTreatment contacts);
 
 /// Throws Refusal "clock-skew" if torque and joints drift apart in time: the delay that explains
-/// the first half of the log best differs from that of the second half.
-void check_clocks(const Robot& robot, const Recording& recording, const LoopSettings& settings);
+/// the first half of a log best differs from that of its second half. `log_starts`: samples at
+/// which further logs begin.
+void check_clocks(const Robot& robot, const Recording& recording, const LoopSettings& settings,
+                  const std::vector<std::size_t>& log_starts = {});
 
 }  // namespace shapeid::diagnosis

@@ -40,6 +40,8 @@ struct ShapeNumber {
   double lower = 0.0, upper = 0.0, start = 0.0;  ///< positive; searched in the logarithm
   /// Relative range of the search about where screening found it; 0: from lower to upper.
   double nearby = 0.0;
+  /// A time, s: screening finds it to a block of the log, so it is sought evenly within one.
+  bool is_moment = false;
 };
 
 /// What a sample's neighbours in the log tell of it.

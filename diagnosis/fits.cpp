@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace shapeid::diagnosis {
 
@@ -62,8 +64,11 @@ BlockFits::BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::Vec
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(p);
   for (Block& block : tally_.blocks) {
     if (block.reference) ++first_block_;
+    freedom_ += block.freedom;
+    if (!block.reference) held_freedom_ += block.freedom;
     // F <- F - Y Phi_given
     Eigen::MatrixXd& G = block.sums;
+    least_.push_back(least_share * least_share * G(p, p));
     const Eigen::VectorXd Gx = G.topLeftCorner(p, p) * x;
     G(p, p) += x.dot(Gx) - 2.0 * x.dot(G.col(p).head(p));
     G.col(p).head(p) -= Gx;
@@ -105,7 +110,7 @@ void BlockFits::assign_folds(int stretches) {
 }
 
 double BlockFits::square_of_noise(double error) const {
-  return error / std::max(1.0, tally_.freedom);
+  return error / std::max(1.0, held_freedom_);
 }
 
 int BlockFits::fold_of(std::size_t block) const { return fold_[block]; }
@@ -203,6 +208,13 @@ double BlockFits::error_of(const Columns& a, const Eigen::VectorXd& x, std::size
   return error;
 }
 
+Eigen::VectorXd BlockFits::above_rounding(Eigen::VectorXd errors) const {
+  for (Eigen::Index b = 0; b < errors.size(); ++b) {
+    errors[b] = std::max(errors[b], least_[first_block_ + static_cast<std::size_t>(b)]);
+  }
+  return errors;
+}
+
 Fit BlockFits::fit(const std::vector<Term>& terms) const {
   const Columns a = listed(terms);
   const Eigen::LDLT<Eigen::MatrixXd> factor = factored(a, -1);
@@ -219,12 +231,13 @@ Fit BlockFits::fit(const std::vector<Term>& terms) const {
       if (block >= a.from[static_cast<std::size_t>(i)]) scores(i, b) = g[i];
     }
   }
+  left = std::max(left, std::accumulate(least_.begin(), least_.end(), 0.0));
   const Eigen::MatrixXd influence = factor.solve(scores);
   Fit fit{x,
           {},
           Eigen::VectorXd(a.count()),
           left,
-          std::max(1.0, tally_.freedom - static_cast<double>(a.count()))};
+          std::max(1.0, freedom_ - static_cast<double>(a.count()))};
   fit.standard_error = errors_of_independent_noise(a, factor, left / fit.freedom);
   for (Eigen::Index i = 0; i < a.count(); ++i) {
     const double s = scale_[a.index[static_cast<std::size_t>(i)]];
@@ -258,7 +271,7 @@ Eigen::VectorXd BlockFits::held_out(const std::vector<Term>& terms) const {
     }
     errors[b] = error_on(a, x, block);
   }
-  return errors;
+  return above_rounding(std::move(errors));
 }
 
 Eigen::VectorXd BlockFits::given_error() const {

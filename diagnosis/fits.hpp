@@ -18,6 +18,9 @@ namespace shapeid::diagnosis {
 /// is far below what any noise leaves open.
 inline constexpr double regularity = 1e-10;
 
+/// Of the logged torque: no sensor is as good, and in sums of squares what is less is rounding.
+inline constexpr double least_share = 1e-6;
+
 /// Effects have a prior, too, so wide that it only matters where data say nothing: the standard
 /// deviation of each number, all hypotheses one after the other.
 [[nodiscard]] Eigen::VectorXd wide_sizes(const Tally& tally);
@@ -90,8 +93,8 @@ class BlockFits {
     return static_cast<Eigen::Index>(tally_.blocks.size() - first_block_);
   }
 
-  /// Of one number, where so much squared error is left. What differs by less is no evidence, be it
-  /// so in every block.
+  /// Of one number, where so much squared error is left in all that can be held out. What differs
+  /// by less is no evidence, be it so in every block.
   [[nodiscard]] double square_of_noise(double error) const;
 
   /// All blocks in; deviations for inertial columns.
@@ -161,6 +164,9 @@ class BlockFits {
                                             std::size_t block) const;
   [[nodiscard]] static double error_of(const Columns& a, const Eigen::VectorXd& x,
                                        std::size_t block, const Eigen::VectorXd& gradient);
+  /// Squared errors of blocks that can be held out, as far as sums tell: of what cancels in them
+  /// rounding is left.
+  [[nodiscard]] Eigen::VectorXd above_rounding(Eigen::VectorXd errors) const;
   [[nodiscard]] double error_on(const Columns& a, const Eigen::VectorXd& x,
                                 std::size_t block) const;
 
@@ -169,8 +175,11 @@ class BlockFits {
   Eigen::VectorXd precision_;  ///< of a prior of one, in scaled units
   double prior_ = 1.0;
   int folds_ = 2;
-  std::vector<int> fold_;  ///< of each block; -1: never held out
+  std::vector<int> fold_;      ///< of each block; -1: never held out
+  std::vector<double> least_;  ///< squared error of each block that is told from none
   std::size_t first_block_ = 0;
+  /// How many numbers the noise has: of all blocks, and of those that can be held out.
+  double freedom_ = 0.0, held_freedom_ = 0.0;
   mutable std::map<std::pair<int, std::size_t>, Eigen::MatrixXd> cache_;
 };
 

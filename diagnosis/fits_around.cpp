@@ -1,5 +1,7 @@
 #include "shapeid/diagnosis/fits_around.hpp"
 
+#include <utility>
+
 namespace shapeid::diagnosis {
 
 FitsAround::FitsAround(const BlockFits& fits, std::vector<Term> terms)
@@ -10,7 +12,7 @@ FitsAround::FitsAround(const BlockFits& fits, std::vector<Term> terms)
   }
   std::vector<Eigen::VectorXd> answers;
   for (const Fold& fold : folds_) answers.push_back(fold.x);
-  error_ = errors_of(answers);
+  error_ = fits_.above_rounding(errors_of(answers));
 }
 
 void FitsAround::add_fold(int fold) {
@@ -62,7 +64,7 @@ Eigen::VectorXd FitsAround::fixed_at(std::size_t term, const Eigen::VectorXd& va
     Eigen::VectorXd& x = answers.emplace_back(fold.x - along * step);
     x.segment(first, n) = scaled;
   }
-  return errors_of(answers);
+  return fits_.above_rounding(errors_of(answers));
 }
 
 Eigen::VectorXd FitsAround::with(const Term& more) const {
@@ -105,7 +107,7 @@ Eigen::VectorXd FitsAround::with(const Term& more) const {
       errors[b] += 2.0 * step[p] * along;
     }
   }
-  return errors;
+  return fits_.above_rounding(std::move(errors));
 }
 
 }  // namespace shapeid::diagnosis

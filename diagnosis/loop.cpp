@@ -59,7 +59,7 @@ class Loop {
   }
 
   /// Whether in some round a search that begins with what is usually fitted came to more.
-  [[nodiscard]] bool has_other_way() const { return has_other_way_; }
+  [[nodiscard]] bool has_other_way() const { return memory_.has_other_way; }
 
   /// Whether this predicts better, by what a single law has to gain, with the weights of either.
   [[nodiscard]] bool is_better_than(Loop& other) {
@@ -188,7 +188,7 @@ class Loop {
     rule.contained_too = masses_want_more(fits, {fixed}, rule.least_t);
     rule.from_usual = from_usual_;
     const Selection selection = select(fits, fixed, list, rule);
-    has_other_way_ = has_other_way_ || selection.usual_is_better;
+    memory_.has_other_way = memory_.has_other_way || selection.usual_is_better;
     large_ = large_transformation(fits, fixed, list, selection);
     result_.prior = choose_prior(fits, chosen_terms(fixed, list, selection));
     take_selection(fits, fixed, list, selection, state_);
@@ -202,7 +202,7 @@ class Loop {
   void try_large_transformations() {
     if (!large_ || result_.found.size() < 2) return;
     const LoopResult several = result_;
-    const std::vector<AppliedEffect> banned = banned_;
+    const Memory memory = memory_;
     const Eigen::VectorXd error = state_.held_out_of_model();
     const auto start = std::chrono::steady_clock::now();
     std::vector<Found> applied;
@@ -223,7 +223,7 @@ class Loop {
     }
     if (!simpler) {
       result_ = several;
-      banned_ = banned;
+      memory_ = memory;
     }
     result_.refit_seconds += seconds_since(start);
   }
@@ -252,10 +252,10 @@ class Loop {
     const bool has_force = std::any_of(result_.found.begin(), result_.found.end(), is_force);
     if (is_banned(noise) || (has_noise && !has_force)) return;
     const LoopResult before = result_;
-    const std::vector<AppliedEffect> banned = banned_;
+    const Memory memory = memory_;
     const auto start = std::chrono::steady_clock::now();
     for (int link = 0; link < state_.robot.link_count(); ++link) {
-      forces_.push_back(at_start(force, link));
+      memory_.forces.push_back(at_start(force, link));
     }
     std::erase_if(result_.found, is_force);
     if (!has_noise) {
@@ -272,8 +272,7 @@ class Loop {
       result_.mass_beside_forces = mass;
     } else {
       result_ = before;
-      banned_ = banned;
-      forces_.clear();
+      memory_ = memory;
     }
     result_.refit_seconds = before.refit_seconds + seconds_since(start);
   }
@@ -290,11 +289,11 @@ class Loop {
   /// then. Whether there was any; it is not looked for again. If others come in its place, none is:
   /// each would cost a search of its own.
   [[nodiscard]] bool ban_mere_moments() {
-    const std::size_t before = banned_.size();
+    const std::size_t before = memory_.banned.size();
     for (const Found& f : result_.found) {
-      if (f.effect.begins() && !f.name_stands()) banned_.push_back(f.effect);
+      if (f.effect.begins() && !f.name_stands()) memory_.banned.push_back(f.effect);
     }
-    if (banned_.size() == before) return false;
+    if (memory_.banned.size() == before) return false;
     moments_describe_ += 1;
     return true;
   }
@@ -330,11 +329,11 @@ class Loop {
   void take_back(std::size_t i, bool worth = false) {
     if (result_.found[i].effect.effect == find_effect("accel_noise")) {
       result_.mass_beside_forces.reset();
-      forces_.clear();
+      memory_.forces.clear();
     }
     const AppliedEffect& effect = result_.found[i].effect;
-    const bool once_more = worth && !has_place_of(too_large_, effect);
-    (once_more ? too_large_ : banned_).push_back(effect);
+    const bool once_more = worth && !has_place_of(memory_.too_large, effect);
+    (once_more ? memory_.too_large : memory_.banned).push_back(effect);
     result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
     state_.collect_effects();
   }
@@ -343,13 +342,14 @@ class Loop {
   /// derivative. The first that is not worth it is taken back, and false returned: what was found
   /// beside it, and in its place, is to be sought again.
   [[nodiscard]] bool all_transformations_stay() {
+    std::optional<Eigen::VectorXd> with;
     for (std::size_t i = 0; i < result_.found.size(); ++i) {
       if (!result_.found[i].effect.effect->transform.any()) continue;
-      const Eigen::VectorXd with = state_.held_out_of_model();
+      if (!with) with = state_.held_out_of_model();
       const std::vector<Found> all = result_.found;
       result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
       state_.collect_effects();
-      const Gain gain = gain_of(state_.held_out_of_model(), with);
+      const Gain gain = gain_of(state_.held_out_of_model(), *with);
       result_.found = all;
       state_.collect_effects();
       result_.found[i].gain = gain.share;
@@ -365,16 +365,22 @@ class Loop {
     const auto has_place = [&h](const AppliedEffect& force) {
       return force.effect == h.effect && force.site == h.site;
     };
-    return has_place_of(banned_, h) || has_place_of(remainders_, h) ||
-           std::any_of(forces_.begin(), forces_.end(), has_place);
+    return has_place_of(memory_.banned, h) || has_place_of(remainders_, h) ||
+           std::any_of(memory_.forces.begin(), memory_.forces.end(), has_place);
   }
+
+  /// What is not sought any more, and what else a way that is not gone must not leave behind.
+  struct Memory {
+    std::vector<AppliedEffect> banned;
+    std::vector<AppliedEffect> too_large;  ///< taken back once, of no credible size
+    std::vector<AppliedEffect> forces;     ///< whose place the accelerometer's noise has taken
+    bool has_other_way = false;
+  };
 
   LoopState state_;
   LoopResult& result_ = state_.result;
-  bool from_usual_, has_other_way_ = false;
-  std::vector<AppliedEffect> banned_;
-  std::vector<AppliedEffect> too_large_;   ///< taken back once, of no credible size
-  std::vector<AppliedEffect> forces_;      ///< whose place the accelerometer's noise has taken
+  bool from_usual_;
+  Memory memory_;
   std::vector<AppliedEffect> remainders_;  ///< of other laws' shapes, in this search
   std::optional<Candidate> large_;
   int round_ = 0;

@@ -105,11 +105,17 @@ void LoopState::use_correction(const std::vector<Eigen::VectorXd>& of_log,
 }
 
 void LoopState::reweigh() {
-  Eigen::VectorXd rms = left_by(result.model).rms();
-  rms = rms.array().isNaN().select(0.0, rms);  // a joint that never counts has no rows to weigh
-  // A row that fits far better than the others would otherwise be fitted to its last digit.
-  constexpr double least_share = 0.02;
-  const double floor = std::max(least_share * rms.mean(), 1e-12);
+  const Series left = left_by(result.model);
+  // A joint that never counts has no rows to weigh.
+  const auto of_rows = [](const Eigen::VectorXd& rms) -> Eigen::VectorXd {
+    return rms.array().isNaN().select(0.0, rms);
+  };
+  const Eigen::VectorXd rms = of_rows(left.rms());
+  const Eigen::VectorXd logged = of_rows(row_rms(left.predicted - left.residual, left.counted));
+  // A row that fits far better than the others would otherwise be fitted to its last digit, and
+  // all to their rounding where a log is exact.
+  constexpr double least_of_mean = 0.02, any = 1e-12;
+  const double floor = std::max({least_of_mean * rms.mean(), least_share * logged.mean(), any});
   result.weight = rms.cwiseMax(floor).cwiseAbs2().cwiseInverse();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include "shapeid/diagnosis/candidates.hpp"
@@ -19,7 +20,9 @@ bool is_ripple(const AppliedEffect& a) { return a.effect->id == "cogging"; }
 
 /// The squared error that comes back without it, in those of what is left: `share` is of the error
 /// without it.
-double worth(double share) { return share / (1.0 - share); }
+double worth(double share) {
+  return share < 1.0 ? share / (1.0 - share) : std::numeric_limits<double>::infinity();
+}
 
 class Names {
  public:

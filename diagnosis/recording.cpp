@@ -24,9 +24,11 @@ Recording::Recording(std::vector<Sample> samples, double rate, std::vector<std::
     const bool last =
         i + 1 == samples_.size() || samples_[i + 1].time - samples_[i].time > step_of_grid / rate_;
     if (!last) continue;
+    const double before = recorded_.empty() ? 0.0 : recorded_.back() + 1.0 / rate_;
     for (std::size_t k = begin; k <= i; ++k) {
       segment_begin_[k] = begin;
       segment_end_[k] = i + 1;
+      recorded_.push_back(before + samples_[k].time - samples_[begin].time);
     }
     begin = i + 1;
   }
@@ -168,10 +170,6 @@ void Recording::find_rests() {
       i = std::max(end, i + 1);
     }
   }
-}
-
-double Recording::duration() const {
-  return samples_.empty() ? 0.0 : since_first(samples_.size() - 1);
 }
 
 /// Samples to either side that a shift and its cubic need.

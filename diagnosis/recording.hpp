@@ -39,11 +39,10 @@ class Recording {
   void set_origin(double time) { origin_ = time; }
   /// s since the log began
   [[nodiscard]] double elapsed(std::size_t index) const { return samples_[index].time - origin_; }
-  /// s since the first sample
-  [[nodiscard]] double since_first(std::size_t index) const {
-    return samples_[index].time - samples_.front().time;
-  }
-  [[nodiscard]] double duration() const;
+  /// s of recorded time since the first sample: a gap in the log counts as one step.
+  [[nodiscard]] double recorded(std::size_t index) const { return recorded_[index]; }
+  /// Of all samples.
+  [[nodiscard]] double duration() const { return recorded_.empty() ? 0.0 : recorded_.back(); }
 
   /// The contact touches also for so long (s) before and after it is declared to.
   void lengthen_contact(int contact, double before, double after);
@@ -114,6 +113,7 @@ class Recording {
   double rate_, independent_rate_, origin_;
   std::vector<std::string> extra_;
   std::vector<Eigen::VectorXd> correction_;
+  std::vector<double> recorded_;             ///< s, of each sample
   std::vector<std::vector<bool>> declared_;  ///< contacts of each sample, if more count as touching
   std::vector<std::size_t> segment_begin_, segment_end_;        ///< of each sample's segment
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> at_rest_;  ///< joints x samples

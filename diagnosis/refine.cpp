@@ -7,7 +7,17 @@ namespace shapeid::diagnosis {
 namespace {
 
 /// Values of one shape number for a pass.
-std::vector<double> grid(const ShapeNumber& number, double present, int pass, int points) {
+std::vector<double> grid(const ShapeNumber& number, double present, int pass, int points,
+                         double block) {
+  if (number.is_moment) {
+    std::vector<double> values;
+    const double reach = block / std::pow(0.5 * (points - 1), pass);
+    for (int i = 0; i < points; ++i) {
+      const double value = present + reach * (2.0 * i / (points - 1) - 1.0);
+      values.push_back(std::clamp(value, number.lower, number.upper));
+    }
+    return values;
+  }
   double lower = std::log(number.lower), upper = std::log(number.upper);
   if (number.nearby > 0.0) {
     lower = std::log(present * (1.0 - number.nearby));
@@ -29,14 +39,14 @@ std::vector<double> grid(const ShapeNumber& number, double present, int pass, in
 
 }  // namespace
 
-std::vector<AppliedEffect> shape_variants(const AppliedEffect& effect, int pass) {
+std::vector<AppliedEffect> shape_variants(const AppliedEffect& effect, int pass, double block) {
   std::vector<AppliedEffect> variants = {effect};
   const auto& numbers = effect.effect->shape;
   const int points = numbers.size() > 1 ? 5 : 9;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
     const std::vector<AppliedEffect> so_far = variants;
-    for (const double value : grid(numbers[k], effect.shape[at], pass, points)) {
+    for (const double value : grid(numbers[k], effect.shape[at], pass, points, block)) {
       for (AppliedEffect variant : so_far) {
         variant.shape[at] = value;
         variants.push_back(variant);

@@ -9,8 +9,10 @@
 namespace shapeid::diagnosis {
 
 /// The effect with its shape numbers on a grid: over their whole range in pass 0, ever closer about
-/// the present ones after that. The first variant is the present one.
-[[nodiscard]] std::vector<AppliedEffect> shape_variants(const AppliedEffect& effect, int pass);
+/// the present ones after that. The first variant is the present one. `block`: the length of the
+/// log's blocks, s.
+[[nodiscard]] std::vector<AppliedEffect> shape_variants(const AppliedEffect& effect, int pass,
+                                                        double block);
 
 /// The effect with a number that is usually sought nearby (a ripple's period) anywhere from half to
 /// twice of what it is; the first variant is the present one, and the only one of other effects.

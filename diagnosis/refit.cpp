@@ -61,7 +61,9 @@ void refit_among(LoopState& state, const VariantsOf& variants_of) {
 void refit(LoopState& state) {
   constexpr int passes = 3;
   for (int pass = 0; pass < passes && needs_refit(state.result.found); ++pass) {
-    refit_among(state, [pass](const AppliedEffect& a) { return shape_variants(a, pass); });
+    refit_among(state, [&](const AppliedEffect& a) {
+      return shape_variants(a, pass, state.tally_options.block_seconds);
+    });
   }
 }
 

@@ -1,8 +1,9 @@
 #include "shapeid/diagnosis/selection.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
-#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "shapeid/diagnosis/contenders.hpp"
@@ -53,8 +54,8 @@ class Search {
     if (std::ranges::all_of(start, [this](std::size_t k) { return is_accepted(k); })) return;
     const Chosen accepted = std::exchange(accepted_, start);
     const auto came_with = std::exchange(came_with_, {});
+    const Chosen dropped = std::exchange(dropped_, {});
     const Selection result = result_;
-    dropped_.clear();
     go_on();
     accepted_ = worthy(accepted_, start);
     const bool is_better = gain_of(fits_.held_out(contenders_.terms(accepted)),
@@ -63,7 +64,9 @@ class Search {
     if (!is_better || !rule_.from_usual) {
       accepted_ = accepted;
       came_with_ = came_with;
+      dropped_ = dropped;
       result_ = result;
+      ranked_beside_.reset();
     }
     result_.usual_is_better = is_better;
   }
@@ -94,56 +97,64 @@ class Search {
     }
   }
 
+  /// A candidate beside what is accepted, and the held-out errors with it.
+  struct Rank {
+    Scored scored;
+    Eigen::VectorXd errors;
+  };
+
+  /// All of the shortlist, what gains most first; noted, with what else that shows.
+  [[nodiscard]] std::vector<Rank> ranked() {
+    std::vector<Rank> ranking = scored();
+    std::ranges::stable_sort(ranking, std::ranges::greater(),
+                             [](const Rank& r) { return r.scored.gain; });
+    result_.last_ranking.clear();
+    for (const Rank& r : ranking) result_.last_ranking.push_back(r.scored);
+    note_wrong_signs();
+    ranked_beside_ = accepted_;
+    return ranking;
+  }
+
   /// Accepts the best that passes; false if there is none.
   bool advance() {
-    std::vector<Eigen::VectorXd> errors;
-    const std::vector<Scored> ranking = scored(errors);
-    note_wrong_signs(ranking);
-    std::vector<std::size_t> order(ranking.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return ranking[a].gain > ranking[b].gain;
-    });
-    result_.last_ranking.clear();
-    for (const std::size_t i : order) result_.last_ranking.push_back(ranking[i]);
-
-    const auto is_open = [&](std::size_t i) {
-      return credibility_.passes(ranking[i]) && ranking[i].credible && !ranking[i].wrong_sign;
+    const std::vector<Rank> ranking = ranked();
+    const auto is_open = [&](const Rank& r) {
+      return credibility_.passes(r.scored) && r.scored.credible && !r.scored.wrong_sign;
     };
-    const auto best = std::find_if(order.begin(), order.end(), is_open);
-    if (best == order.end()) return false;
+    const auto best = std::ranges::find_if(ranking, is_open);
+    if (best == ranking.end()) return false;
 
     // Of those that cannot be told from the best the simplest is taken: of as many numbers what
     // always acts, rather than what came since the reference log.
-    const auto extent = [&](std::size_t i) {
-      const std::size_t k = ranking[i].candidate;
+    const auto extent = [&](const Rank& r) {
+      const std::size_t k = r.scored.candidate;
       return std::pair(contenders_.cost(k), contenders_[k].effect.since_reference);
     };
-    std::size_t chosen = *best;
-    for (const std::size_t i : order) {
-      if (!is_open(i) || gain_of(errors[i], errors[*best]).t > simpler_t) continue;
-      if (extent(i) < extent(chosen)) chosen = i;
+    const Rank* chosen = &*best;
+    for (const Rank& r : ranking) {
+      if (!is_open(r) || gain_of(r.errors, best->errors).t > simpler_t) continue;
+      if (extent(r) < extent(*chosen)) chosen = &r;
     }
     SelectionStep step;
-    step.accepted = ranking[chosen];
-    for (const std::size_t i : order) {
-      if (i != chosen) step.others.push_back(ranking[i]);
+    step.accepted = chosen->scored;
+    for (const Rank& r : ranking) {
+      if (&r != chosen) step.others.push_back(r.scored);
     }
-    accept(ranking[chosen].candidate);
+    accept(chosen->scored.candidate);
     result_.steps.push_back(std::move(step));
     return true;
   }
 
-  /// The shortlist beside what is accepted, with the held-out errors of each.
-  [[nodiscard]] std::vector<Scored> scored(std::vector<Eigen::VectorXd>& errors) {
+  /// The shortlist beside what is accepted.
+  [[nodiscard]] std::vector<Rank> scored() {
     const FitsAround now(fits_, contenders_.terms(accepted_));
     const Fit fit_now = fits_.fit(contenders_.terms(accepted_));
     Shortlist shortlist = contenders_.shortlist(accepted_, rule_.shortlist, dropped_);
     result_.hidden = std::move(shortlist.hidden);
-    std::vector<Scored> ranking;
+    std::vector<Rank> ranking;
     for (const std::size_t k : shortlist.listed) {
-      errors.push_back(now.with(contenders_[k].term));
-      const Gain gain = credibility_.gain_by(k, now.error(), errors.back());
+      Eigen::VectorXd errors = now.with(contenders_[k].term);
+      const Gain gain = credibility_.gain_by(k, now.error(), errors);
       Scored scored{k, gain.share, gain.t, {}, false};
       if (credibility_.passes(scored)) {
         const Fit fit = fits_.fit(contenders_.terms(accepted_, k));
@@ -155,14 +166,14 @@ class Search {
         scored.wrong_sign = contenders_[k].members.empty() && !(is_load && scored.credible) &&
                             credibility_.wrong_sign(k, scored.fit, 0.0);
       }
-      ranking.push_back(scored);
+      ranking.push_back({std::move(scored), std::move(errors)});
     }
     return ranking;
   }
 
-  void note_wrong_signs(const std::vector<Scored>& ranking) {
+  void note_wrong_signs() {
     result_.wrong_signs.clear();
-    for (const Scored& s : ranking) {
+    for (const Scored& s : result_.last_ranking) {
       if (s.wrong_sign && credibility_.wrong_sign(s.candidate, s.fit, rule_.least_t)) {
         result_.wrong_signs.push_back(s);
       }
@@ -260,6 +271,8 @@ class Search {
   }
 
   void finish() {
+    // What was accepted may have been changed since it was ranked last.
+    if (ranked_beside_ != accepted_) static_cast<void>(ranked());
     result_.error_end = fits_.held_out(contenders_.terms(accepted_));
     result_.fit = fits_.fit(contenders_.terms(accepted_));
     result_.accepted =
@@ -278,6 +291,7 @@ class Search {
   Contenders contenders_;
   Credibility credibility_;
   Chosen accepted_, dropped_;
+  std::optional<Chosen> ranked_beside_;
   std::map<std::size_t, double> came_with_;  ///< of members of a group: how many numbers it has
   Selection result_;
 };

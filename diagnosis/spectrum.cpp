@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 namespace shapeid::diagnosis {
@@ -26,15 +25,19 @@ Spectrum spectrum(const std::vector<double>& time, const Eigen::VectorXd& y, dou
   const double terms = highest * duration * static_cast<double>(time.size());
   result.every = std::max(1.0, std::ceil(terms / most_terms));
   result.step = result.every / duration;
+  // From one frequency to the next each sample's phase turns by the same angle.
+  const auto n = static_cast<Eigen::Index>(time.size());
+  const Eigen::ArrayXd turn = 2.0 * std::numbers::pi * result.step *
+                              (Eigen::Map<const Eigen::ArrayXd>(time.data(), n) - time.front());
+  const Eigen::ArrayXd c = turn.cos(), s = turn.sin();
+  Eigen::ArrayXd re = y.array(), im = Eigen::ArrayXd::Zero(n), before(n);
   double f = result.step;
   while (f < highest) {
-    std::complex<double> sum = 0.0;
-    for (std::size_t i = 0; i < time.size(); ++i) {
-      // Not polar(y, phase), which is defined for y >= 0 alone.
-      sum += y[static_cast<Eigen::Index>(i)] *
-             std::polar(1.0, 2.0 * std::numbers::pi * f * (time[i] - time.front()));
-    }
-    result.power.push_back(std::norm(sum) / static_cast<double>(time.size()));
+    before = re;
+    re = c * re - s * im;
+    im = c * im + s * before;
+    const double cosines = re.sum(), sines = im.sum();
+    result.power.push_back((cosines * cosines + sines * sines) / static_cast<double>(n));
     f += result.step;
   }
   return result;

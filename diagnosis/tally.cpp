@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace shapeid::diagnosis {
 namespace {
@@ -161,7 +162,7 @@ void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const Rich
     if (block.samples == 0) return;
     block.sums = sums.finish();
     block.reference = reference;
-    tally.blocks.push_back(block);
+    tally.blocks.push_back(std::move(block));
     block = {};
   };
 
@@ -170,7 +171,7 @@ void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const Rich
   std::size_t log = 0;
   Eigen::MatrixXd M(robot.dof(), width);
   for (const std::size_t index : recording.usable(options.stride)) {
-    const double place = recording.since_first(index);
+    const double place = recording.recorded(index);
     const int here = static_cast<int>(place / options.block_seconds);
     const std::size_t log_before = log;
     while (log < options.log_starts.size() && index >= options.log_starts[log]) ++log;
@@ -201,7 +202,7 @@ void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const Rich
     }
     const Eigen::MatrixXd beyond = contact_free(rows.J, M);
     sums.add(beyond);
-    tally.freedom +=
+    block.freedom +=
         independent * static_cast<double>(std::min<Eigen::Index>(beyond.rows(), counted.count()));
     if (block.samples++ > 0) continue;
     block.from = recording.elapsed(index);

@@ -23,6 +23,7 @@ struct Block {
   double from = 0.0;       ///< s since the log's start
   bool reference = false;  ///< of the reference log: never held out
   std::size_t log = 0;     ///< which one of those in the recording
+  double freedom = 0.0;    ///< how many numbers the noise of its rows has, behind its filter
 };
 
 /// What the size of an effect might follow.
@@ -52,7 +53,6 @@ struct Tally {
   std::vector<Modulation> modulations;
   std::vector<Eigen::Index> first_modulated;  ///< column of each modulation
   Eigen::Index width = 0;                     ///< of the sums: all columns, and F
-  double freedom = 0.0;  ///< how many numbers the noise of all rows has, behind its filter
   [[nodiscard]] Eigen::Index columns() const { return width - 1; }
 };
 

@@ -23,12 +23,13 @@ constexpr double least_gain_t = 2.0, usual_gain_t = 2.5;
 // Logs without any structure in which chance makes one of all curves that are tried.
 constexpr double curve_false_alarms = 0.003;
 
-/// Edges so that every bin holds as many samples.
+/// Edges so that every bin holds as many samples; of a signal with few values, a value.
 std::vector<double> quantiles(std::vector<double> x) {
   std::sort(x.begin(), x.end());
   std::vector<double> edges;
   for (std::size_t i = 1; i < bins; ++i) edges.push_back(x[i * x.size() / bins]);
-  return edges;
+  x.erase(std::unique(x.begin(), x.end()), x.end());
+  return x.size() > bins ? edges : std::vector<double>(x.begin() + 1, x.end());
 }
 
 std::size_t bin_of(double x, const std::vector<double>& edges) {
@@ -53,33 +54,45 @@ struct Binned {
 
 void set_curve(const Binned& places, const Binned& values, Structure& structure) {
   for (std::size_t bin = 0; bin < bins; ++bin) {
+    if (!(places.count[bin] > 0.0)) continue;
     structure.at.push_back(places.mean(bin));
     structure.value.push_back(values.mean(bin));
   }
 }
 
-/// Places of x in its order, spread evenly over (-1, 1).
-std::vector<double> ranks(const std::vector<double>& x) {
+/// Places of x in its order, spread evenly over (-1, 1). Equal values share the middle of theirs:
+/// in the order of time, say, they would follow whatever drifts.
+struct Ranks {
+  std::vector<double> u;
+  std::size_t values = 0;  ///< that are different
+};
+Ranks ranks(const std::vector<double>& x) {
   std::vector<std::size_t> order(x.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return x[a] < x[b]; });
-  std::vector<double> u(x.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    u[order[i]] = (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(x.size()) - 1.0;
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return x[a] < x[b]; });
+  Ranks ranks{std::vector<double>(x.size())};
+  for (std::size_t i = 0; i < order.size();) {
+    std::size_t end = i;
+    while (end < order.size() && x[order[end]] == x[order[i]]) ++end;
+    const double u = static_cast<double>(i + end) / static_cast<double>(x.size()) - 1.0;
+    for (; i < end; ++i) ranks.u[order[i]] = u;
+    ++ranks.values;
   }
-  return u;
+  return ranks;
 }
 
-/// Legendre's polynomials of order 0 to 4.
+/// Legendre's polynomials of order 0 to 4; no more than there are values to tell them apart.
 constexpr int waves = 5;
 using Waves = Eigen::Matrix<double, waves, 1>;
-Waves waves_at(double u) {
+Waves waves_at(double u, std::size_t values) {
   Waves p;
   p[0] = 1.0;
   p[1] = u;
   for (int k = 1; k + 1 < waves; ++k) {
     p[k + 1] = ((2.0 * k + 1.0) * u * p[k] - k * p[k - 1]) / (k + 1.0);
   }
+  const auto told_apart = std::min<Eigen::Index>(waves, static_cast<Eigen::Index>(values));
+  p.tail(waves - told_apart).setZero();
   return p;
 }
 
@@ -98,9 +111,9 @@ struct CurveRule {
 };
 std::optional<Structure> curve(const std::vector<double>& x, const std::vector<double>& y,
                                const CurveRule& rule, Folds kind) {
+  const Ranks rank = ranks(x);
+  if (rank.values < 2) return std::nullopt;
   const std::vector<double> edges = quantiles(x);
-  if (!(edges.back() > edges.front())) return std::nullopt;  // a constant
-  const std::vector<double> u = ranks(x);
   const auto fold_of = [&](std::size_t i) {
     const std::size_t block = i * blocks / x.size();
     return kind == Folds::stretches ? block * folds / blocks : block % folds;
@@ -110,7 +123,7 @@ std::optional<Structure> curve(const std::vector<double>& x, const std::vector<d
   std::vector<Waves> target(folds, Waves::Zero());
   Binned all, places;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const Waves p = waves_at(u[i]);
+    const Waves p = waves_at(rank.u[i], rank.values);
     for (std::size_t f = 0; f < folds; ++f) {
       if (f == fold_of(i)) continue;
       normal[f] += p * p.transpose();
@@ -121,13 +134,18 @@ std::optional<Structure> curve(const std::vector<double>& x, const std::vector<d
     places.add(bin, x[i]);
   }
   std::vector<Waves> fitted;
-  for (std::size_t f = 0; f < folds; ++f) fitted.emplace_back(normal[f].ldlt().solve(target[f]));
+  for (std::size_t f = 0; f < folds; ++f) {
+    // Without a stretch there may be fewer values yet.
+    constexpr double regular = 1e-9;
+    normal[f].diagonal().array() += regular * normal[f](0, 0);
+    fitted.emplace_back(normal[f].ldlt().solve(target[f]));
+  }
   Eigen::VectorXd before = Eigen::VectorXd::Zero(blocks), after = before;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const std::size_t f = fold_of(i);
     const auto b = static_cast<Eigen::Index>(i * blocks / x.size());
     before[b] += std::pow(y[i] - target[f][0] / normal[f](0, 0), 2);
-    after[b] += std::pow(y[i] - fitted[f].dot(waves_at(u[i])), 2);
+    after[b] += std::pow(y[i] - fitted[f].dot(waves_at(rank.u[i], rank.values)), 2);
   }
   const Gain gain = gain_of(before, after);
   const double noise = after.sum() / (rule.independent * static_cast<double>(x.size()));
@@ -185,6 +203,7 @@ double abscissa(Signal signal, int joint, const Recording& recording, std::size_
 std::vector<Structure> unexplained(const Robot& robot, const Recording& recording,
                                    const Series& series, std::size_t stride) {
   std::vector<Structure> found;
+  const Eigen::VectorXd rms = series.rms(), predicted = row_rms(series.predicted, series.counted);
   // What four numbers of nothing take away from their own blocks they cost on others: the sum of
   // their squares is expected there to be theirs, less two a number.
   const std::ptrdiff_t joints = robot.joint_count();
@@ -205,7 +224,7 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
       places.push_back(static_cast<std::size_t>(i));
       y.push_back(series.residual(row, i));
     }
-    if (y.size() < fewest) continue;
+    if (y.size() < fewest || rms[row] < least_share * predicted[row]) continue;
     const auto signal = [&](const auto& of) {
       std::vector<double> x;
       x.reserve(places.size());
@@ -328,7 +347,9 @@ Structure lawless(const Robot& robot, RowSource source, const RichModel& model,
     const Prediction predicted = predict(viewer, view, model);
     x.push_back(
         abscissa(stranger.law.signal, joint, recording, index, predicted.load.joint[joint]));
-    carrier.push_back(columns.at(recording, index, view, predicted)(row, 0));
+    // Beyond contact forces, as what is missing is.
+    const Eigen::MatrixXd column = columns.at(recording, index, view, predicted);
+    carrier.push_back(beyond_contacts(viewer, predicted.J, column)(row, 0));
     missing.push_back(-residual(viewer, view, model)[row]);
   }
   Structure structure;
@@ -337,6 +358,7 @@ Structure lawless(const Robot& robot, RowSource source, const RichModel& model,
   structure.law = law_id(stranger, robot);
   structure.share = stranger.gain;
   structure.t = stranger.t;
+  if (x.empty()) return structure;
   const std::vector<double> edges = quantiles(x);
   // The number is that of least squares within each bin; of a gear, which acts by how its number
   // changes, that of the law.

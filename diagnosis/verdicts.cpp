@@ -77,6 +77,10 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
              credibility_.within_limits(rival, others, own);
     };
     if (credibility_.wrong_sign(rival, own, rival_sign_t) && !is_body()) continue;
+    // The column of a gain holds all laws of its joint, k among them: a gain of one is k, with
+    // masses that make up for the rest. (Loads are asked what bodies they are where it matters.)
+    const bool is_load = contenders_[rival].effect.effect->is_payload;
+    if (!is_load && !credibility_.within_limits(rival, others, own)) continue;
     // Two that say the same contain each other: that is no reason to keep silent about one.
     const auto within = [&](std::size_t inner, std::size_t outer) {
       return fits_.contained(contenders_.terms(others), contenders_[inner].term,

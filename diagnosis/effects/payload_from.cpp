@@ -18,7 +18,7 @@ Effect payload_from() {
   e.equation = "tau += (ten columns of Y of the link) (parameters of the load), for t >= onset";
   e.site = SiteKind::link;
   e.parameters = load_parameters();
-  e.shape = {{"onset", "s", 0.1, 1e5, 1.0, 0.1}};
+  e.shape = {{"onset", "s", 0.1, 1e5, 1.0, 0.0, true}};
   e.confused_with = {"payload_from on a neighbour", "torque_gain that changes", "external_force"};
   e.separate_by = "move the joints between the two links while carrying";
   e.under_contact = "as the link's own parameters";

@@ -92,7 +92,6 @@ Tally of_noise(std::mt19937_64& random) {
   Tally tally;
   tally.inertial = columns;
   tally.width = columns + 1;
-  tally.freedom = blocks * rows;
   for (int b = 0; b < blocks; ++b) {
     Eigen::MatrixXd M(rows, columns + 1);
     for (Eigen::Index i = 0; i < rows; ++i) {
@@ -102,6 +101,7 @@ Tally of_noise(std::mt19937_64& random) {
     }
     Block block;
     block.samples = rows;
+    block.freedom = rows;
     block.sums = M.transpose() * M;
     tally.blocks.push_back(block);
   }

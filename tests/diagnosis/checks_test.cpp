@@ -119,6 +119,26 @@ TEST(Checks, ClocksThatDriftApart) {
   EXPECT_EQ(refusal([&] { check_clocks(arm(), drifting, arm_settings()); }), "clock-skew");
 }
 
+/// Each log has a clock that was set anew: 12 ms between them are no drift of either.
+TEST(Checks, ClocksOfTwoLogsMayDiffer) {
+  const Recording log = record({});
+  std::vector<Sample> samples;
+  std::size_t second = 0;
+  for (const double delay : {0.0, -0.012}) {
+    second = samples.size();
+    for (const std::size_t i : log.usable(1)) {
+      Sample s = log[i];
+      s.tau = log.shifted(i, delay).tau;
+      samples.push_back(s);
+    }
+  }
+  for (std::size_t i = second; i < samples.size(); ++i) samples[i].time += log.duration() + 1.0;
+  const Recording both(samples, log.rate());
+  EXPECT_EQ(refusal([&] { check_clocks(arm(), both, arm_settings()); }), "clock-skew")
+      << "if they were one log";
+  EXPECT_EQ(refusal([&] { check_clocks(arm(), both, arm_settings(), {second}); }), "accepted");
+}
+
 /// Two feet on two legs; the labels say which stands.
 TEST(Checks, ContactLabelsAtOddsWithTheFeet) {
   Robot robot;

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <utility>
 #include <vector>
 
 #include "shapeid/diagnosis/credibility.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/fits.hpp"
+#include "shapeid/diagnosis/fits_around.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
 namespace shapeid::diagnosis {
@@ -99,7 +101,7 @@ TEST(Fits, WhatThePriorHoldsMovesLessWithTheNoise) {
     block.sums = Eigen::Vector2d(of_block, of_block).asDiagonal();
     tally.blocks.push_back(block);
   }
-  tally.freedom = count + 1.0;
+  tally.blocks.back().freedom = count + 1.0;
   for (const double ratio : {1e-9, 0.5, 50.0}) {
     const double size = 1.0 / std::sqrt(count * ratio);
     BlockFits fits(tally, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, size), 8);
@@ -109,6 +111,52 @@ TEST(Fits, WhatThePriorHoldsMovesLessWithTheNoise) {
     EXPECT_NEAR(fit.standard_error[0] * std::sqrt(count) * (1.0 + ratio), 1.0, 1e-6) << ratio;
     EXPECT_EQ(fit.between_blocks[0], 0.0);
   }
+}
+
+/// A long log of the same robot taken earlier does not make errors of the log smaller.
+TEST(Fits, ASquareOfNoiseIsOfWhatIsHeldOut) {
+  Tally tally;
+  tally.inertial = 1;
+  tally.width = 2;
+  for (int b = 0; b < 100; ++b) {
+    Block block;
+    block.samples = 1000;
+    block.sums = Eigen::Vector2d(1000.0, 1000.0).asDiagonal();
+    block.freedom = 1000.0;
+    block.reference = b < 90;
+    tally.blocks.push_back(block);
+  }
+  const BlockFits fits(tally, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1), 8);
+  const std::vector<Term> mean = {{"mean", {0}, {false}, 0}};
+  EXPECT_EQ(fits.square_of_noise(fits.held_out(mean).sum()), 1.0);
+  EXPECT_EQ(fits.fit(mean).freedom, 99999.0);
+}
+
+/// Where sums cancel to their rounding no error is negative, and none is less than another.
+TEST(Fits, WhatIsExactHasNoGain) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  Tally tally;
+  tally.inertial = 3;
+  tally.width = 4;
+  for (int b = 0; b < 20; ++b) {
+    Eigen::MatrixXd M(50, 4);
+    for (double& x : M.reshaped()) x = normal(random);
+    M.col(3) = M.leftCols(2) * Eigen::Vector2d(1e3, -2e3);
+    Block& block = tally.blocks.emplace_back();
+    block.samples = 50;
+    block.freedom = 50.0;
+    block.sums = M.transpose() * M;
+  }
+  BlockFits fits(tally, Eigen::VectorXd::Zero(3), Eigen::VectorXd::Constant(3, 1e4), 8);
+  fits.set_prior(1e-4);
+  const Term both{"both", {0, 1}, {false, false}, 0}, none{"none", {2}, {false}, 0};
+  const Eigen::VectorXd exact = fits.held_out({both}), more = fits.held_out({both, none});
+  EXPECT_GT(exact.minCoeff(), 0.0);
+  EXPECT_EQ(gain_of(exact, more).t, 0.0);
+  const FitsAround around(fits, {both});
+  EXPECT_EQ(gain_of(around.error(), around.with(none)).t, 0.0);
+  EXPECT_GT(gain_of(around.without(0), around.error()).t, 2.5);
 }
 
 TEST(Fits, ZeroOverAnErrorOfZeroIsNoEvidence) {

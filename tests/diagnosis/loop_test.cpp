@@ -12,6 +12,8 @@
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/regions.hpp"
+#include "shapeid/diagnosis/series.hpp"
+#include "shapeid/diagnosis/unexplained.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/shape.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
@@ -73,6 +75,39 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, OneEffect,
                                            Truth{"torque_lag", "joint2", 1, {0.01}},
                                            Truth{"torque_delay", "all", 0, {0.012}}),
                          [](const auto& one) { return one.param.id; });
+
+/// A log without any noise, as the first that one tries comes from a simulator: what remains is
+/// rounding, and nothing without a name is in it.
+TEST(Loop, AnExactLogHasItsCauseAndNothingElse) {
+  for (const int joint : {0, 1, 2}) {
+    const Recording log = record({{effect("viscous_friction", joint, {0.4})}, 20.0, 0.0});
+    const LoopResult result = test::loop_of(log);
+    ASSERT_EQ(found_ids(result), Ids{"viscous_friction@joint" + std::to_string(joint + 1)});
+    const Found& found = result.found[0];
+    EXPECT_TRUE(found.name_stands());
+    EXPECT_LE(found.gain, 1.0);
+    EXPECT_NEAR(found.effect.value[0], 0.4, 1e-6);
+    // The second link's origin is moved by the first joint alone: a drag of it is its friction.
+    EXPECT_EQ(found.ambiguous_with, joint == 0 ? Ids{"drag@link2"} : Ids{}) << found.id;
+    EXPECT_TRUE(result.strangers.empty());
+    const LoopSettings settings = arm_settings();
+    const Series left = series(arm(), settings.rows, result.model, log, settings.stride);
+    EXPECT_TRUE(unexplained(arm(), log, left, settings.stride).empty());
+  }
+}
+
+/// The prediction that a gain scales holds all laws of its joint: a gain of one, with masses that
+/// make up for the rest, is each of them.
+TEST(Loop, AGainIsNoNameForEveryLawOfItsJoint) {
+  const LoopResult result =
+      loop_of({{effect("viscous_friction", 1, {0.3}), effect("coulomb_friction", 1, {0.4}),
+                effect("cogging", 1, {0.3, 0.2})},
+               40.0});
+  EXPECT_EQ(result.found.size(), 3U) << testing::PrintToString(found_ids(result));
+  for (const Found& f : result.found) {
+    EXPECT_EQ(std::ranges::count(f.ambiguous_with, "torque_gain@joint2"), 0) << f.id;
+  }
+}
 
 /// What a large delay leaves of its derivative is no lag of single drives, no friction and no drag.
 TEST(Loop, LargeDelayBesideALargerOffsetIsOneDelay) {

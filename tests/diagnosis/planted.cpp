@@ -97,7 +97,6 @@ BlockFits Planted::fits() const {
   Tally tally;
   tally.inertial = inertial;
   tally.width = columns_.cols() + 1;
-  tally.freedom = static_cast<double>(rows);
   tally.hypotheses = hypotheses_;
   Eigen::Index first = inertial;
   for (const AppliedEffect& h : hypotheses_) {
@@ -111,6 +110,7 @@ BlockFits Planted::fits() const {
     Block& block = tally.blocks.emplace_back();
     block.sums = M.transpose() * M;
     block.samples = static_cast<std::size_t>(rows_of_block);
+    block.freedom = static_cast<double>(rows_of_block);
     block.from = static_cast<double>(b);
   }
   const Eigen::VectorXd given = Eigen::VectorXd::Zero(inertial);

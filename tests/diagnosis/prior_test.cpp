@@ -19,8 +19,8 @@ BlockFits fits_of(double value) {
     block.sums.resize(2, 2);
     const double force = given + value;
     block.sums << samples, samples * force, samples * force, samples * (force * force + 1.0);
+    block.freedom = samples;
     tally.blocks.push_back(block);
-    tally.freedom += samples;
   }
   return {tally, Eigen::VectorXd::Constant(1, given), Eigen::VectorXd::Ones(1), 8};
 }

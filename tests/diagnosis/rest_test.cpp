@@ -115,6 +115,21 @@ TEST(StrongestRipple, IsFoundOverManyTurns) {
   EXPECT_LT(std::abs(found - N), 0.5 / turns);
 }
 
+/// An hour without samples is no hour of data: blocks are made of what was recorded. (By the clock
+/// a minute's log with such a pause had two blocks, and was refused as too short.)
+TEST(Recording, APauseIsOneStep) {
+  std::vector<Sample> samples(6);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].time = 8.0 + 0.01 * double(i) + (i < 4 ? 0.0 : 3600.0);
+  }
+  const Recording log(std::move(samples), 100.0);
+  constexpr double rounding = 1e-9;  // s, of an hour
+  EXPECT_NEAR(log.recorded(3), 0.03, rounding);
+  EXPECT_NEAR(log.recorded(4), 0.04, rounding);
+  EXPECT_NEAR(log.duration(), 0.05, rounding);
+  EXPECT_NEAR(log.elapsed(5), 3600.05, rounding);
+}
+
 /// Parts of one log share its clock; blocks begin with the part.
 TEST(Recording, PartsOfALogShareItsClock) {
   std::vector<Sample> samples(3);
@@ -125,7 +140,7 @@ TEST(Recording, PartsOfALogShareItsClock) {
   part.set_origin(3.0);
   EXPECT_NEAR(part.elapsed(2), 5.02, rounding);
   EXPECT_NEAR(part.surroundings(2).elapsed, 5.02, rounding);
-  EXPECT_NEAR(part.since_first(2), 0.02, rounding);
+  EXPECT_NEAR(part.recorded(2), 0.02, rounding);
   EXPECT_NEAR(part.duration(), 0.02, rounding);
 }
 

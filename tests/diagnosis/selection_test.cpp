@@ -323,7 +323,12 @@ TEST(Selection, FindsTheOneCauseOfWhatCameInAsSeveral) {
     log.plant(drives[0], one_number(Planted::size_of(30.0)));
     log.plant(drives[1], one_number(Planted::size_of(second)));
     log.add_noise();
-    EXPECT_EQ(accepted(log.selection(rule)), second > 30.0 ? drives : Numbers{all});
+    const Selection s = log.selection(rule);
+    EXPECT_EQ(accepted(s), second > 30.0 ? drives : Numbers{all});
+    // What took their place is ranked no more, and they are ranked beside it.
+    for (const Scored& ranked : s.last_ranking) {
+      for (const std::size_t k : accepted(s)) EXPECT_NE(ranked.candidate, k);
+    }
   }
 }
 
