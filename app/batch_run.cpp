@@ -13,6 +13,7 @@
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/merge_order.hpp"
 #include "shapeid/app/recordings.hpp"
+#include "shapeid/app/tell.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/reference/triangle.hpp"
 
@@ -236,7 +237,7 @@ void judge_refused(const std::vector<BatchLog>& logs, bool skip) {
   for (const BatchLog& log : logs) {
     if (log.refused.empty()) continue;
     ++refused;
-    fmt::print(stderr, "log {} is refused: {}\n", log.path, log.refused);
+    tell(fmt::format("log {} is refused: {}\n", log.path, log.refused));
   }
   if (refused == logs.size()) {
     throw InputError("every log is refused", "give logs that `inspect` finds nothing wrong with");

@@ -3,11 +3,13 @@
 #include <fmt/ranges.h>
 
 #include <cstdio>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "shapeid/app/tell.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/number.hpp"
@@ -27,24 +29,39 @@ double parsed(const std::string& text) {
   throw InputError("a parameter " + why_no_number(text), "write decimals, such as -0.25");
 }
 
+/// No more words than an order has, and one that is too much; no longer ones than a number needs.
+std::vector<std::string> words_of_standard_input() {
+  constexpr std::size_t most = 64;
+  constexpr int longest = 400;
+  std::vector<std::string> words;
+  for (std::string word; words.size() < most && std::cin >> std::setw(longest) >> word;) {
+    words.push_back(word);
+  }
+  if (words.size() == most) {
+    throw InputError({"standard input"}, fmt::format("has {} numbers and more", most),
+                     "those of one body");
+  }
+  return words;
+}
+
 void convert(const ConvertArguments& options) {
   const Order from = order_named(options.from), to = order_named(options.to);
-  std::vector<std::string> words = options.numbers;
-  if (words.empty()) {
-    for (std::string word; std::cin >> word;) words.push_back(word);
-  }
+  const std::vector<std::string> words =
+      options.numbers.empty() ? words_of_standard_input() : options.numbers;
   Eigen::VectorXd values(static_cast<Eigen::Index>(words.size()));
   for (std::size_t i = 0; i < words.size(); ++i) {
     values[static_cast<Eigen::Index>(i)] = parsed(words[i]);
   }
   const InertialParameters body = from_order(from, values);
   const Eigen::VectorXd result = to_order(to, body);
-  if (!body.values.allFinite() || !result.allFinite()) {
-    throw InputError("these numbers do not fit into a double in another order",
-                     "kg, m and kg m^2 of a body");
+  constexpr double most = 1e100;  // products of two are numbers, too
+  if (!(body.values.lpNorm<Eigen::Infinity>() < most && result.lpNorm<Eigen::Infinity>() < most)) {
+    throw InputError(
+        "these numbers are too large for a body, or do not fit into a double in another order",
+        "kg, m and kg m^2 of a body");
   }
   if (const Violation why = why_impossible(body)) {
-    fmt::print(stderr, "warning: no body can have these parameters: {}\n", *why);
+    tell(fmt::format("warning: no body can have these parameters: {}\n", *why));
   }
   if (options.json) {
     const nlohmann::json document = {{"order", options.to},

@@ -12,6 +12,7 @@
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/output_folder.hpp"
 #include "shapeid/app/recordings.hpp"
+#include "shapeid/app/tell.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
@@ -209,7 +210,7 @@ void deliver(const Delivery& delivery, nlohmann::json document, const std::strin
   fmt::print("{}", delivery.json ? json : text);
   if (!delivery.folder.empty()) {
     OutputFolder(delivery.folder).write(files);
-    fmt::print(stderr, "{}", certified_text(judged.certified));
+    tell(fmt::format("{}", certified_text(judged.certified)));
   }
   if (!reasons.empty()) {
     throw std::logic_error("the exact checker rejects this answer: " + reasons.front());

@@ -8,6 +8,7 @@
 #include "shapeid/app/identification.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/sought.hpp"
+#include "shapeid/app/tell.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/reference/online.hpp"
@@ -58,8 +59,8 @@ void identify_windows(const IdentifyArguments& options, const RobotInputs& robot
                   fmt::format("the log has {} samples, and the first answer needs {}",
                               log.report().samples, std::max(options.window, options.stride)));
   }
-  fmt::print(stderr, "smoothed forward in time; group delay {:.1f} ms\n",
-             1e3 * log.report().group_delay);
+  tell(fmt::format("smoothed forward in time; group delay {:.1f} ms\n",
+                   1e3 * log.report().group_delay));
 }
 
 void identify(IdentifyArguments& options) {

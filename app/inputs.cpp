@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "shapeid/app/option_checks.hpp"
+#include "shapeid/app/tell.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/reference/contact_detection.hpp"
@@ -140,7 +141,7 @@ void check_no_stream(const std::string& log) {
 }
 
 void say_warnings(const RobotInputs& inputs) {
-  for (const std::string& warning : inputs.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : inputs.warnings) tell(fmt::format("warning: {}\n", warning));
 }
 
 RobotInputs read_robot(const MotionInputs& inputs) {
@@ -252,11 +253,11 @@ std::optional<Sample> LogSamples::next() {
   if (quiet_) return sample;
   constexpr std::size_t samples_between_reports = 2000;
   if (!sample) {
-    if (count_ >= samples_between_reports) fmt::print(stderr, "\r\033[K");
+    if (count_ >= samples_between_reports) tell("\r\033[K");
     return sample;
   }
   if (++count_ % samples_between_reports == 0) {
-    fmt::print(stderr, "\rreading: {:.1f} s of motion", sample->time);
+    tell(fmt::format("\rreading: {:.1f} s of motion", sample->time));
   }
   return sample;
 }

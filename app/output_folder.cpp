@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "shapeid/app/tell.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
 
@@ -23,7 +24,7 @@ void OutputFolder::write(const std::vector<OutputFile>& files) const {
     texts.push_back({(folder_ / file.name).string(), file.content});
   }
   write_files(texts);
-  for (const FileText& text : texts) fmt::print(stderr, "wrote {}\n", text.path);
+  for (const FileText& text : texts) tell(fmt::format("wrote {}\n", text.path));
 }
 
 }  // namespace shapeid::app

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "shapeid/app/tell.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/log_writer.hpp"
 
@@ -21,10 +22,10 @@ SimulationReport record(const Robot& robot, const RobotNotes& notes,
   const SimulationReport report = simulate(robot, simulation, [&](const SimulatedSample& s) {
     log.write(instruments.measure(s.sample, Eigen::Quaterniond(s.state.base.linear())));
     if (on_terminal && ++rows % rows_between_reports == 0) {
-      fmt::print(stderr, "\rsimulating: {:.1f} of {:.1f} s", s.sample.time, simulation.duration);
+      tell(fmt::format("\rsimulating: {:.1f} of {:.1f} s", s.sample.time, simulation.duration));
     }
   });
-  if (on_terminal) fmt::print(stderr, "\r\033[K");
+  if (on_terminal) tell("\r\033[K");
   if (report.fell_at) {
     throw Refusal("fell", fmt::format("the robot fell after {:.2f} s; try another seed, a slower "
                                       "gait or a lighter load",

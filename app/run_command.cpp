@@ -8,11 +8,13 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "shapeid/app/option_checks.hpp"
+#include "shapeid/app/tell.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
 #include "shapeid/models/text.hpp"
@@ -24,8 +26,13 @@ constexpr int no = 1, bad_input = 2, our_defect = 3;
 
 int complain(const std::string& message, int status) {
   constexpr std::size_t longest = 2000;  // bytes: a screen
-  fmt::print(stderr, "shapeid: {}\n", one_line(message, longest));
+  tell(fmt::format("shapeid: {}\n", one_line(message, longest)));
   return status;
+}
+
+bool says_no_threads(const std::exception& e) {
+  const auto* error = dynamic_cast<const std::system_error*>(&e);
+  return error != nullptr && error->code() == std::errc::resource_unavailable_try_again;
 }
 
 /// What is printed waits in a buffer: only now is it known whether it arrived.
@@ -70,7 +77,10 @@ std::vector<std::string> with_leading_digits(int argc, char** argv) {
 int run_command(CLI::App& app, int argc, char** argv) {
   // A reader that has gone is an error of writing, said in a line, not a silent end.
   std::signal(SIGPIPE, SIG_IGN);
-  for (const int end : {SIGINT, SIGTERM, SIGHUP}) std::signal(end, stop);
+  for (const int end : {SIGINT, SIGTERM, SIGHUP}) {
+    // What was ignored stays so: under nohup a program outlives its terminal.
+    if (std::signal(end, stop) == SIG_IGN) std::signal(end, SIG_IGN);
+  }
   std::vector<CLI::App*> verbs = app.get_subcommands({});
   if (verbs.empty()) verbs.push_back(&app);  // a program that is one
   for (CLI::App* verb : verbs) {
@@ -92,9 +102,16 @@ int run_command(CLI::App& app, int argc, char** argv) {
     return complain(e.what(), bad_input);
   } catch (const Refusal& e) {
     return complain(e.what(), no);
+  } catch (const std::bad_alloc&) {
+    return complain("there is not enough memory for this; a shorter log, or more memory",
+                    bad_input);
   } catch (const std::exception& e) {
     // fmt says so by an exception of its own when it finds the buffer full.
     if (std::ferror(stdout) != 0) return finish_output();
+    if (says_no_threads(e)) {
+      return complain("the system gives no more threads; --threads 1, or a higher limit",
+                      bad_input);
+    }
     return complain(fmt::format("this is a defect of shapeid, please report it: {}", e.what()),
                     our_defect);
   }

@@ -8,6 +8,7 @@
 
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/sought.hpp"
+#include "shapeid/app/tell.hpp"
 #include "shapeid/app/track_checkpoint.hpp"
 #include "shapeid/app/track_lines.hpp"
 #include "shapeid/app/track_run.hpp"
@@ -148,8 +149,8 @@ void track(TrackArguments& options) {
     write_checkpoint(options.checkpoint, run, source.position(), setup);
   }
   if (source.unfinished() > 0) {
-    fmt::print(stderr, "{}: the last {} bytes are no whole line, and were left\n",
-               options.inputs.log, source.unfinished());
+    tell(fmt::format("{}: the last {} bytes are no whole line, and were left\n", options.inputs.log,
+                     source.unfinished()));
   }
   // With a checkpoint more may come, and be gone on with.
   if (run.lines() == 0 && options.checkpoint.empty()) {

@@ -12,6 +12,7 @@
 #include "shapeid/diagnosis/quarter_turns.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/motion_extent.hpp"
 #include "shapeid/reference/contact.hpp"
 
 namespace shapeid::diagnosis {
@@ -24,17 +25,9 @@ std::size_t stride_for(const Recording& recording) {
 }
 
 void check_excitation(const Robot& robot, const Recording& recording) {
-  // Less than a degree, or a millimetre: encoder noise and elasticity move that much.
-  constexpr double least_angle = 0.02, least_length = 1e-3;
-  for (int j = 0; j < robot.joint_count(); ++j) {
-    double lower = recording[0].q[j], upper = lower;
-    for (const Sample& s : recording.samples()) {
-      lower = std::min(lower, s.q[j]);
-      upper = std::max(upper, s.q[j]);
-    }
-    const bool slides = robot.joint(j).kind == JointKind::prismatic;
-    if (upper - lower > (slides ? least_length : least_angle)) return;
-  }
+  MotionExtent extent;
+  for (const Sample& s : recording.samples()) extent.add(s);
+  if (extent.some_joint_moved(robot)) return;
   throw Refusal("not-excited", "no joint moves; log a motion that moves and loads every joint");
 }
 

@@ -18,13 +18,18 @@ Recording::Recording(std::vector<Sample> samples, double rate, std::vector<std::
       extra_(std::move(extra)),
       segment_begin_(samples_.size()),
       segment_end_(samples_.size()) {
-  constexpr double step_of_grid = 1.5;  // a missing sample makes it two
+  constexpr double step_of_grid = 1.5;   // a missing sample makes it two
+  constexpr double longest_pause = 2.0;  // s that count: a stretch that is held out has as many
   std::size_t begin = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const bool last =
         i + 1 == samples_.size() || samples_[i + 1].time - samples_[i].time > step_of_grid / rate_;
     if (!last) continue;
-    const double before = recorded_.empty() ? 0.0 : recorded_.back() + 1.0 / rate_;
+    double before = 0.0;
+    if (begin > 0) {
+      before = recorded_.back() +
+               std::min(samples_[begin].time - samples_[begin - 1].time, longest_pause);
+    }
     for (std::size_t k = begin; k <= i; ++k) {
       segment_begin_[k] = begin;
       segment_end_[k] = i + 1;

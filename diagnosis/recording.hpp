@@ -39,7 +39,7 @@ class Recording {
   void set_origin(double time) { origin_ = time; }
   /// s since the log began
   [[nodiscard]] double elapsed(std::size_t index) const { return samples_[index].time - origin_; }
-  /// s of recorded time since the first sample: a gap in the log counts as one step.
+  /// s since the first sample; of a pause no more than two seconds count, for it is no data.
   [[nodiscard]] double recorded(std::size_t index) const { return recorded_[index]; }
   /// Of all samples.
   [[nodiscard]] double duration() const { return recorded_.empty() ? 0.0 : recorded_.back(); }

@@ -83,7 +83,8 @@ Plausibility::Plausibility(std::string path, const Robot& robot, const ChannelPl
       plan_(plan),
       options_(options),
       ranges_(plan.channels.size()),
-      slopes_(static_cast<std::size_t>(robot.joint_count())) {}
+      slopes_(static_cast<std::size_t>(robot.joint_count())),
+      steps_(slopes_.size()) {}
 
 Place Plausibility::place(int channel, int line) const {
   return {path_, line, plan_.channels[static_cast<std::size_t>(channel)].from};
@@ -99,8 +100,42 @@ void Plausibility::add(const MeasuredRow& row) {
                                                row.values[plan_.dq + j], options_.longest_step);
     }
   }
+  for (int j = 0; j < robot_.joint_count(); ++j) add_step(j, row);
   if (plan_.floating()) add_gravity(row);
   if (++rows_ == block) judge();
+}
+
+/// What one reading of many does to a motion that is differentiated twice no sum of squares
+/// forgives.
+void Plausibility::add_step(int j, const MeasuredRow& row) {
+  // No joint goes as far and comes back from row to row: rad/s and rad, or m/s and m.
+  const bool slides = robot_.joint(j).kind == JointKind::prismatic;
+  const double fastest = slides ? 10.0 : 100.0, far = slides ? 0.05 : 0.5;
+  constexpr double turn = 2.0 * std::numbers::pi, slow = 1.0;  // rad
+  const double position = row.values[plan_.q + j];
+  if (std::isnan(position)) return;
+  Steps& s = steps_[static_cast<std::size_t>(j)];
+  const double elapsed = row.time - s.time;
+  const bool follows = s.rows > 0 && elapsed <= options_.longest_step;
+  const double step = follows ? position - s.position : 0.0;
+  if (s.rows > 1 && follows && !slides && std::abs(std::abs(step) - turn) < slow &&
+      std::abs(s.last) < slow) {
+    throw InputError(
+        place(plan_.q + j, row.line),
+        fmt::format("jumps by {:.3g} rad from one row to the next: an angle that wraps", step),
+        "count its turns on (unwrap it)");
+  }
+  const double out = std::max(far, fastest * elapsed);
+  constexpr double little = 0.1;  // beside what a wild reading is off
+  if (s.rows > 2 && follows && std::abs(s.last) > out && std::abs(step) > out &&
+      std::abs(s.last + step) < little * std::abs(step) &&
+      std::abs(s.before) < little * std::abs(s.last)) {
+    throw InputError(place(plan_.q + j, s.line),
+                     fmt::format("is {:g} for one row, between {:g} and {:g}: a wild reading",
+                                 s.position, s.position - s.last, position),
+                     "leave the row out; a gap is no harm");
+  }
+  s = {row.time, position, step, s.last, row.line, follows ? s.rows + 1 : 1};
 }
 
 /// Only while something carries the robot: in flight an accelerometer reads nothing.

@@ -24,7 +24,9 @@ void check_grid(double grid_rate, double logged_rate);
 ///    with the opposite sign;
 ///  * an accelerometer whose mean magnitude is not gravity (g as unit, mm/s^2, gravity removed);
 ///  * channels that never change while the joints move, and torques of which none does;
-///  * readings that no robot has, by orders of magnitude.
+///  * readings that no robot has, by orders of magnitude;
+///  * angles that jump by a turn from one row to the next, and positions that are elsewhere for one
+///    row.
 /// A block decides only what it has motion enough to decide. Throws InputError.
 class Plausibility {
  public:
@@ -59,11 +61,20 @@ class Plausibility {
     void add(double t, double position, double velocity, double longest_step);
   };
 
+  /// The last rows of a position.
+  struct Steps {
+    double time = 0.0, position = 0.0;
+    double last = 0.0, before = 0.0;  ///< the steps that led there
+    int line = 0;
+    int rows = 0;  ///< that followed each other
+  };
+
   [[nodiscard]] const Range& range(int channel) const {
     return ranges_[static_cast<std::size_t>(channel)];
   }
   [[nodiscard]] Place place(int channel, int line = 0) const;
   void add_gravity(const MeasuredRow& row);
+  void add_step(int joint, const MeasuredRow& row);
   void judge_size() const;
   void judge_position(int joint) const;
   void judge_slope(int joint) const;
@@ -78,6 +89,7 @@ class Plausibility {
   std::size_t rows_ = 0;
   std::vector<Range> ranges_;  ///< one a channel
   std::vector<Slope> slopes_;  ///< one a joint
+  std::vector<Steps> steps_;   ///< likewise
   double force_sum_ = 0.0;
   std::size_t force_count_ = 0;
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/motion_extent.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 #include "shapeid/reference/triangle.hpp"
 
@@ -220,8 +221,18 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
 Identification identify(const Robot& robot, const BodyModel& model, const SampleStream& next,
                         const IdentifySettings& settings,
                         const std::function<void(const DivisionRun&)>& watch) {
-  const CompressedRows rows = compress(robot, model, next, settings);
+  MotionExtent extent;
+  const SampleStream watched = [&] {
+    std::optional<Sample> sample = next();
+    if (sample) extent.add(*sample);
+    return sample;
+  };
+  const CompressedRows rows = compress(robot, model, watched, settings);
   if (rows.blocks.empty()) throw Refusal("no-data", "the log has no usable sample");
+  // Of several logs, as `batch` reads them, each may be a pose; of one that would be all.
+  if (!extent.some_joint_moved(robot) && !extent.base_moved()) {
+    throw Refusal("not-excited", "nothing moves; log a motion that turns and loads the links");
+  }
   if (rows.blocks.size() < 2) {
     throw Refusal("too-short",
                   fmt::format("{} samples within one block of {:g} s have no spread to "

@@ -45,6 +45,23 @@ TEST(Convert, ReadsStandardInput) {
   EXPECT_NE(wrong.err.find("\"x\""), std::string::npos) << wrong.err;
 }
 
+/// Numbers without an end, and one that has none, are not waited for.
+TEST(Convert, DoesNotReadOnForEver) {
+  for (const std::string endless : {"yes 1", "yes 1 | tr -d '\\n'"}) {
+    const CommandRun run = program(in_bash(endless + " | head -c 100000000 | " +
+                                           command("convert --from pinocchio --to drake")));
+    EXPECT_EQ(run.status, 2) << run.err;
+    EXPECT_LT(run.err.size(), 300U);
+  }
+}
+
+/// Moments whose sums are no numbers any more are of no body.
+TEST(Convert, RefusesWhatOverflows) {
+  const CommandRun run =
+      shapeid("convert --from pinocchio --to drake 1e308 1e308 1e308 1e308 1 0 1 0 0 1");
+  expect_one_line(run, 2, "too large");
+}
+
 TEST(Convert, SaysWhetherABodyCanHaveThem) {
   const CommandRun good = shapeid("convert --json --from pinocchio --to idyntree " + pinocchio);
   ASSERT_EQ(good.status, 0) << good.err;

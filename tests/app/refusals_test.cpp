@@ -30,6 +30,13 @@ std::string still_log() {
   return text;
 }
 
+/// A weight that is held still: rounding of its accelerations is no motion.
+std::string held_log() {
+  std::string text = "time,q.hinge,tau.hinge\n";
+  for (int i = 0; i < 2000; ++i) text += fmt::format("{},0.5,1.2\n", 0.002 * i);
+  return text;
+}
+
 struct Refused {
   std::string arguments;
   int status;
@@ -39,6 +46,7 @@ struct Refused {
 TEST(Refusals, OneLineThatSaysWhatIsWrongAndWhatWouldBeRight) {
   const std::string robot = scratch_file("pendulum.urdf", pendulum);
   const std::string log = scratch_file("still.csv", still_log());
+  const std::string held = scratch_file("held.csv", held_log());
   const std::string no_robot = scratch_file("broken.urdf", "<robot name='x'><link name='a'>");
   const std::string empty = scratch_file("empty.csv", "");
   const std::string letters = scratch_file("letters.csv", "time,q.hinge,tau.hinge\n0,1,x\n");
@@ -53,6 +61,9 @@ TEST(Refusals, OneLineThatSaysWhatIsWrongAndWhatWouldBeRight) {
       {fmt::format("identify --robot {} --log {} --free arm", robot, letters), 2, "letters.csv:2"},
       {fmt::format("identify --robot {} --log {}", robot, log), 2, "--whole-body"},
       {fmt::format("identify --robot {} --log {} --free leg", robot, log), 2, "no such link"},
+      {fmt::format("identify --robot {} --log {} --free arm", robot, held), 1, "nothing moves"},
+      {fmt::format("load --robot {} --log {} --area arm 0 0.1 0 0.1 -0.5 0", robot, held), 1,
+       "nothing moves"},
       {fmt::format("identify --robot {} --log {} --free arm --lambda -1", robot, log), 2,
        "--lambda: is -1; must be at least 0"},
       {fmt::format("identify --robot {} --log {} --free arm --lambda nan", robot, log), 2,

@@ -43,6 +43,29 @@ TEST(HostileOutputs, StandardOutputThatIsFull) {
   expect_one_line(run_in_shell("", "--help", ">/dev/full"), 2, "standard output");
 }
 
+/// Where nobody can read what is said, the status still tells. (It was an abort: `2>&1 | head`.)
+TEST(HostileOutputs, StandardErrorThatIsClosedOrFull) {
+  const std::string warns = "convert --from pinocchio --to drake -1 0 0 0 1 0 1 0 0 1";
+  for (const std::string where : {"2>/dev/full", "2>&-"}) {
+    EXPECT_EQ(run_in_shell("", "inspect none.csv", where).status, 2) << where;
+    EXPECT_EQ(run_in_shell("", "no-such-verb", where).status, 2) << where;
+    EXPECT_EQ(run_in_shell("", warns, where).status, 0) << where;
+    const CommandRun wrote = run_in_shell("", "simulate --seconds 0.2 --out said.csv", where);
+    EXPECT_EQ(wrote.status, 0) << where;
+  }
+}
+
+/// Under nohup a program outlives its terminal.
+TEST(HostileOutputs, AnIgnoredHangupStaysIgnored) {
+  ASSERT_EQ(shapeid("simulate --seconds 0.2 --out followed.csv").status, 0);
+  const CommandRun run = program(in_bash(fmt::format(
+      "trap '' HUP; {} & p=$!; sleep 0.5; kill -HUP $p; sleep 0.2; kill -0 $p && echo alive; "
+      "kill -INT $p; kill -TERM $p; wait $p",
+      command("track --whole-body --follow followed.csv " + quadruped_files +
+              " >/dev/null 2>&1"))));
+  EXPECT_EQ(run.out, "alive\n") << run.err;
+}
+
 // A limit on the size of files stands for a full disk: writing stops in the middle.
 TEST(HostileOutputs, ADiskThatIsFull) {
   for (const std::string name : {"full.csv", "full.csv.gz"}) {

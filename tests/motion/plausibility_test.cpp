@@ -134,6 +134,44 @@ TEST(Plausibility, AFrozenImuIsRefused) {
   EXPECT_EQ(reception(frozen, chain(2, Root::floating), trusting), "accepted");
 }
 
+/// An encoder that begins anew after each turn; a wheel that makes turns from row to row does not.
+TEST(Plausibility, AnglesThatWrapAreRefused) {
+  Robot wheel = chain(1, Root::fixed);
+  wheel.links[1].joint.kind = JointKind::continuous;
+  const auto wrapped = [](Sample& s) {
+    s.q[0] = std::remainder(3.0 * s.time, 2.0 * std::numbers::pi);
+    s.dq[0] = 3.0;
+  };
+  const std::string message = reception(wrapped, wheel);
+  EXPECT_NE(message.find("x.csv:526, column q.j0: jumps by -6.28 rad"), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("wraps; count its turns on"), std::string::npos) << message;
+  const auto fast = [](Sample& s) {
+    s.q[0] = 2.0 * std::numbers::pi * 500.0 * s.time;
+    s.dq[0] = 2.0 * std::numbers::pi * 500.0;
+  };
+  EXPECT_EQ(reception(fast, wheel), "accepted");
+}
+
+/// One encoder reading of five thousand that is a radian off.
+TEST(Plausibility, AWildReadingIsRefused) {
+  const auto at = [](double t, double off) {
+    return [t, off](Sample& s) {
+      if (std::abs(s.time - t) < 1e-4) s.q[1] += off;
+    };
+  };
+  for (const double off : {1.0, -3.0}) {
+    const std::string message = reception(at(2.0, off), chain(3, Root::fixed));
+    EXPECT_NE(message.find("x.csv:1002, column q.j1: is "), std::string::npos) << message;
+    EXPECT_NE(message.find("a wild reading; leave the row out"), std::string::npos) << message;
+  }
+  EXPECT_EQ(reception(at(2.0, 0.01), chain(3, Root::fixed)), "accepted");
+  const auto step = [](Sample& s) {
+    if (s.time > 2.0) s.q[1] += 1.0;
+  };
+  EXPECT_EQ(reception(step, chain(3, Root::fixed)), "accepted") << "it does not come back";
+}
+
 TEST(Plausibility, PassiveJointsAndWheelsPass) {
   EXPECT_EQ(reception([](Sample& s) { s.tau[1] = 0.0; }, chain(3, Root::fixed)), "accepted");
   Robot wheel = chain(1, Root::fixed);
