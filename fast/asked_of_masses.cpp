@@ -21,11 +21,18 @@ Eigen::Vector3d sizes(const Vector10& u) {
 
 }  // namespace
 
+bool fits_in_single(const Vector10& u) {
+  constexpr double least = 1e-30, most = 1e30;
+  const double largest = u.lpNorm<Eigen::Infinity>();
+  return largest == 0.0 || (largest > least && largest < most);
+}
+
 Violation why_no_shape(int link, const Vector10& u, double V, int links) {
   if (link < 0 || link >= links) {
     return "a shape on free link " + std::to_string(link) + " of " + std::to_string(links);
   }
   if (!u.allFinite()) return "a shape's unit parameters are not finite";
+  if (!fits_in_single(u)) return "a shape's unit parameters are beyond 1e-30 to 1e30";
   if (!(V > 0.0 && std::isfinite(V))) return "a shape's volume is " + std::to_string(V);
   return std::nullopt;
 }

@@ -9,8 +9,12 @@
 
 namespace shapeid::fast {
 
+/// Whether single precision holds these unit parameters: the largest is between 1e-30 and 1e30, or
+/// all are zero.
+[[nodiscard]] bool fits_in_single(const Vector10& u);
+
 /// Empty if a shape of these unit parameters and this volume (m^3) can stand on free link `link` of
-/// `links`: all finite, V > 0.
+/// `links`: all finite, V > 0, and fits_in_single().
 [[nodiscard]] Violation why_no_shape(int link, const Vector10& u, double V, int links);
 
 /// Empty for lambda >= 0; also where it is so large that no answer can be had.

@@ -105,12 +105,14 @@ Division::Step Division::divide(int at_once) noexcept {
   last_Phi_ = solver_.Phi();
   const double objective = solver_.value().total();
   bool has_room = true;
-  for (int k = 0; k < at_once; ++k) {
+  while (static_cast<int>(history_.size() - before) < at_once) {
     has_room = static_cast<int>(history_.size()) < options_.most_divisions;
     if (!has_room) break;
     const Candidate next = take_largest();
     if (next.place < 0) break;
-    const int first = tree_.parts_of(parts_[static_cast<std::size_t>(next.place)]);
+    const int whole = parts_[static_cast<std::size_t>(next.place)];
+    const int first = tree_.parts_of(whole);
+    if (first < 0 && !tree_.is_divisible(whole)) continue;  // too thin a mesh: the next one
     if (first < 0) break;
     static_cast<void>(solver_.divide(next.place, tree_[first].u, tree_[first].V, tree_[first + 1].u,
                                      tree_[first + 1].V));

@@ -206,9 +206,10 @@ SHAPEID_WIDE void settle_masses(const Data& data, const AtPlaces& passive, doubl
     keep(m, used);
     settled.m = m;
   }
-  Dozen squares = m;
-  for (std::size_t p = 0; p < 3; ++p) squares.part[p] *= m.part[p];
-  settled.density = dot(stiffness, squares);
+  // Masses beside a large lambda have squares that are no numbers any more.
+  Dozen weighted = stiffness;
+  for (std::size_t p = 0; p < 3; ++p) weighted.part[p] *= m.part[p];
+  settled.density = dot(weighted, m);
   settled.is_settled = true;
 }
 

@@ -306,9 +306,10 @@ bool MassSolver::divide(int j, const Column& first, double V1, const Column& sec
   const bool by_guess = keep_guess_to_divide();
   const bool at_once = by_guess || method_.divides_where_it_stands() ||
                        (method_.has_rows() && !method_.has_started());
-  // Not asked where a guess follows the division: its own check corrects what it keeps of the
-  // whole.
-  const bool exact = by_guess || adds_up(columns_.column(j), V_[j], first, V1, second, V2);
+  // Where a guess follows the division its own check corrects what it keeps of the whole: then only
+  // the contract needs to know.
+  const bool exact = (by_guess && !contracts_are_checked) ||
+                     adds_up(columns_.column(j), V_[j], first, V1, second, V2);
   has_answer_ = has_answer_ && exact;
   if (at_once) {
     columns_.replace(j, first);

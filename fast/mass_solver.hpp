@@ -32,7 +32,8 @@ class MassSolver {
   /// No shapes.
   void clear() noexcept;
   /// Adds a shape without mass: unit parameters and volume (m^3, > 0). `link`: place among the free
-  /// links. False if there is no room.
+  /// links. False if there is no room. The largest entry of u lies between 1e-30 and 1e30 (or all
+  /// are zero), for shapes are priced in single precision; that of a body is its mass, one.
   [[nodiscard]] bool append(int link, const Column& u, double V) noexcept;
   /// lambda >= 0.
   void set_lambda(double lambda) noexcept;

@@ -1,6 +1,8 @@
 #include "shapeid/fast/part_tree.hpp"
 
 #include <cstddef>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace shapeid::fast {
@@ -14,6 +16,15 @@ PartTree::Part part_of(Shape shape, int parent, int generation) {
   part.parent = parent;
   part.generation = generation;
   return part;
+}
+
+/// None of a mesh that is too thin to be cut in double precision: only the cut tells.
+std::optional<std::pair<Shape, Shape>> parts_if_any(const Shape& shape) {
+  try {
+    return divide(shape);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -40,15 +51,19 @@ bool PartTree::is_divisible(int part) const noexcept {
 }
 
 int PartTree::parts_of(int part) noexcept {
-  const int kept = (*this)[part].first;
-  if (kept >= 0) return kept;
+  Part& whole = parts_[static_cast<std::size_t>(part)];
+  if (whole.first >= 0) return whole.first;
   const int first = used_;
   if (!is_divisible(part) || static_cast<std::size_t>(first) + 2 > parts_.size()) return -1;
-  const int generation = (*this)[part].generation + 1;
-  auto [lower, upper] = divide((*this)[part].shape);
-  parts_[static_cast<std::size_t>(first)] = part_of(std::move(lower), part, generation);
-  parts_[static_cast<std::size_t>(first) + 1] = part_of(std::move(upper), part, generation);
-  parts_[static_cast<std::size_t>(part)].first = first;
+  const int generation = whole.generation + 1;
+  std::optional<std::pair<Shape, Shape>> cut = parts_if_any(whole.shape);
+  if (!cut) {
+    whole.generation = most_cuts;  // so that it is not asked again
+    return -1;
+  }
+  parts_[static_cast<std::size_t>(first)] = part_of(std::move(cut->first), part, generation);
+  parts_[static_cast<std::size_t>(first) + 1] = part_of(std::move(cut->second), part, generation);
+  whole.first = first;
   used_ += 2;
   return first;
 }

@@ -35,8 +35,8 @@ class PartTree {
   /// Before a run: forgets cached parts if there may be no room for those of another run.
   void make_room() noexcept;
 
-  /// The first of the two parts of `part`, cut by divide(). -1 if it is not divisible or there is
-  /// no room.
+  /// The first of the two parts of `part`, cut by divide(). -1 if there is no room, or if it is not
+  /// divisible, as a mesh may turn out to be: then is_divisible() says so from now on.
   [[nodiscard]] int parts_of(int part) noexcept;
   [[nodiscard]] bool is_divisible(int part) const noexcept;
 

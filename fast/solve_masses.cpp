@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 
+#include "shapeid/fast/asked_of_masses.hpp"
 #include "shapeid/fast/mass_solver.hpp"
 #include "shapeid/fast/triangle.hpp"
 
@@ -59,6 +60,7 @@ std::optional<MassSolution> solve_masses(const MassProblem& problem, const Eigen
   for (Eigen::Index j = 0; j < problem.shapes(); ++j) {
     const int link = link_of(problem, j);
     const MassSolver::Column u = problem.U.col(j).segment<10>(Eigen::Index{10} * link);
+    if (!fits_in_single(u)) return std::nullopt;
     static_cast<void>(solver.append(link, u, problem.V[j]));
     if (start[j] > 0.0) solver.start_at(static_cast<int>(j), start[j]);
   }

@@ -20,6 +20,13 @@ class Defect : public std::logic_error {
 /// Throws Defect with the place and the reason if there is a violation.
 void demand(const Violation& violation, const char* file, int line);
 
+/// Whether SHAPEID_CONTRACT checks anything here.
+#ifdef NDEBUG
+inline constexpr bool contracts_are_checked = false;
+#else
+inline constexpr bool contracts_are_checked = true;
+#endif
+
 }  // namespace shapeid
 
 // The argument is not even evaluated in release builds. The only macro of the libraries besides

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "shapeid/fast/solve_masses.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 #include "shapeid/tests/fast/triangle_cases.hpp"
 #include "shapeid/tests/support/qp_generators.hpp"
@@ -518,6 +519,44 @@ TEST(FastMassEdgesDeathTest, SolvingAgainForNothingEndsTheProgram) {
   EXPECT_DEATH(static_cast<void>(solver.solve_again()), "no triangle has been solved for");
 }
 #endif
+
+/// Masses so small that their squares are no numbers, beside a lambda so large.
+TEST(FastMassEdges, DensityBesideALargeLambda) {
+  for (const double lambda : {1e150, 1e158, 1e165, 1e195}) {
+    MassSolver solver(1, 3);
+    solver.set_lambda(lambda);
+    ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(0), 1.0));
+    Eigen::MatrixXd R = Eigen::MatrixXd::Identity(11, 11);
+    R.col(10).setOnes();
+    for (int time = 0; time < 2; ++time) {
+      ASSERT_EQ(solver.solve(R), Outcome::solved);
+      const double m = solver.m()[0];
+      EXPECT_NEAR(m * lambda, 1.0, 1e-12);
+      EXPECT_NEAR(solver.value().density / ((lambda * m) * m), 1.0, 1e-12) << lambda;
+    }
+    ASSERT_TRUE(
+        solver.divide(0, MassSolver::Column::Unit(0), 0.5, MassSolver::Column::Unit(0), 0.5));
+    EXPECT_EQ(solver.why_changed(), std::nullopt) << lambda;
+  }
+}
+
+/// Prices are of single precision: columns that it does not hold are left to the reference.
+TEST(FastMassEdges, ColumnsBeyondSinglePrecisionAreDeclined) {
+  MassProblem problem;
+  problem.Y = Eigen::MatrixXd::Identity(12, 10);
+  problem.F = Eigen::VectorXd::Ones(12);
+  problem.W = Eigen::VectorXd::Ones(12);
+  problem.V = Eigen::VectorXd::Ones(2);
+  for (const double unit : {1e-35, 1e-20, 1.0, 1e20, 1e35}) {
+    problem.U = unit * Eigen::MatrixXd::Identity(10, 2);
+    const bool holds = unit > 1e-30 && unit < 1e30;
+    const std::optional<MassSolution> answer = solve_masses(problem);
+    ASSERT_EQ(answer.has_value(), holds) << unit;
+    if (holds) {
+      EXPECT_NEAR(answer->m[1] * unit, 1.0, 1e-12);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace shapeid::fast

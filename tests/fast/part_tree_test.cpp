@@ -2,7 +2,15 @@
 #include "shapeid/fast/part_tree.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
+#include <cmath>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "shapeid/fast/division.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid::fast {
@@ -70,6 +78,69 @@ TEST(PartTree, ForgetsWhereARunMayHaveNoRoom) {
   EXPECT_EQ(tree.parts_of(0), 2);
   EXPECT_EQ(tree[2].first, -1);  // made anew
   EXPECT_EQ(tree[2].generation, 1);
+}
+
+/// A tetrahedron about a metre wide and `thin` times as high, somewhere.
+Shape flat_tetrahedron(double thin, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto some = [&] { return uniform(random); };
+  std::vector<Eigen::Vector3d> v;
+  for (int i = 0; i < 4; ++i) v.emplace_back(some(), some(), some() * thin);
+  if ((v[1] - v[0]).cross(v[2] - v[0]).dot(v[3] - v[0]) > 0.0) std::swap(v[0], v[1]);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::Quaterniond(some(), some(), some(), some()).normalized().matrix();
+  pose.translation() = Eigen::Vector3d(some(), some(), some());
+  return make_mesh(v, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}}, pose);
+}
+
+/// A run on rows that the shape itself makes, to its end.
+struct RunOn {
+  explicit RunOn(const Shape& shape);
+  std::unique_ptr<Division> run;
+  Division::Stop stop;
+};
+
+RunOn::RunOn(const Shape& shape) {
+  BodyModel model;
+  model.known = Eigen::VectorXd::Zero(10);
+  model.free_links = {0};
+  model.shapes.push_back({0, shape, "0"});
+  DivisionOptions options;
+  options.expected_mass = 1.0;
+  options.most_divisions = 100;
+  options.step = 0.0;
+  options.patience = 1000;
+  run = std::make_unique<Division>(model, options);
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(11, 11);
+  for (int i = 0; i < 10; ++i) {
+    for (int j = i; j < 10; ++j) R(i, j) = std::sin(3.0 * i + 1.7 * j + 1.0);
+  }
+  R.col(10).head(10) = R.topLeftCorner(10, 10) * unit_parameters(shape).values;
+  run->set_lambda(1e-12 * R.col(10).squaredNorm() * volume(shape));
+  EXPECT_EQ(run->start(R), Outcome::solved);
+  stop = run->run();
+}
+
+/// Parts of thin meshes make up the whole to half the digits. (What a division promises was asked
+/// of them to all, in checked builds: half of these runs ended the program.)
+TEST(PartTree, ThinMeshesAreDivided) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const RunOn flat(flat_tetrahedron(1e-4, seed));
+    EXPECT_EQ(flat.stop, Division::Stop::limit) << seed;
+    EXPECT_EQ(flat.run->history().size(), 100U) << seed;
+    EXPECT_NEAR(flat.run->masses().m().sum(), 1.0, 1e-4) << seed;
+  }
+}
+
+/// That a mesh is too thin to be cut in double precision only the cut tells: the run goes on with
+/// another shape, or ends. (An exception left a function that has none.)
+TEST(PartTree, MeshesThatAreTooThinAreNotDivided) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const RunOn flat(flat_tetrahedron(1e-13, seed));
+    EXPECT_NE(flat.stop, Division::Stop::declined) << seed;
+    EXPECT_TRUE(flat.run->masses().m().allFinite()) << seed;
+  }
 }
 
 }  // namespace
