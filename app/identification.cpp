@@ -130,6 +130,23 @@ class EffectsRun {
   std::size_t next_ = 0;
 };
 
+/// Masses that fit one log and predict another worse than what was given have taken up something
+/// else.
+void note_worse_prediction(const Robot& robot, Result& result) {
+  if (result.heldout.samples == 0) return;
+  const int n = robot.joint_count();
+  const double given = result.heldout.given.tail(n).norm();
+  const double found = result.heldout.found.tail(n).norm();
+  const std::string before = fmt::format("{:.3g}", given), now = fmt::format("{:.3g}", found);
+  if (!(found > given) || now == before) return;
+  result.notes.push_back(fmt::format(
+      "held-out torque is predicted worse than by the given model (rms over all joints {} instead "
+      "of {}): look for what rigid links lack (diagnose), wrong units, exchanged joints, or the "
+      "size "
+      "of a shape",
+      now, before));
+}
+
 }  // namespace
 
 void check_solver(const reference::IdentifySettings& settings) {
@@ -189,6 +206,7 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   choose_written_links(result, robot.robot, options.least_mass);
   result.heldout = effects ? effects->compare(robot, inputs, options, result.found.Phi)
                            : compare(robot, inputs, options, result.found.Phi);
+  note_worse_prediction(robot.robot, result);
   return result;
 }
 

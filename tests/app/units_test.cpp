@@ -92,5 +92,23 @@ TEST(Units, OfFrictionWhereAJointSlides) {
   EXPECT_NE(page.find("velocity (m/s)"), std::string::npos);
 }
 
+/// A shape of millimetres that were taken for metres: nothing near the arm's mass has its moments.
+TEST(Units, OfAShapeThatAreWrongAreSaidByWhatItPredicts) {
+  lift_and_arm();
+  const std::string arm = "{{kind: cuboid, size: [{0}, 0.1, 0.1], pose: {{xyz: [{1}, 0, 0]}}}}";
+  for (const bool wrong : {false, true}) {
+    scratch_file("sized.shapes.yaml",
+                 "arm: [" +
+                     fmt::format(fmt::runtime(arm), wrong ? 800.0 : 0.8, wrong ? 400.0 : 0.4) +
+                     "]\n");
+    const CommandRun run = shapeid(
+        "identify --robot post.urdf --log post.csv --exact --shapes sized.shapes.yaml "
+        "--divisions 0");
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.out.find("predicted worse than by the given model") != std::string::npos, wrong)
+        << run.out;
+  }
+}
+
 }  // namespace
 }  // namespace shapeid::test
