@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "shapeid/app/svg.hpp"
 #include "shapeid/models/contract.hpp"
 #include "shapeid/models/error.hpp"
 
@@ -91,7 +92,7 @@ std::string gnuplot(const std::string& script) {
   if (status != 0) throw Defect("gnuplot refused to draw what it was given");
   // gnuplot's own declaration and document type have no place inside an HTML page.
   const auto start = output.find("<svg");
-  return start == std::string::npos ? output : output.substr(start);
+  return without_titles(start == std::string::npos ? output : output.substr(start));
 }
 
 }  // namespace shapeid::app

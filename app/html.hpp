@@ -16,15 +16,17 @@ class Page {
 
   void heading(const std::string& text);
   void paragraph(const std::string& text);
-  /// First row: column heads. Cells of the other rows but the first are set right-aligned.
+  /// First row: column heads. Columns but the first are set right-aligned, those with sentences
+  /// left. A table that is wider than the page scrolls by itself.
   void table(const std::vector<std::vector<std::string>>& rows);
-  /// An SVG element with a line under it.
+  /// An SVG element with a line under it. Its ids become those of this picture alone.
   void picture(const std::string& svg, const std::string& caption);
 
   [[nodiscard]] std::string html() const;
 
  private:
   std::string title_, body_;
+  int pictures_ = 0;
 };
 
 }  // namespace shapeid::app

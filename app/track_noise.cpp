@@ -7,7 +7,7 @@ namespace shapeid::app {
 namespace {
 
 // Of the median, in variance: five times the usual error.
-constexpr double outstanding = 25.0;
+constexpr double outstanding_window = 25.0;
 
 double median(const std::deque<double>& values) {
   std::vector<double> sorted(values.begin(), values.end());
@@ -22,7 +22,7 @@ double median(const std::deque<double>& values) {
 void TrackNoise::learn(double variance) {
   variances_.push_back(variance);
   if (variances_.size() > most_) variances_.pop_front();
-  const double limit = outstanding * median(variances_);
+  const double limit = outstanding_window * median(variances_);
   double sum = 0.0;
   for (const double v : variances_) sum += std::min(v, limit);
   usual_ = sum / static_cast<double>(variances_.size());
