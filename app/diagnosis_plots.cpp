@@ -1,6 +1,7 @@
 #include "shapeid/app/diagnosis_plots.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -13,6 +14,7 @@
 
 #include "shapeid/app/gnuplot.hpp"
 #include "shapeid/app/result.hpp"
+#include "shapeid/app/ticks.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -20,11 +22,13 @@ namespace {
 constexpr const char* grey = "#8a8a8a";
 constexpr const char* orange = "#d9822b";
 constexpr const char* blue = "#1f5fa8";
+constexpr int plot_width = 820;  // pixels, of pictures as wide as the page
 
 std::string canvas(int width, int height) {
   return fmt::format(
       "set terminal svg size {},{} noenhanced background '#ffffff' font 'sans-serif,12'\n"
-      "set grid lc rgb '#dddddd'\nset border lc rgb '#666666'\nset key outside top horizontal\n",
+      "set grid lc rgb '#dddddd'\nset border lc rgb '#666666'\nset key outside top left "
+      "horizontal\n",
       width, height);
 }
 
@@ -63,34 +67,84 @@ std::pair<Eigen::Index, Eigen::Index> liveliest(const DiagnosisRun& run, int joi
   return best;
 }
 
+constexpr double pixels_left = 102.0, pixels_right = 16.0;  // of a plot with labels beside it
+
+/// Margins of a multiplot: gnuplot leaves a label out without a word where it has no room.
+std::string margins_with_labels(int height, double pixels_above) {
+  constexpr double below = 56.0;
+  return fmt::format("{:.4f},{:.4f},{:.4f},{:.4f}", pixels_left / plot_width,
+                     1.0 - pixels_right / plot_width, below / height, 1.0 - pixels_above / height);
+}
+
+/// The range of an axis and ticks on it with room for their labels.
+std::string x_axis(const Span& span, double pixels) {
+  return fmt::format("set xrange [{:.9g}:{:.9g}]\nset xtics {:g}\n", span.low, span.high,
+                     step_across(span, pixels));
+}
+
+/// Vertical lines through a point: marks that points, which are round, can be compared with.
+std::string upright_marks(int column, const std::string& look, const char* title) {
+  return fmt::format("$d using {}:($1-0.32):(0):(0.64) with vectors nohead {} title '{}'", column,
+                     look, title);
+}
+
 }  // namespace
 
+// A model is often some hundred times better than none, and what was found twice as good as that:
+// on a linear axis nothing but the error of none can be seen. Places on a logarithmic axis say it;
+// bars there would be as long as one likes.
 std::string errors_picture(const DiagnosisRun& run, const Robot& robot) {
   const int base = robot.base_dof();
-  std::string script =
-      canvas(820, 320) +
-      "set style data histograms\nset style histogram clustered gap 1\n"
-      "set style fill solid 0.85 noborder\nset xtics rotate by -35\nset yrange [0:*]\n" +
-      fmt::format("set ylabel 'residual ({}, rms)'\n$d << EOD\n", joints_unit(robot));
+  const TestErrors& e = run.errors;
+  std::string rows;
+  std::vector<double> all;
+  std::size_t longest = 0;
   for (int j = 0; j < robot.joint_count(); ++j) {
-    script += fmt::format("{} {:.5g} {:.5g} {:.5g}\n", gnuplot_entry(robot.joint(j).name),
-                          run.errors.zero[base + j], run.errors.given[base + j],
-                          run.errors.found[base + j]);
+    const std::array errors = {e.zero[base + j], e.given[base + j], e.found[base + j],
+                               e.noise_floor[j]};
+    rows += fmt::format("{} {:.5g} {}\n", j, fmt::join(errors, " "),
+                        gnuplot_entry(robot.joint(j).name));
+    longest = std::max(longest, robot.joint(j).name.size());
+    for (const double x : errors) {
+      if (std::isfinite(x) && x > 0.0) all.push_back(x);
+    }
   }
-  script += fmt::format(
-      "EOD\nplot $d using 2:xtic(1) lc rgb '{}' title 'predicting zero', $d using 3 lc rgb '{}' "
-      "title 'given model', $d using 4 lc rgb '{}' title 'found'\n",
-      grey, orange, blue);
-  return gnuplot(script);
+  if (all.empty()) return {};
+  constexpr double beyond = 1.3;
+  const auto [least, most] = std::minmax_element(all.begin(), all.end());
+  const Span span{*least / beyond, *most * beyond};
+  const int margin = static_cast<int>(std::min<std::size_t>(longest, 36)) + 3;  // letters
+  const double pixels = plot_width - 7.5 * margin - 40.0;
+  std::string script =
+      canvas(plot_width, 110 + 28 * robot.joint_count()) +
+      fmt::format(
+          "set key samplen 1.5\nset tmargin 3.2\nset bmargin 3.5\nset lmargin {}\n"
+          "set yrange [{}:-0.6]\nset logscale x\n"
+          "set xrange [{:.6g}:{:.6g}]\nset xtics ({:g})\n"
+          "set xlabel 'residual ({}, rms)'\n$d << EOD\n{}EOD\n",
+          margin, robot.joint_count() - 0.4, span.low, span.high,
+          fmt::join(logarithmic_ticks(span, pixels), ", "), joints_unit(robot), rows);
+  script +=
+      "plot " + upright_marks(2, fmt::format("lw 4 lc rgb '{}'", grey), "predicting zero") + ", ";
+  if (!e.noise_floor.array().isNaN().all()) {
+    script += upright_marks(5, "lw 1.5 lc rgb '#222222'", "noise floor") + ", ";
+  }
+  return gnuplot(
+      script +
+      fmt::format("$d using 3:1:($4-$3):(0) with vectors nohead lw 2 lc rgb '{1}' notitle, "
+                  "$d using 3:1:ytic(6) with points pt 7 ps 1.1 lc rgb '{0}' title 'given model', "
+                  "$d using 4:1 with points pt 7 ps 0.8 lc rgb '{1}' title 'found'\n",
+                  orange, blue));
 }
 
 std::string torque_picture(const DiagnosisRun& run, const Robot& robot, int joint) {
   const Eigen::Index row = robot.base_dof() + joint;
   constexpr double shown = 6.0;  // s
+  constexpr int height = 380;
   const auto [from, end] = liveliest(run, joint, shown);
   const double start = sample_at(run, 0).time;
   std::string script =
-      canvas(820, 360) + data("d", end - from, [&, from = from](Eigen::Index k) {
+      canvas(plot_width, height) + data("d", end - from, [&, from = from](Eigen::Index k) {
         const Eigen::Index i = from + k;
         const double tau = run.after.predicted(row, i) - run.after.residual(row, i);
         return std::array{sample_at(run, i).time - start, tau,
@@ -99,14 +153,15 @@ std::string torque_picture(const DiagnosisRun& run, const Robot& robot, int join
       });
   const std::string unit = unit_at(robot.joint(joint), "N m");
   script += fmt::format(
-      "set multiplot layout 2,1 margins 0.09,0.98,0.12,0.9 spacing 0.05\nset format x ''\n"
+      "set multiplot layout 2,1 margins {5} spacing 0.05\nset format x ''\n"
       "set ylabel '{4} ({3})'\n"
       "plot $d using 1:2 with lines lw 2 lc rgb '{0}' title 'logged', $d using 1:3 with lines lc "
       "rgb '{1}' title 'given model', $d using 1:4 with lines lc rgb '{2}' title 'found'\n"
       "unset key\nset format x '%g'\nset xlabel 'time (s)'\nset ylabel 'residual ({3})'\n"
       "plot $d using 1:5 with lines lc rgb '{1}', $d using 1:6 with lines lc rgb '{2}'\n"
       "unset multiplot\n",
-      grey, orange, blue, unit, unit == "N" ? "force" : "torque");
+      grey, orange, blue, unit, unit == "N" ? "force" : "torque",
+      margins_with_labels(height, 32.0));
   return gnuplot(script);
 }
 
@@ -116,38 +171,52 @@ std::string scatter_picture(const DiagnosisRun& run, const Robot& robot, int joi
   const Eigen::Index stride = std::max<Eigen::Index>(1, run.after.residual.cols() / most);
   const Eigen::Index count = run.after.residual.cols() / stride;
   const double start = sample_at(run, 0).time;
-  std::string script = canvas(820, 240) + "unset key\nset xtics rotate by -45 font ',10'\n" +
-                       data("d", count, [&](Eigen::Index i) {
-                         const Sample& s = sample_at(run, i * stride);
-                         return std::array{s.dq[joint],
-                                           s.q[joint],
-                                           run.after.predicted(row, i * stride),
-                                           s.time - start,
-                                           run.before.residual(row, i * stride),
-                                           run.after.residual(row, i * stride)};
-                       });
+  constexpr int height = 250, panels = 4;
+  constexpr double between = 28.0;  // pixels
+  constexpr double panel =
+      (plot_width - pixels_left - pixels_right - (panels - 1) * between) / panels;
+  std::array<std::vector<double>, panels> over;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Sample& s = sample_at(run, i * stride);
+    over[0].push_back(s.dq[joint]);
+    over[1].push_back(s.q[joint]);
+    over[2].push_back(run.after.predicted(row, i * stride));
+    over[3].push_back(s.time - start);
+  }
+  std::string script =
+      canvas(plot_width, height) + "unset key\n" + data("d", count, [&](Eigen::Index i) {
+        const auto k = static_cast<std::size_t>(i);
+        return std::array{over[0][k],
+                          over[1][k],
+                          over[2][k],
+                          over[3][k],
+                          run.before.residual(row, i * stride),
+                          run.after.residual(row, i * stride)};
+      });
   const auto here = [&](const char* unit) { return unit_at(robot.joint(joint), unit); };
   script += fmt::format(
-      "set multiplot layout 1,4 margins 0.07,0.985,0.25,0.94 spacing 0.035\n"
-      "set ylabel 'residual ({})'\n",
-      here("N m"));
-  const std::array<std::string, 4> labels = {
+      "set multiplot layout 1,{} margins {} spacing {:.4f}\nset ylabel 'residual ({})'\n", panels,
+      margins_with_labels(height, 14.0), between / plot_width, here("N m"));
+  const std::array<std::string, panels> labels = {
       "velocity (" + here("rad/s") + ")", "position (" + here("rad") + ")",
       (here("N m") == "N" ? "force (" : "torque (") + here("N m") + ")", "time (s)"};
   for (std::size_t k = 0; k < labels.size(); ++k) {
     script += fmt::format(
-        "set xlabel '{}'\n"
+        "{}set xlabel '{}'\n"
         "plot $d using {}:5 with points pt 7 ps 0.18 lc rgb '{}', $d using {}:6 with points pt 7 "
         "ps 0.22 lc rgb '{}'\nunset ylabel\nset format y ''\n",
-        labels[k], k + 1, orange, k + 1, blue);
+        x_axis(Span::around(over[k]), panel), labels[k], k + 1, orange, k + 1, blue);
   }
   return gnuplot(script + "unset multiplot\n");
 }
 
 std::string autocorrelation_picture(const DiagnosisRun& run, const Robot& robot) {
-  const int columns = 4, rows = (robot.joint_count() + columns - 1) / columns;
+  const int columns = std::min(4, robot.joint_count());
+  const int rows = (robot.joint_count() + columns - 1) / columns;
   constexpr int lags = 40;
-  std::string script = canvas(820, 60 + 150 * rows) + "unset key\nset yrange [-0.6:1]\n" +
+  constexpr double beside = 70.0;  // pixels, of a panel's labels
+  std::string script = canvas(plot_width, 40 + 170 * rows) +
+                       "unset key\nset yrange [-0.6:1]\nset ytics 0.4\nset xlabel 'lag (s)'\n" +
                        fmt::format("set multiplot layout {},{}\n", rows, columns);
   for (int j = 0; j < robot.joint_count(); ++j) {
     const Eigen::Index row = robot.base_dof() + j;
@@ -157,9 +226,11 @@ std::string autocorrelation_picture(const DiagnosisRun& run, const Robot& robot)
       const auto k = static_cast<std::size_t>(i);
       return std::array{static_cast<double>(i) * after.step, before.value[k], after.value[k]};
     });
+    const double last = after.step * static_cast<double>(after.value.size() - 1);
     script += fmt::format(
-        "set title {}\nplot {} with filledcurves y1={} fs solid 0.2 noborder lc rgb '#444444', "
+        "{}set title {}\nplot {} with filledcurves y1={} fs solid 0.2 noborder lc rgb '#444444', "
         "$d using 1:2 with lines lc rgb '{}', $d using 1:3 with lines lw 1.5 lc rgb '{}'\n",
+        x_axis({0.0, last > 0.0 ? last : 1.0}, static_cast<double>(plot_width) / columns - beside),
         gnuplot_string(robot.joint(j).name), after.band, -after.band, orange, blue);
   }
   return gnuplot(script + "unset multiplot\n");
@@ -168,7 +239,7 @@ std::string autocorrelation_picture(const DiagnosisRun& run, const Robot& robot)
 std::string ranking_picture(const DiagnosisRun& run) {
   constexpr std::size_t shown = 15;
   const auto count = static_cast<Eigen::Index>(std::min(shown, run.loop.first_ranking.size()));
-  std::string script = canvas(820, 80 + 24 * static_cast<int>(count)) +
+  std::string script = canvas(plot_width, 80 + 24 * static_cast<int>(count)) +
                        "unset key\nset lmargin 36\nset xlabel 'held-out gain (% of the squared "
                        "error)'\nset style fill solid 0.8\nset yrange [*:*] reverse\n$d << EOD\n";
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -210,14 +281,22 @@ std::string inertia_picture(const DiagnosisRun& run, const Robot& robot, int lin
   };
   const InertialParameters given = robot.links[static_cast<std::size_t>(link)].inertia;
   const InertialParameters found{run.consistent.model.Phi.segment<10>(Eigen::Index{10} * link)};
-  std::string script =
-      canvas(820, 260) + "set multiplot layout 1,2\nset size ratio -1\nset xlabel 'x (m)'\n";
+  constexpr int height = 280, panels = 2;
+  // What labels and key leave of a panel, pixels; the same scale in both directions.
+  constexpr double across = static_cast<double>(plot_width) / panels - 110.0, up = height - 95.0;
+  std::string script = canvas(plot_width, height) +
+                       "set multiplot layout 1,2\nset size ratio -1\nset xlabel 'x (m)'\n";
   const std::array<std::pair<int, const char*>, 2> views = {std::pair{2, "z (m)"}, {1, "y (m)"}};
   for (const auto& [axis, label] : views) {
     std::string plots;
+    std::vector<double> along, upward;
     for (const bool is_found : {false, true}) {
       const auto points = outline(is_found ? found : given, 0, axis);
       if (points.empty()) continue;
+      for (const auto& [x, y] : points) {
+        along.push_back(x);
+        upward.push_back(y);
+      }
       const std::string name = is_found ? "found" : "given";
       script += data(name, std::ssize(points),
                      [&](Eigen::Index i) { return points[static_cast<std::size_t>(i)]; });
@@ -225,7 +304,11 @@ std::string inertia_picture(const DiagnosisRun& run, const Robot& robot, int lin
                            plots.empty() ? "" : ", ", name, is_found ? blue : orange, name);
     }
     if (plots.empty()) return {};
-    script += fmt::format("set ylabel '{}'\nplot {}\n", label, plots);
+    const Span x = Span::around(along), y = Span::around(upward);
+    const double scale = std::min(across / (x.high - x.low), up / (y.high - y.low));
+    script += x_axis(x, scale * (x.high - x.low));
+    script += fmt::format("set yrange [{:.9g}:{:.9g}]\nset ytics {:g}\nset ylabel '{}'\nplot {}\n",
+                          y.low, y.high, step_up(y, scale * (y.high - y.low)), label, plots);
   }
   return gnuplot(script + "unset multiplot\n");
 }

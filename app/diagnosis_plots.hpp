@@ -7,7 +7,8 @@
 
 namespace shapeid::app {
 
-/// Residual of every joint with zero torque, the given model and the found one, rms.
+/// Residual of every joint with zero torque, the given model and the found one, rms, and its noise
+/// floor, on a logarithmic axis. Empty if no joint has an error.
 [[nodiscard]] std::string errors_picture(const DiagnosisRun& run, const Robot& robot);
 
 /// Logged torque with both predictions, and both residuals below, over the seconds of the test
