@@ -45,6 +45,21 @@ Table errors_table(const DiagnosisRun& run, const Robot& robot) {
   return table;
 }
 
+/// What the column and the mark of that name are. Contact forces explain a part of the residual,
+/// but not of the floor: TestErrors::noise_floor.
+std::string noise_floor_words(bool filtered) {
+  if (!filtered) {
+    return "Noise floor: what noise of the logged torque leaves behind the filter is judged by "
+           "what it takes away; without a filter nothing is known of it.";
+  }
+  return "Noise floor: what noise of the logged torque leaves behind the filter, so that a perfect "
+         "model would have about this error. It is judged by what the filter took away from the "
+         "torque, as though that were white noise. It is too high, and the error found may be "
+         "lower, where the filter took away more than such noise (motion, ripple or impacts "
+         "faster than its cutoff, noise that is stronger at high frequencies than at low ones), "
+         "and on legs that stand, where contact forces explain a part of the noise, too.";
+}
+
 Table findings_table(const DiagnosisRun& run, const Robot& robot) {
   Table table = {{"effect", "value", "s.e.", "unit", "gain (%)", "gain / s.e.",
                   "cannot be told from, or doubt"}};
@@ -73,6 +88,12 @@ Table findings_table(const DiagnosisRun& run, const Robot& robot) {
                        short_number(run.consistent.effect_error[k][at]),
                        unit_of(robot, a, a.effect->parameters[p].unit), p == 0 ? gain : "",
                        p == 0 ? t : "", p == 0 ? others : ""});
+    }
+    for (std::size_t s = 0; s < a.effect->shape.size(); ++s) {
+      const diagnosis::ShapeNumber& number = a.effect->shape[s];
+      table.push_back({"",
+                       number.name + " = " + short_number(a.shape[static_cast<Eigen::Index>(s)]),
+                       "-", unit_of(robot, a, number.unit), "", "", ""});
     }
   }
   return table;
@@ -129,8 +150,7 @@ void add_undetermined(Page& page, const DiagnosisRun& run, const Robot& robot) {
                     id, -z));
   }
   for (const auto& a : run.consistent.dropped) {
-    page.paragraph(hypothesis_id(robot, a) +
-                   " was left out: its sign is impossible once the links are bodies.");
+    page.paragraph(fmt::format("{} was left out: {}.", hypothesis_id(robot, a), why_left_out(a)));
   }
   if (!run.curves.empty()) {
     page.paragraph(fmt::format(
@@ -168,11 +188,11 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
   Page page("What the model of " + robot.name + " lacks");
   std::vector<std::string> logs = {options.inputs.log};
   logs.insert(logs.end(), options.also.begin(), options.also.end());
+  const bool filtered = !options.inputs.exact && options.inputs.cutoff > 0.0;
   const std::string filter =
-      options.inputs.exact || options.inputs.cutoff == 0.0
-          ? "No channel was filtered."
-          : fmt::format("Every channel went through the same zero-phase filter of {:g} Hz.",
-                        options.inputs.cutoff);
+      filtered ? fmt::format("Every channel went through the same zero-phase filter of {:g} Hz.",
+                             options.inputs.cutoff)
+               : "No channel was filtered.";
   page.paragraph(fmt::format(
       "Log {}, tested on {} ({} samples used for nothing else). {} {} hypotheses in {} "
       "blocks; screening {:.1f} s, refits {:.1f} s.",
@@ -186,7 +206,12 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
       "logged.",
       joints_unit(robot)));
   page.table(errors_table(run, robot));
-  page.picture(errors_picture(run, robot), "Joints: the same errors as in the table.");
+  page.paragraph(noise_floor_words(filtered));
+  if (const std::string picture = errors_picture(run, robot); !picture.empty()) {
+    page.picture(picture,
+                 "Joints: the same errors as in the table, on a logarithmic axis: the further left "
+                 "the better.");
+  }
   page.heading("What was found");
   if (run.consistent.model.effects.empty()) {
     page.paragraph("No effect lowers the error on held-out blocks by more than chance.");

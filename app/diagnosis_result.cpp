@@ -222,11 +222,12 @@ std::string errors_text(const DiagnosisRun& run, const Robot& robot) {
     }
     text += "\n";
   }
-  return text + fmt::format("  {:<20}{:>10.4g}{:>10.4g}{:>10.4g}{:>10.4g}{:>14.3g}{:>12.4g}  {}\n",
-                            "all joints", overall(e.zero, robot), overall(e.given, robot),
-                            overall(e.usual, robot), overall(e.found, robot),
-                            overall(e.noise_floor, robot), overall(e.unfiltered_found, robot),
-                            joints_unit(robot));
+  const auto all = [&](const Eigen::VectorXd& rms, int digits) {
+    return number_or_dash(overall(rms, robot), digits);
+  };
+  return text + fmt::format("  {:<20}{:>10}{:>10}{:>10}{:>10}{:>14}{:>12}  {}\n", "all joints",
+                            all(e.zero, 4), all(e.given, 4), all(e.usual, 4), all(e.found, 4),
+                            all(e.noise_floor, 3), all(e.unfiltered_found, 4), joints_unit(robot));
 }
 
 std::string curves_text(const DiagnosisRun& run, const Robot& robot) {
@@ -307,6 +308,11 @@ std::string doubt(const DiagnosisRun& run, const diagnosis::Found& f, const Robo
   if (f.any_period) return "a ripple over another joint's position, sought likewise, does as well";
   return fmt::format("a law that no robot has explains {:.1f} % here, this one less",
                      100.0 * run.loop.placebo);
+}
+
+std::string why_left_out(const AppliedEffect& dropped) {
+  return dropped.effect->is_payload ? "no mass is left for it once the links are bodies"
+                                    : "its sign is impossible once the links are bodies";
 }
 
 json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseOptions& options) {
@@ -392,8 +398,7 @@ std::string diagnosis_text(const DiagnosisRun& run, const Robot& robot) {
       run.loop.refit_seconds, run.loop.error_given, run.loop.error_rigid, run.loop.error_end);
   text += findings_text(run, robot);
   for (const AppliedEffect& a : run.consistent.dropped) {
-    text += fmt::format("  {:<38}left out: its sign is impossible once the links are bodies\n",
-                        hypothesis_id(robot, a));
+    text += fmt::format("  {:<38}left out: {}\n", hypothesis_id(robot, a), why_left_out(a));
   }
   for (const auto& [id, z] : run.loop.wrong_signs) {
     text += fmt::format(

@@ -21,6 +21,9 @@ namespace shapeid::app {
 [[nodiscard]] std::string doubt(const DiagnosisRun& run, const diagnosis::Found& found,
                                 const Robot& robot);
 
+/// Why an effect of Consistent::dropped is not in the model: half a sentence.
+[[nodiscard]] std::string why_left_out(const diagnosis::AppliedEffect& dropped);
+
 /// Whether it came since the reference log; empty if it did not.
 [[nodiscard]] std::string since_text(const diagnosis::Found& found);
 

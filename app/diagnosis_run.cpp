@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "shapeid/app/diagnosis_logs.hpp"
@@ -125,10 +126,10 @@ TestErrors test_errors(const RobotInputs& robot, const DiagnoseOptions& options,
   errors.unfiltered_zero = diagnosis::row_rms(zero.residual.bottomRows(n) - rough, counted);
   errors.unfiltered_given = diagnosis::row_rms(run.before.residual.bottomRows(n) - rough, counted);
   errors.unfiltered_found = diagnosis::row_rms(run.after.residual.bottomRows(n) - rough, counted);
-  errors.noise_floor = diagnosis::row_rms(rough, counted);
-  if (options.inputs.cutoff > 0.0 && !options.inputs.exact) {
-    errors.noise_floor *= noise_left_over_taken(options.inputs.cutoff, run.test.rate());
-  }
+  const bool filtered = options.inputs.cutoff > 0.0 && !options.inputs.exact;
+  errors.noise_floor = diagnosis::row_rms(rough, counted) *
+                       (filtered ? noise_left_over_taken(options.inputs.cutoff, run.test.rate())
+                                 : std::numeric_limits<double>::quiet_NaN());
   return errors;
 }
 

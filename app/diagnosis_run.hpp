@@ -41,7 +41,7 @@ struct TestErrors {
   /// The same against the torque as logged, without any filter, joints only.
   Eigen::VectorXd unfiltered_zero, unfiltered_given, unfiltered_found;
   /// What noise of the logged torque leaves after the filter, joints only, N m: from what the
-  /// filter takes away, as though it were white.
+  /// filter takes away, as though it were white. NaN if there is no filter.
   Eigen::VectorXd noise_floor;
 };
 

@@ -145,9 +145,10 @@ std::string comparison_text(const Comparison& c, const Robot& robot) {
         fmt::format("  {:<20}{:>12}{:>12}{:>12}  {}\n", names[at], number_or_dash(c.zero[row], 4),
                     number_or_dash(c.given[row], 4), number_or_dash(c.found[row], 4), units[at]);
   }
-  text +=
-      fmt::format("  {:<20}{:>12.4g}{:>12.4g}{:>12.4g}  {}\n", "all joints", overall(c.zero, robot),
-                  overall(c.given, robot), overall(c.found, robot), joints_unit(robot));
+  text += fmt::format("  {:<20}{:>12}{:>12}{:>12}  {}\n", "all joints",
+                      number_or_dash(overall(c.zero, robot), 4),
+                      number_or_dash(overall(c.given, robot), 4),
+                      number_or_dash(overall(c.found, robot), 4), joints_unit(robot));
   return text;
 }
 
@@ -184,6 +185,7 @@ std::string number_or_dash(double x, int digits) {
 
 double overall(const Eigen::VectorXd& rms, const Robot& robot) {
   const Eigen::ArrayXd joints = rms.tail(robot.joint_count());
+  if (joints.isNaN().all()) return std::numeric_limits<double>::quiet_NaN();
   return joints.isNaN().select(0.0, joints).matrix().norm();
 }
 

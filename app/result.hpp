@@ -61,7 +61,7 @@ void choose_written_links(Result& result, const Robot& robot, double least_mass)
 [[nodiscard]] std::string number_or_dash(double x, int digits);
 
 /// sqrt of the sum of squares over the joint rows, in joints_unit(): one number for a whole robot.
-/// Rows without an error (NaN) are left out.
+/// Rows without an error (NaN) are left out; NaN if no row has one.
 [[nodiscard]] double overall(const Eigen::VectorXd& rms, const Robot& robot);
 /// "N m", "N", or "N m and N" of a robot with joints of both kinds.
 [[nodiscard]] std::string joints_unit(const Robot& robot);
