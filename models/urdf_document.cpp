@@ -8,6 +8,7 @@
 
 #include "shapeid/models/note_list.hpp"
 #include "shapeid/models/number.hpp"
+#include "shapeid/models/urdf_unread.hpp"
 #include "shapeid/models/urdf_xml.hpp"
 
 namespace shapeid::urdf {
@@ -249,8 +250,13 @@ Document read_document(const std::string& text, const std::string& file) {
   // Other children (materials, transmissions, simulator settings) say nothing about the dynamics.
   for (const XMLElement* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
     const std::string_view kind = e->Name();
-    if (kind == "link") document.links.push_back(read_link(read, *e, notes));
-    if (kind == "joint") document.joints.push_back(read_joint(read, *e, notes));
+    if (kind == "link") {
+      document.links.push_back(read_link(read, *e, notes));
+      note_unread_in_link(*e, notes);
+    } else if (kind == "joint") {
+      document.joints.push_back(read_joint(read, *e, notes));
+      note_unread_in_joint(*e, notes);
+    }
   }
   if (document.links.empty()) {
     throw InputError(read.at(root.GetLineNum()), "the robot has no <link>",
