@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 
 #include "shapeid/diagnosis/effects.hpp"
@@ -16,7 +15,9 @@
 namespace shapeid::diagnosis {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+/// No torque (N m), force (N), mass (kg) or coefficient of a robot is larger: beyond it a unit or
+/// an exponent is wrong, and what would be said of the log instead would blame the log.
+constexpr double largest_number = 1e6;
 
 /// A name as YAML reads it back, in quotes where it needs them.
 std::string scalar(const std::string& name) {
@@ -57,6 +58,13 @@ AppliedEffect read_place(const YamlInput& file, const YAML::Node& node, const Ro
   return at_start(*effect, *site);
 }
 
+/// A ratio has the unit "1", which is not said.
+std::string behind_number(const std::string& unit) { return unit == "1" ? "" : " " + unit; }
+
+std::string bounds_text(double least, double most, const std::string& unit) {
+  return fmt::format("{:g} to {:g}{}", least, most, behind_number(unit));
+}
+
 /// What is known may lie beyond where it is sought (friction of a Franka Panda is published with a
 /// width of 0.39 rad/s); what lies far beyond is a unit gone wrong.
 void check_shape(const YamlInput& file, const YAML::Node& node, const ShapeNumber& shape,
@@ -65,19 +73,21 @@ void check_shape(const YamlInput& file, const YAML::Node& node, const ShapeNumbe
   const double least = shape.lower / beyond, most = shape.upper * beyond;
   if (value >= least && value <= most) return;
   file.refuse(node, fmt::format("{} is {:g}", shape.name, value),
-              fmt::format("{:g} to {:g} {}", least, most, shape.unit));
+              bounds_text(least, most, shape.unit));
 }
 
 /// Limits of columns are of what is believed when they are sought; a number that is known may be
-/// any. A transformation works within its limits alone.
+/// any that a robot can have. A transformation works within its limits alone.
 void check_value(const YamlInput& file, const YAML::Node& node, const Effect& effect,
                  const Parameter& parameter, double value) {
-  const double limit = effect.transform.any() ? parameter.limit : infinity;
+  const double limit =
+      effect.transform.any() ? std::min(parameter.limit, largest_number) : largest_number;
   const double least = parameter.nonnegative ? 0.0 : -limit;
   if (value >= least && value <= limit) return;
+  const bool is_negative = value < least && parameter.nonnegative && !effect.transform.any();
   file.refuse(node, fmt::format("{} is {:g}", parameter.name, value),
-              std::isfinite(limit) ? fmt::format("{:g} to {:g} {}", least, limit, parameter.unit)
-                                   : fmt::format("at least 0 {}", parameter.unit));
+              is_negative ? "at least 0" + behind_number(parameter.unit)
+                          : bounds_text(least, limit, parameter.unit));
 }
 
 AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Robot& robot) {
@@ -145,6 +155,10 @@ Curve read_curve(const YamlInput& file, const YAML::Node& node, const Robot& rob
   if (curve.at.size() < 2 || !increase) {
     file.refuse(node["at"], "the knots do not increase",
                 "give two or more numbers, each larger than the one before");
+  }
+  if (curve.number.size() > 0 && curve.number.cwiseAbs().maxCoeff() > largest_number) {
+    file.refuse(node["number"], fmt::format("a number of {:g}", curve.number.cwiseAbs().maxCoeff()),
+                bounds_text(-largest_number, largest_number, law.parameters.front().unit));
   }
   if (curve.number.size() != curve.at.size()) {
     file.refuse(node["number"],

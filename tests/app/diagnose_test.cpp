@@ -326,6 +326,16 @@ TEST(Diagnose, EffectsThatDoNotExistAreRefusedWithTheirLine) {
   EXPECT_NE(refused("effects:\n  - {effect: torque_offset, site: FR_knee, values: {}}\n")
                 .find("does not give its o"),
             std::string::npos);
+  const std::string offset = "effects:\n  - {effect: torque_offset, site: FR_knee, values: {o: ";
+  EXPECT_NE(refused(offset + "1e300}}\n").find("effects.yaml:2: o is 1e+300; -1e+06 to 1e+06 N m"),
+            std::string::npos);
+  const std::string gain =
+      refused("effects:\n  - {effect: torque_gain, site: FR_knee, values: {g: -1}}\n");
+  EXPECT_NE(gain.find("g is -1; -0.8 to 0.8\n"), std::string::npos) << gain;
+  EXPECT_NE(refused("effects: []\ncurves: [{effect: torque_offset, site: FR_knee, over: "
+                    "dq.FR_knee, at: [0, 1], number: [0, 1e300]}]\n")
+                .find("effects.yaml:2: a number of 1e+300"),
+            std::string::npos);
 }
 
 }  // namespace
