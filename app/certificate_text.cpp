@@ -20,6 +20,36 @@ std::string bodies_text(const Proof& p) {
       count(Existence::definite), count(Existence::semidefinite), count(Existence::impossible));
 }
 
+std::string where_from(const Proof& p) {
+  if (p.optimum_known) {
+    return p.free_set_right ? "solved exactly on the answer's own free set"
+                            : "solved exactly on a free set that the slopes named";
+  }
+  return "by duality";
+}
+
+/// What is proved of a number whose bound may be infinite: then there is none.
+std::string at_most(double bound, const char* unit) {
+  return std::isfinite(bound) ? fmt::format("{:.3g}{}", bound, unit) : std::string("not bounded");
+}
+
+std::string optimum_text(const Proof& p) {
+  if (!std::isfinite(p.upper))
+    return fmt::format("{:.17g} or more, nothing else is proved", p.lower);
+  return fmt::format("in [{:.17g}, {:.17g}], {}", p.lower, p.upper, where_from(p));
+}
+
+std::string distance_text(const Proof& p) {
+  const std::string masses =
+      std::isfinite(p.mass_distance)
+          ? fmt::format("no mass is farther than {:.3g} kg from the optimum's", p.mass_distance)
+          : "how far masses are from the optimum's is not bounded";
+  const Eigen::Vector3d& of = p.parameter_distance;
+  if (of.array().isInf().all()) return masses + ", nor is it of parameters";
+  return fmt::format("{}; parameters: {}, {}, {}", masses, at_most(of[0], " kg"),
+                     at_most(of[1], " kg m"), at_most(of[2], " kg m^2"));
+}
+
 std::string mass_bound_text(const Proof& p) {
   if (!std::isfinite(p.mass_bound)) return "none declared, none proved";
   return fmt::format("{:.6g} kg, {}", p.mass_bound,
@@ -34,14 +64,6 @@ std::string columns_text(const Proof& p) {
   return fmt::format(
       "{} of {} columns are what their shapes make; {} shapes are shown to lie in the regions\n",
       c.agree, c.declared, c.inside);
-}
-
-std::string where_from(const Proof& p) {
-  if (p.optimum_known) {
-    return p.free_set_right ? "solved exactly on the answer's own free set"
-                            : "solved exactly on a free set that the slopes named";
-  }
-  return "by duality";
 }
 
 /// Larger sets have smaller optima; what the numbers add is how far they are apart.
@@ -67,14 +89,15 @@ std::string certified_text(const certificate::Certified& certified) {
   const Proof& p = certified.proof;
   std::string text = fmt::format(
       "{}\n"
-      "objective of the answer: at most {:.17g}\n"
-      "optimum: in [{:.17g}, {:.17g}], {}\n"
-      "gap: at most {:.3g}; no mass is farther than {:.3g} kg from the optimum's; parameters: "
-      "{:.3g} kg, {:.3g} kg m, {:.3g} kg m^2\n"
+      "objective of the answer: {}\n"
+      "optimum: {}\n"
+      "gap: {}; {}\n"
       "mass bound: {}\n",
-      certified.reasons.empty() ? "accepted" : "rejected", p.objective_above, p.lower, p.upper,
-      where_from(p), p.gap, p.mass_distance, p.parameter_distance[0], p.parameter_distance[1],
-      p.parameter_distance[2], mass_bound_text(p));
+      certified.reasons.empty() ? "accepted" : "rejected",
+      std::isfinite(p.objective_above) ? fmt::format("at most {:.17g}", p.objective_above)
+                                       : "larger than any double",
+      optimum_text(p), std::isfinite(p.gap) ? fmt::format("at most {:.3g}", p.gap) : "none proved",
+      distance_text(p), mass_bound_text(p));
   text += bodies_text(p);
   text += columns_text(p);
   if (!p.made_of_shapes) {
@@ -83,9 +106,8 @@ std::string certified_text(const certificate::Certified& certified) {
                 : "the parameters as written are the masses' to rounding, not exactly\n";
   }
   if (p.floor) {
-    text +=
-        fmt::format("floor of infinitely many divisions: {:.17g}; the answer is {:.3g} above it\n",
-                    *p.floor, p.objective_above - *p.floor);
+    text += fmt::format("floor of infinitely many divisions: {:.17g}; the answer is {} above it\n",
+                        *p.floor, at_most(p.objective_above - *p.floor, ""));
   }
   text += relaxations_text(p);
   for (const std::string& reason : certified.reasons) text += "reason: " + reason + "\n";

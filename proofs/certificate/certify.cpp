@@ -23,6 +23,13 @@ Eigen::Index group_of(std::size_t parameter) {
   return place == 0 ? 0 : (place < 4 ? 1 : 2);
 }
 
+/// A number for people to read, which may be larger than a double can be.
+std::string words(const Rational& x) {
+  const double nearest = x.get_d();
+  if (std::isfinite(nearest)) return fmt::format("{:g}", nearest);
+  return sgn(x) > 0 ? "larger than any double" : "below any double";
+}
+
 class Certifier {
  public:
   Certifier(const StatedProblem& stated, const Answer& answer, const Tolerance& tolerance)
@@ -85,16 +92,16 @@ class Certifier {
   void check_bounds() {
     const std::size_t before = result_.reasons.size();
     for (std::size_t j = 0; j < m_.size(); ++j) {
-      if (sgn(m_[j]) < 0) reject("mass {} is negative: {:g} kg", j, m_[j].get_d());
+      if (sgn(m_[j]) < 0) reject("mass {} is negative: {} kg", j, words(m_[j]));
     }
     for (std::size_t k = 0; k < x_.size(); ++k) {
       if ((p_.lower[k] && x_[k] < *p_.lower[k]) || (p_.upper[k] && x_[k] > *p_.upper[k])) {
-        reject("column {} is beyond its bounds: {:g}", k, x_[k].get_d());
+        reject("column {} is beyond its bounds: {}", k, words(x_[k]));
       }
     }
     if (p_.mass_bound && sum(m_) > *p_.mass_bound) {
-      reject("the masses add up to {:g} kg, the problem declares no more than {:g}",
-             sum(m_).get_d(), p_.mass_bound->get_d());
+      reject("the masses' sum in kg is {}, the problem declares no more than {}", words(sum(m_)),
+             words(*p_.mass_bound));
     }
     result_.proof.feasible = result_.reasons.size() == before;
   }
@@ -114,16 +121,15 @@ class Certifier {
     for (std::size_t i = 0; i < Phi_.size(); ++i) {
       if (abs(exact(claimed(i)) - Phi_[i]) <= rounding * terms[i]) continue;
       reject(
-          "parameter {} is said to be {:g}, {} {:g}", i, claimed(i),
+          "parameter {} is said to be {:g}, {} {}", i, claimed(i),
           answer_.masses.size() > 0 ? "the masses make it" : "the nearest body of the shapes has",
-          Phi_[i].get_d());
+          words(Phi_[i]));
     }
     // A residual that is off by rounding times |W^(1/2) F| changes its square by no more than this.
     const Rational root = root_above(zero_objective_) * rounding;
     const Rational allowed = 2 * root_above(f_) * root + root * root;
     if (abs(exact(answer_.objective) - f_) > allowed) {
-      reject("the objective is said to be {:g}, the answer's is {:g}", answer_.objective,
-             f_.get_d());
+      reject("the objective is said to be {:g}, the answer's is {}", answer_.objective, words(f_));
     }
   }
 
@@ -160,8 +166,11 @@ class Certifier {
     measure_distances(optimum, gap);
     const Rational accepted = exact(tolerance_.gap) * zero_objective_;
     if (gap > accepted) {
-      reject("the objective is {}{:.3g} above the optimum, up to {:.3g} is accepted",
-             optimum ? "" : "up to ", proof.gap, rounded_down(accepted));
+      const std::string above = std::isfinite(proof.gap)
+                                    ? fmt::format("{}{:.3g}", optimum ? "" : "up to ", proof.gap)
+                                    : "farther than any double says";
+      reject("the objective is {} above the optimum, up to {:.3g} is accepted", above,
+             rounded_down(accepted));
     }
   }
 

@@ -54,6 +54,21 @@ CommandRun certify(const nlohmann::json& given, const std::string& options = "")
   return shapeid("certify problem.json answer.json " + options);
 }
 
+/// Where nothing is proved, or no double holds a number, words say so.
+TEST(CertifyVerb, NothingIsInfinite) {
+  nlohmann::json far = answer(digest_of_problem());
+  for (const double mass : {-1.0, 1e308}) {
+    far["masses"] = {mass, 1e308};
+    const CommandRun run = certify(far);
+    EXPECT_EQ(run.status, 1) << run.err;
+    EXPECT_EQ(run.out.find("inf"), std::string::npos) << run.out;
+    EXPECT_EQ(run.err.find("inf"), std::string::npos) << run.err;
+    EXPECT_NE(run.out.find("gap: none proved"), std::string::npos) << run.out;
+  }
+  EXPECT_NE(certify(far).out.find("objective of the answer: larger than any double"),
+            std::string::npos);
+}
+
 TEST(CertifyVerb, AcceptsMassesAndParametersAlone) {
   nlohmann::json good = answer(digest_of_problem());
   const CommandRun run = certify(good, "--out certificate.json");
