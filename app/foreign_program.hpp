@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,12 +23,19 @@ class ForeignProgram {
   [[nodiscard]] std::string ask(const std::string& line, int patience = 30000);
 
  private:
-  void write_some(std::string_view& question) const;
+  void write_some(std::string_view& question);
   void read_some();
+  void hear();
+  void pass_on();
+  [[nodiscard]] std::optional<int> ended_by_itself();
+  [[noreturn]] void fail_ended(const char* how);
 
   std::string command_;
   pid_t child_ = -1;
   int to_ = -1, from_ = -1;
+  int errors_ = -1;  ///< its standard error
+  bool answered_ = false;
+  std::string complaint_;  ///< what it said there before its first answer
   std::string unread_;
 };
 

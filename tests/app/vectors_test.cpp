@@ -59,7 +59,10 @@ TEST(Vectors, EverySeededBugIsCaughtAsTheTableSays) {
 
 TEST(Vectors, ProgramsThatDoNotAnswerAreSaid) {
   EXPECT_EQ(check("true").status, 2);
-  EXPECT_EQ(check("no_such_program_anywhere").status, 2);
+  expect_one_line(check("no_such_program_anywhere"), 2, "the shell finds no such program");
+  // What a program says itself is kept, whether it answers or not.
+  EXPECT_NE(check("echo why >&2; exit 127x").err.find("why\n"), std::string::npos);
+  EXPECT_NE(check("echo why >&2; cat", "--kind moments").err.find("why\n"), std::string::npos);
   EXPECT_EQ(check("cat", "--kind nonsense").status, 2);
   const CommandRun echo = check("cat", "--kind moments");  // answers, but not the question
   EXPECT_EQ(echo.status, 1);
