@@ -99,7 +99,7 @@ void batch(const BatchOptions& options, Peers& peers) {
   refuse_repeated(options.logs);
   check_solver(options.settings);
   const RobotInputs robot = read_robot_with_any(options.inputs, options.logs);
-  const BodyModel model = sought_bodies(options.sought, robot.robot);
+  const BodyModel model = sought_bodies(options.sought, robot);
   BatchOptions with_mass = options;
   with_mass.settings.expected_mass = expected_mass(options.sought, robot, model);
   const std::optional<BatchResult> found = run_batch(with_mass, robot, model, peers);

@@ -284,6 +284,7 @@ Result solved(const std::vector<BatchLog>& logs, std::vector<reference::RowBlock
   }
   Result result;
   result.robot_file = options.inputs.robot;
+  result.robot_yaml_file = robot.robot_yaml;
   const auto used = std::count_if(logs.begin(), logs.end(),
                                   [](const BatchLog& log) { return log.refused.empty(); });
   result.log_file = fmt::format("{} logs", used);
@@ -291,8 +292,7 @@ Result solved(const std::vector<BatchLog>& logs, std::vector<reference::RowBlock
   result.motion = motion_of(logs);
   result.found = identify(model, {std::move(blocks), result.motion.samples}, options.settings);
   check_some_mass(result, options.settings.expected_mass);
-  result.notes = robot.robot.notes;
-  result.notes.insert(result.notes.end(), robot.warnings.begin(), robot.warnings.end());
+  result.notes = robot.all_notes();
   result.notes.insert(result.notes.end(), result.motion.notes.begin(), result.motion.notes.end());
   choose_written_links(result, robot.robot, options.least_mass);
   return result;

@@ -346,6 +346,7 @@ json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseO
   return {{"format", "shapeid-diagnosis-1"},
           {"software", fmt::format("shapeid {}", version)},
           {"robot", options.inputs.robot},
+          {"robot_yaml", run.robot_yaml.empty() ? json() : json(run.robot_yaml)},
           {"log", options.inputs.log},
           {"also", options.also},
           {"test", e.where},

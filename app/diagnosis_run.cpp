@@ -351,6 +351,8 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
                                        run.loop, run.consistent);
   run.causes_alone =
       diagnosis::beside_causes_alone(robot.robot, log.recording, reference, run.settings, run.loop);
+  run.robot_yaml = robot.robot_yaml;
+  run.notes.insert(run.notes.end(), robot.remarks.begin(), robot.remarks.end());
   run.notes.insert(run.notes.end(), robot.warnings.begin(), robot.warnings.end());
   run.notes.insert(run.notes.end(), log.motion.notes.begin(), log.motion.notes.end());
   const diagnosis::RichModel given{stacked_parameters(robot.robot), {}};

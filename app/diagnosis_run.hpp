@@ -59,6 +59,7 @@ struct DiagnosisRun {
   diagnosis::Series before, after;  ///< on the test motion
   MotionReport motion;
   std::vector<std::string> notes;
+  std::string robot_yaml{};  ///< that was read; may be empty
 };
 
 [[nodiscard]] DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& options);

@@ -194,14 +194,14 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
 
   Result result;
   result.robot_file = inputs.robot;
+  result.robot_yaml_file = robot.robot_yaml;
   result.log_file = inputs.log;
   result.sought = model;
   result.found = identify(
       robot.robot, model, [&] { return effects ? effects->next() : samples.next(); }, settings,
       watch);
   result.motion = effects ? effects->log().motion : log.report();
-  result.notes = robot.robot.notes;
-  result.notes.insert(result.notes.end(), robot.warnings.begin(), robot.warnings.end());
+  result.notes = robot.all_notes();
   result.notes.insert(result.notes.end(), result.motion.notes.begin(), result.motion.notes.end());
   choose_written_links(result, robot.robot, options.least_mass);
   result.heldout = effects ? effects->compare(robot, inputs, options, result.found.Phi)

@@ -65,7 +65,7 @@ void identify_windows(const IdentifyArguments& options, const RobotInputs& robot
 
 void identify(IdentifyArguments& options) {
   const RobotInputs robot = read_robot(options.inputs);
-  const BodyModel model = sought_bodies(options.sought, robot.robot);
+  const BodyModel model = sought_bodies(options.sought, robot);
   const double mass = expected_mass(options.sought, robot, model);
   if (options.online) return identify_windows(options, robot, model, mass);
 

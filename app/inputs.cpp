@@ -141,7 +141,20 @@ void check_no_stream(const std::string& log) {
 }
 
 void say_warnings(const RobotInputs& inputs) {
+  for (const std::string& remark : inputs.remarks) tell(fmt::format("note: {}\n", remark));
   for (const std::string& warning : inputs.warnings) tell(fmt::format("warning: {}\n", warning));
+}
+
+std::string RobotInputs::of_floating_base() const {
+  if (notes.imu_given) return "an IMU";
+  return notes.contacts_given && !robot.contacts.empty() ? "contacts" : "";
+}
+
+std::vector<std::string> RobotInputs::all_notes() const {
+  std::vector<std::string> all = robot.notes;
+  all.insert(all.end(), remarks.begin(), remarks.end());
+  all.insert(all.end(), warnings.begin(), warnings.end());
+  return all;
 }
 
 RobotInputs read_robot(const MotionInputs& inputs) {
@@ -163,10 +176,21 @@ RobotInputs read_robot(const MotionInputs& inputs, const LogTable& log) {
                     describe(finding.place), finding.link, finding.wrong));
   }
   result.robot = std::move(file.robot);
-  const std::string notes =
+  result.robot_yaml =
       inputs.robot_yaml.empty() ? robot_yaml_beside(inputs.robot) : inputs.robot_yaml;
-  if (!notes.empty()) {
-    result.notes = read_robot_yaml(notes, result.robot);
+  if (!result.robot_yaml.empty()) {
+    result.notes = read_robot_yaml(result.robot_yaml, result.robot);
+    if (inputs.robot_yaml.empty()) {
+      result.remarks.push_back(
+          fmt::format("{} stands beside the URDF and is used (--robot-yaml names another one)",
+                      result.robot_yaml));
+    }
+    const std::string unused = result.of_floating_base();
+    if (options.root == Root::fixed && !unused.empty()) {
+      result.warnings.push_back(
+          fmt::format("the log has no base.* columns: the base is taken as fixed, though {} has {}",
+                      result.robot_yaml, unused));
+    }
   } else if (options.root == Root::floating) {
     result.warnings.push_back(fmt::format(
         "no robot.yaml beside {}: the IMU is taken to be at the base's origin, unturned",

@@ -43,7 +43,14 @@ struct RobotInputs {
   Robot robot;
   RobotNotes notes;
   std::optional<Mapping> mapping;
+  std::string robot_yaml;             ///< that was read, given or found; may be empty
   std::vector<std::string> warnings;  ///< what is taken for granted
+  std::vector<std::string> remarks;   ///< what was read without being named
+
+  /// What robot.yaml has that a fixed base has no use for ("an IMU"); empty if there is nothing.
+  [[nodiscard]] std::string of_floating_base() const;
+  /// What a result notes of its inputs: of the robot, remarks, warnings.
+  [[nodiscard]] std::vector<std::string> all_notes() const;
 };
 
 /// On standard error, where no notes of a result say them.

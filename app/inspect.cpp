@@ -157,7 +157,8 @@ void inspect_motion(InspectArguments& options) {
       touching[c] += sample->in_contact[c];
   }
   const MotionReport& report = samples.report();
-  std::vector<std::string> notes = robot.warnings;
+  std::vector<std::string> notes = robot.remarks;
+  notes.insert(notes.end(), robot.warnings.begin(), robot.warnings.end());
   notes.insert(notes.end(), report.notes.begin(), report.notes.end());
   json contacts = json::object();
   for (std::size_t c = 0; c < touching.size(); ++c) {

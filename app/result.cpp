@@ -248,6 +248,7 @@ json result_json(const Result& result, const std::optional<double>& floor, const
   return {{"format", "shapeid-result-1"},
           {"software", fmt::format("shapeid {}", version)},
           {"robot", result.robot_file},
+          {"robot_yaml", result.robot_yaml_file.empty() ? json() : json(result.robot_yaml_file)},
           {"log", result.log_file},
           {"samples", result.found.samples},
           {"blocks", result.found.blocks},

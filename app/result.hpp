@@ -24,8 +24,8 @@ struct Comparison {
 };
 
 struct Result {
-  std::string robot_file, log_file;
-  BodyModel sought;  ///< as it was before the first division
+  std::string robot_file, robot_yaml_file, log_file;  ///< the second may be empty
+  BodyModel sought;                                   ///< as it was before the first division
   reference::Identification found;
   Comparison heldout;
   MotionReport motion;

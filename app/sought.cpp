@@ -1,5 +1,7 @@
 #include "shapeid/app/sought.hpp"
 
+#include <fmt/format.h>
+
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
@@ -7,9 +9,18 @@
 namespace shapeid::app {
 namespace {
 
-std::vector<int> links_of(const SoughtLinks& sought, const Robot& robot) {
+std::vector<int> links_of(const SoughtLinks& sought, const RobotInputs& inputs) {
+  const Robot& robot = inputs.robot;
   if (sought.whole_body) return moving_links(robot);
   if (!sought.free_links.empty()) return named_links(sought.free_links, robot);
+  const std::string unused = inputs.of_floating_base();
+  if (robot.root == Root::fixed && !unused.empty()) {
+    throw InputError(
+        fmt::format("the log has no base.* columns, though {} has {}: the base counts as fixed, "
+                    "and which links are sought is not said",
+                    inputs.robot_yaml, unused),
+        "log base.gyro and base.accel, or give --shapes, --free LINK or --whole-body");
+  }
   if (robot.root == Root::fixed) {
     throw InputError("which links are sought is not said",
                      "give --shapes, --free LINK or --whole-body (a fixed base has no dynamics)");
@@ -33,9 +44,9 @@ void SoughtLinks::add_to(CLI::App& verb) {
       ->check(mass_of_a_robot());
 }
 
-BodyModel sought_bodies(const SoughtLinks& sought, const Robot& robot) {
-  return sought.shapes.empty() ? default_shapes(robot, links_of(sought, robot))
-                               : read_shapes_yaml(sought.shapes, robot);
+BodyModel sought_bodies(const SoughtLinks& sought, const RobotInputs& robot) {
+  return sought.shapes.empty() ? default_shapes(robot.robot, links_of(sought, robot))
+                               : read_shapes_yaml(sought.shapes, robot.robot);
 }
 
 double expected_mass(const SoughtLinks& sought, const RobotInputs& robot, const BodyModel& model) {

@@ -20,7 +20,7 @@ struct SoughtLinks {
 
 /// From shapes.yaml, else from the collision bodies of the links that are named (the base of a
 /// floating robot by default). Throws InputError.
-[[nodiscard]] BodyModel sought_bodies(const SoughtLinks& sought, const Robot& robot);
+[[nodiscard]] BodyModel sought_bodies(const SoughtLinks& sought, const RobotInputs& robot);
 
 /// M0: said on the command line, else the expected range in robot.yaml, else the given masses.
 /// Throws InputError if none says anything.

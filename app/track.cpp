@@ -127,12 +127,12 @@ void track(TrackArguments& options) {
   Source source(options, checkpoint);
   LogTable table(options.inputs.log, source.position().header, 1);
   const RobotInputs robot = read_robot(options.inputs, table);
-  say_warnings(robot);
-  const BodyModel model = sought_bodies(options.sought, robot.robot);
+  const BodyModel model = sought_bodies(options.sought, robot);
   const TrackSettings settings = settings_for(options, robot, model);
   const std::string setup = setup_digest(robot, model, settings);
   TrackRun run(table, robot, model, settings);
   if (checkpoint) restore(*checkpoint, run, setup);
+  say_warnings(robot);  // not beside a refusal, which is one line
 
   std::size_t saved = run.lines();
   while (const std::optional<Line> line = source.next()) {

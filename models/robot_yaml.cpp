@@ -153,7 +153,8 @@ RobotNotes read_robot_yaml(const std::string& path, Robot& robot) {
   const YAML::Node& root = in.root();
   in.check_keys(root, "robot.yaml", {}, {"imu", "contacts", "noise", "rotors", "expected_mass"});
   RobotNotes notes;
-  if (root["imu"]) notes.imu = in.pose(root["imu"], "imu");
+  notes.imu_given = static_cast<bool>(root["imu"]);
+  if (notes.imu_given) notes.imu = in.pose(root["imu"], "imu");
   std::vector<Contact> contacts;
   if (const YAML::Node list = root["contacts"]) {
     if (!list.IsSequence()) in.refuse(list, "contacts is not a list", "write - {link: NAME}");

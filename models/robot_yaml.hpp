@@ -13,6 +13,7 @@ namespace shapeid {
 /// Pose of the IMU in the base link's frame, and more that the URDF does not hold.
 struct RobotNotes {
   Eigen::Isometry3d imu = Eigen::Isometry3d::Identity();
+  bool imu_given = false;
   std::map<std::string, double> noise_sigma;  ///< per channel of the log, in the channel's unit
   struct MassRange {
     double lower = 0.0, upper = 0.0;  ///< kg
