@@ -95,6 +95,8 @@ void refuse_repeated(const std::vector<std::string>& logs) {
 }  // namespace
 
 void batch(const BatchOptions& options, Peers& peers) {
+  // Only number 0 writes, and the others may be on machines that do not have the folder.
+  if (peers.rank() == 0) check_delivery(options.delivery);
   for (const std::string& log : options.logs) check_no_stream(log);
   refuse_repeated(options.logs);
   check_solver(options.settings);

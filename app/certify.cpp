@@ -26,6 +26,7 @@ struct CertifyArguments {
 
 void certify(const CertifyArguments& options) {
   using namespace certificate;
+  if (!options.out.empty()) OutputPlace(options.out).check_writable();
   const StatedProblem problem =
       stated_problem_from_json(read_small_file(options.problem, largest_file), options.problem);
   const Answer answer =

@@ -189,6 +189,7 @@ void unknown_load(Demo& demo) {
 
 void run_demo(Demo& demo) {
   check_gnuplot();
+  check_folder_writable(demo.folder);
   const OutputFolder folder(demo.folder);
   demo.page.paragraph(
       "A 12-joint quadruped trots in an independent simulator (Simbody) on compliant ground. Its "

@@ -41,6 +41,7 @@ void write_files(const DiagnoseArguments& options, const RobotInputs& robot, Dia
 }
 
 void diagnose(DiagnoseArguments& options) {
+  check_delivery(options.delivery);
   if (!options.delivery.folder.empty()) check_gnuplot();
   DiagnoseOptions& d = options.diagnose;
   if (d.inputs.exact) d.inputs.cutoff = 0.0;  // nothing is smoothed

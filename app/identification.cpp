@@ -235,6 +235,10 @@ void deliver(const Delivery& delivery, nlohmann::json document, const std::strin
   }
 }
 
+void check_delivery(const Delivery& delivery) {
+  if (!delivery.folder.empty()) check_folder_writable(delivery.folder);
+}
+
 void add_delivery_options(CLI::App& verb, Delivery& delivery) {
   verb.add_option("--out", delivery.folder, "folder for result.json, identified.urdf and more");
   verb.add_flag("--json", delivery.json, "print the result as JSON");

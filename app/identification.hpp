@@ -47,6 +47,9 @@ void deliver(const Delivery& delivery, nlohmann::json document, const std::strin
              const Result& result, const Judgement& judged, const RobotInputs& robot,
              const MotionInputs& inputs);
 
+/// Before the work: throws InputError if nothing can be written where the result is to go.
+void check_delivery(const Delivery& delivery);
+
 void add_delivery_options(CLI::App& verb, Delivery& delivery);
 
 /// Options of the division and the mass problem, for verbs that solve.

@@ -64,6 +64,7 @@ void identify_windows(const IdentifyArguments& options, const RobotInputs& robot
 }
 
 void identify(IdentifyArguments& options) {
+  check_delivery(options.delivery);
   const RobotInputs robot = read_robot(options.inputs);
   const BodyModel model = sought_bodies(options.sought, robot);
   const double mass = expected_mass(options.sought, robot, model);

@@ -53,6 +53,7 @@ double mass_of_load(const LoadArguments& options, const RobotNotes& notes) {
 }
 
 void load(LoadArguments& options) {
+  check_delivery(options.delivery);
   const RobotInputs robot = read_robot(options.inputs);
   const BodyModel model = region(options, robot.robot);
   options.run.settings.expected_mass = mass_of_load(options, robot.notes);

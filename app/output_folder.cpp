@@ -1,6 +1,7 @@
 #include "shapeid/app/output_folder.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <system_error>
@@ -10,11 +11,55 @@
 #include "shapeid/models/file_output.hpp"
 
 namespace shapeid::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* another_folder = "another folder";
+
+/// What is there of the folder's path, at the least the folder where we are.
+fs::path existing_part(const fs::path& folder) {
+  fs::path part = folder;
+  std::error_code unknown;
+  while (!part.empty() && !fs::exists(fs::symlink_status(part, unknown))) {
+    const fs::path parent = part.parent_path();
+    if (parent == part) break;
+    part = parent;
+  }
+  return part.empty() ? fs::path(".") : part;
+}
+
+}  // namespace
+
+void check_folder_writable(const std::string& folder) {
+  std::error_code failed;
+  const fs::file_status now = fs::status(folder, failed);
+  if (fs::is_directory(now)) {
+    OutputPlace((fs::path(folder) / fmt::format("probe.{}", ::getpid())).string()).check_writable();
+    return;
+  }
+  // A name that is too long, links in a circle: asking for more would say the same.
+  if (failed && now.type() != fs::file_type::not_found) {
+    throw InputError({folder}, "cannot be made: " + failed.message(), another_folder);
+  }
+  const fs::path there = existing_part(folder);
+  if (!fs::is_directory(there, failed)) {
+    const bool itself = there == fs::path(folder);
+    throw InputError({there.string()}, "is no folder",
+                     itself ? another_folder : fmt::format("{} for {}", another_folder, folder));
+  }
+  // Under a name of its own: another process may just be making the same folder.
+  const fs::path probe = there / fmt::format("probe.part{}", ::getpid());
+  failed.clear();
+  fs::create_directory(probe, failed);
+  if (failed) throw InputError({folder}, "cannot be made: " + failed.message(), another_folder);
+  fs::remove(probe, failed);
+}
 
 OutputFolder::OutputFolder(const std::string& folder) : folder_(folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder_, failed);
-  if (failed) throw InputError({folder}, "cannot be made: " + failed.message(), "another folder");
+  if (failed) throw InputError({folder}, "cannot be made: " + failed.message(), another_folder);
 }
 
 void OutputFolder::write(const std::vector<OutputFile>& files) const {

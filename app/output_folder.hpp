@@ -24,4 +24,8 @@ class OutputFolder {
   std::filesystem::path folder_;
 };
 
+/// Before the work: throws InputError if the folder cannot be made, or nothing can be written into
+/// it. Leaves nothing behind, so that what is refused later has made no folder.
+void check_folder_writable(const std::string& folder);
+
 }  // namespace shapeid::app

@@ -14,6 +14,7 @@
 #include "shapeid/app/track_run.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/file_output.hpp"
 #include "shapeid/reference/identify.hpp"
 
 namespace shapeid::app {
@@ -124,6 +125,7 @@ void track(TrackArguments& options) {
   } else if (!options.checkpoint.empty()) {
     check_replaceable(options.checkpoint);
   }
+  if (!options.checkpoint.empty()) OutputPlace(options.checkpoint).check_writable();
   Source source(options, checkpoint);
   LogTable table(options.inputs.log, source.position().header, 1);
   const RobotInputs robot = read_robot(options.inputs, table);

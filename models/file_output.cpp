@@ -1,15 +1,22 @@
 #include "shapeid/models/file_output.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <climits>
 #include <filesystem>
 #include <fstream>
+#include <list>
+#include <set>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "shapeid/models/error.hpp"
@@ -54,6 +61,34 @@ void end_file(const std::string& path) {
   }
 }
 
+/// A folder that no other process of ours changes meanwhile. The folder itself is locked, so that
+/// no file is left behind by it, also by a process that is killed. Where folders cannot be locked
+/// (some network file systems), nothing is.
+class LockedFolder {
+ public:
+  explicit LockedFolder(const std::string& folder)
+      : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    // Files take their places within a moment: who holds the lock for longer is none of us, such as
+    // flock(1) around this very command, and is not waited for without end.
+    constexpr auto longest = std::chrono::seconds(10);
+    constexpr auto between_tries = std::chrono::milliseconds(1);
+    const auto start = std::chrono::steady_clock::now();
+    while (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+      const bool held = errno == EWOULDBLOCK || errno == EINTR;
+      if (!held || std::chrono::steady_clock::now() - start > longest) return;
+      std::this_thread::sleep_for(between_tries);
+    }
+  }
+  ~LockedFolder() {
+    if (file_ >= 0) ::close(file_);
+  }
+  LockedFolder(const LockedFolder&) = delete;
+  LockedFolder& operator=(const LockedFolder&) = delete;
+
+ private:
+  int file_;
+};
+
 }  // namespace
 
 void remove_unfinished_files() noexcept {
@@ -71,6 +106,20 @@ OutputPlace::OutputPlace(std::string path) : path_(std::move(path)), final_(behi
   const bool replaceable = !fs::exists(now) || fs::is_regular_file(now);
   writable_ = replaceable ? fmt::format("{}.part{}", final_, ::getpid()) : path_;
   if (writable_ != path_) begin_file(writable_);
+}
+
+void OutputPlace::check_writable() const {
+  // A device or a pipe may act on being opened.
+  if (writable_ == path_) return;
+  std::ofstream out(writable_, std::ios::binary);
+  if (!out) fail("cannot be written");
+  out.close();
+  discard();
+}
+
+std::string OutputPlace::folder() const {
+  const fs::path parent = fs::path(final_).parent_path();
+  return parent.empty() ? "." : parent.string();
 }
 
 void OutputPlace::finish() const {
@@ -106,6 +155,11 @@ void write_files(const std::vector<FileText>& files) {
       out.close();
       if (!out) place.fail("cannot be written");
     }
+    // In one order for all, so that no two wait for each other.
+    std::set<std::string> folders;
+    for (const OutputPlace& place : places) folders.insert(place.folder());
+    std::list<LockedFolder> locked;
+    for (const std::string& folder : folders) locked.emplace_back(folder);
     for (const OutputPlace& place : places) place.finish();
   } catch (...) {
     for (const OutputPlace& place : places) place.discard();

@@ -16,6 +16,10 @@ class OutputPlace {
 
   /// The file to write to: beside the final one, unless that is no regular file.
   [[nodiscard]] const std::string& writable() const { return writable_; }
+  /// Before anything is written: throws InputError if nothing could be. Leaves nothing behind.
+  void check_writable() const;
+  /// The folder that the file is in at last.
+  [[nodiscard]] std::string folder() const;
   /// What was written takes its place. Throws InputError if it cannot.
   void finish() const;
   /// Nothing was written.
@@ -41,7 +45,9 @@ struct FileText {
   std::string path, text;
 };
 
-/// The same for files that belong together: none takes its place before all are written.
+/// The same for files that belong together: none takes its place before all are written, and while
+/// they do their folders are locked, so that of several processes that write the same set one comes
+/// after the other and no set is mixed.
 void write_files(const std::vector<FileText>& files);
 
 }  // namespace shapeid

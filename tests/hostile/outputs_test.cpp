@@ -1,13 +1,21 @@
 // Places that cannot be written to: full disks, links, devices, folders. What was there before
 // stays whole, and the command says in one line what went wrong.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
@@ -136,6 +144,113 @@ TEST(HostileOutputs, AFolderWhereOneOfASetWouldBe) {
     EXPECT_EQ(std::distance(fs::directory_iterator(scratch() + "/set"), fs::directory_iterator()),
               1);
   }
+}
+
+/// A set of files that all say the same.
+std::vector<FileText> set_of(const std::string& folder, const std::string& text) {
+  std::vector<FileText> files;
+  for (const char* name : {"a", "b", "c", "d", "e"}) files.push_back({folder + "/" + name, text});
+  return files;
+}
+
+/// The folder's lock, as long as this is there.
+class Lock {
+ public:
+  Lock(const std::string& folder, int kind)
+      : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    EXPECT_EQ(::flock(file_, kind), 0);
+  }
+  ~Lock() {
+    ::flock(file_, LOCK_UN);  // a child that was begun meanwhile would go on holding it
+    ::close(file_);
+  }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int file_;
+};
+
+// Several processes write the same set. Who looks with the lock sees one set, whosever, whole.
+TEST(HostileOutputs, SetsOfSeveralProcessesAreNotMixed) {
+  constexpr int writers = 3, times = 150;
+  const std::string folder = scratch() + "/shared";
+  fs::create_directories(folder);
+  write_files(set_of(folder, "first"));
+  std::vector<pid_t> children;
+  for (int writer = 0; writer < writers; ++writer) {
+    children.push_back(fork());
+    ASSERT_GE(children.back(), 0);
+    if (children.back() != 0) continue;
+    for (int i = 0; i < times; ++i) write_files(set_of(folder, fmt::format("{} {}", writer, i)));
+    _exit(0);
+  }
+  std::size_t mixed = 0;
+  for (std::size_t ended = 0; ended < children.size();) {
+    int status = 0;
+    if (waitpid(-1, &status, WNOHANG) > 0) {
+      EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+      ++ended;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));  // their turn
+    const Lock lock(folder, LOCK_SH);
+    const std::string one = text_of(folder + "/a");
+    for (const FileText& file : set_of(folder, one)) mixed += text_of(file.path) == one ? 0 : 1;
+  }
+  EXPECT_EQ(mixed, 0U);
+  // No lock is left, nor anything else beside the set.
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 5);
+}
+
+// What is written waits beside until the folder is free.
+TEST(HostileOutputs, ASetWaitsForItsFolder) {
+  const std::string folder = scratch() + "/held";
+  fs::create_directories(folder);
+  write_files(set_of(folder, "old"));
+  auto lock = std::make_unique<Lock>(folder, LOCK_EX);
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    write_files(set_of(folder, "new"));
+    _exit(0);
+  }
+  const std::string last = fmt::format("{}/e.part{}", folder, child);
+  constexpr int tries = 1000;
+  for (int i = 0; i < tries && !fs::exists(last); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  for (const FileText& file : set_of(folder, "old")) EXPECT_EQ(text_of(file.path), file.text);
+  lock.reset();
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  for (const FileText& file : set_of(folder, "new")) EXPECT_EQ(text_of(file.path), file.text);
+}
+
+// Said before the work, and so before inputs are read that are not there.
+TEST(HostileOutputs, PlacesThatCannotBeWrittenAreFoundFirst) {
+  scratch_file("plain", "a file\n");
+  fs::create_symlink(scratch() + "/none/there", scratch() + "/astray");
+  const std::string robot = "--robot none.urdf --log none.csv ";
+  for (const std::string& verb : {"identify " + robot, "diagnose " + robot, "batch " + robot,
+                                 "load --area base 0 1 0 1 0 1 " + robot, std::string("demo ")}) {
+    for (const std::string folder : {"plain", "plain/in/it", "/proc/none/there", "astray"}) {
+      SCOPED_TRACE(verb + folder);
+      const CommandRun run = shapeid(verb + "--out " + folder);
+      const bool in_file = folder.starts_with("plain");
+      expect_one_line(run, 2, in_file ? "plain: is no folder" : folder);
+    }
+    expect_one_line(shapeid(verb + "--out " + std::string(300, 'a')), 2, "cannot be made");
+  }
+  expect_one_line(shapeid("track --robot none.urdf none.csv --checkpoint none/there"), 2,
+                  "none/there: cannot be written");
+  expect_one_line(shapeid("certify none.json none.json --out none/there"), 2,
+                  "none/there: cannot be written");
+  // What is only refused later has made nothing.
+  expect_one_line(shapeid("identify --out made/by/it " + robot), 2, "none.csv");
+  EXPECT_FALSE(fs::exists(scratch() + "/made"));
+  EXPECT_FALSE(leftovers());
 }
 
 // What a user types may hold anything as well.
