@@ -156,9 +156,7 @@ void track(TrackArguments& options) {
   }
   // With a checkpoint more may come, and be gone on with.
   if (run.lines() == 0 && options.checkpoint.empty()) {
-    throw Refusal("too-short", fmt::format("{}: no line: no {} rows in the order of time, or no "
-                                           "window",
-                                           options.inputs.log, SampleStream::head_rows));
+    throw Refusal("too-short", fmt::format("{}: {}", options.inputs.log, run.why_no_line()));
   }
 }
 

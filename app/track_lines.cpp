@@ -91,6 +91,7 @@ bool LineFollower::wait_for_more() {
     if (::fstat(file_, &now) == 0 && std::cmp_greater(now.st_size, byte_)) {
       return true;  // block_ is empty: the caller comes back for the bytes
     }
+    refuse_replaced();
     const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
     if (options_.patience > 0.0 && waited.count() > options_.patience) return false;
     std::this_thread::sleep_for(between_looks);
@@ -115,6 +116,23 @@ void LineFollower::refuse_shrunk() const {
   throw InputError({path_, number_},
                    fmt::format("has {} bytes, and {} were read from it", now.st_size, byte_),
                    "give a log that only grows");
+}
+
+/// Whoever goes on with the log writes into another file, for which nobody would wait.
+void LineFollower::refuse_replaced() const {
+  struct stat ours {};
+  struct stat named {};
+  if (::fstat(file_, &ours) != 0) return;
+  const char* wrong = nullptr;
+  if (::stat(path_.c_str(), &named) != 0) {
+    if (errno == ENOENT || errno == ENOTDIR) wrong = "is not there any more";
+  } else if (named.st_dev != ours.st_dev || named.st_ino != ours.st_ino) {
+    wrong = "is another file now";
+  }
+  if (wrong == nullptr) return;
+  throw InputError({path_, number_},
+                   fmt::format("{}; the one that was followed ends after {} bytes", wrong, byte_),
+                   "follow a log that stays where it is");
 }
 
 void LineFollower::skip_to(std::uint64_t next_byte, int line_number) {

@@ -46,6 +46,7 @@ class LineFollower {
   [[nodiscard]] bool wait_for_more();
   [[nodiscard]] bool keeps_silent() const;
   void refuse_shrunk() const;
+  void refuse_replaced() const;
 
   std::string path_;
   FollowOptions options_;

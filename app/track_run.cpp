@@ -1,5 +1,7 @@
 #include "shapeid/app/track_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -109,6 +111,20 @@ void TrackRun::take(const GuardedRow& row) {
   stream_.push(row.row);
   if (stream_.rate() > 0.0 && !estimates_) prepare();
   while (const std::optional<Sample> sample = stream_.next()) take(*sample);
+}
+
+std::string TrackRun::why_no_line() const {
+  if (stream_.rate() == 0.0) {
+    return fmt::format("no line: no {} rows in the order of time", SampleStream::head_rows);
+  }
+  const double seconds = static_cast<double>(events_.rows) * stream_.row_step();
+  if (stream_.latency() > seconds) {
+    return fmt::format(
+        "no line: with --cutoff {:g} the first sample comes after {:.3g} s, and the log has "
+        "{:.3g} s; give a higher one",
+        settings_.stream.cutoff, stream_.latency(), seconds);
+  }
+  return fmt::format("no line: no window of {} samples", settings_.estimates.identifier.window);
 }
 
 void TrackRun::prepare() {

@@ -56,6 +56,9 @@ class TrackRun {
     archive("lines", lines_);
   }
 
+  /// Why there was no line so far, for a log that has ended.
+  [[nodiscard]] std::string why_no_line() const;
+
  private:
   enum class Why { answered, still, no_samples, declined };
 

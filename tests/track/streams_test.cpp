@@ -185,6 +185,32 @@ TEST(TrackStreams, AWriterThatFallsSilentIsLeftWhenPatienceEnds) {
   EXPECT_TRUE(said == followed_without_haste());
 }
 
+/// Who deletes or rotates the log writes no more into the file that is open here.
+TEST(TrackStreams, ALogThatIsNotThereAnyMoreEndsTheFollowing) {
+  scratch_file("another.csv", log_text());
+  const auto followed_until = [](const std::string& change) {
+    scratch_file("moved.csv", log_text());
+    // The change comes after the last byte was read, at whatever time that is.
+    const std::string line =
+        fmt::format("{} >said.txt & while [ ! -s said.txt ]; do sleep 0.01; done; {}; wait \\$!",
+                    command(track("--follow moved.csv")), change);
+    return program("timeout 60 " + in_bash(line));
+  };
+  expect_one_line(followed_until("rm moved.csv"), 2, "moved.csv:");
+  expect_one_line(followed_until("rm moved.csv"), 2, "is not there any more");
+  expect_one_line(followed_until("cp another.csv new.csv; mv new.csv moved.csv"), 2,
+                  "is another file now");
+  expect_one_line(followed_until("mv moved.csv moved.csv.1; cp another.csv moved.csv"), 2,
+                  "is another file now");
+  EXPECT_TRUE(text_of(scratch() + "/said.txt") == followed_without_haste());
+}
+
+TEST(TrackStreams, ACutoffThatSettlesAfterTheLogIsNamed) {
+  scratch_file("calm.csv", log_text());
+  expect_one_line(shapeid(track("--cutoff 1e-9 calm.csv")), 1, "with --cutoff 1e-09 the first");
+  EXPECT_EQ(shapeid(track("--cutoff 1e-9 calm.csv")).err.find("256"), std::string::npos);
+}
+
 void expect_said(const CommandRun& run) {
   expect_one_line(run, 2, "standard output cannot be written");
 }
