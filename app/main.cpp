@@ -1,3 +1,4 @@
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/run_command.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/version.hpp"
@@ -17,5 +18,6 @@ int main(int argc, char** argv) {
   shapeid::app::add_simulate(app);
   shapeid::app::add_inspect(app);
   shapeid::app::add_convert(app);
+  shapeid::app::check_values_first(app);
   return shapeid::app::run_command(app, argc, argv);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
@@ -60,6 +61,21 @@ bool is_count(const std::string& text) {
   return error == std::errc() && stop == end;
 }
 
+/// 0x10, 0b10 and 0o10, the first of which CLI11 would read.
+bool is_other_base(const std::string& text) {
+  const std::size_t first = text.find_first_not_of("+-");
+  return first != std::string::npos && text.size() > first + 1 && text[first] == '0' &&
+         std::isalpha(static_cast<unsigned char>(text[first + 1])) != 0;
+}
+
+bool is_whole_number(const std::string& text) {
+  std::int64_t number = 0;
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  return error == std::errc() && stop == end;
+}
+
 /// CLI11 takes leading zeros for that.
 bool is_octal(const std::string& text) {
   const std::size_t first = text.find_first_not_of("+-");
@@ -74,10 +90,17 @@ void check_value(const CLI::Option& option, const std::string& value) {
   if (type.starts_with("FLOAT") && !parse_number(value)) {
     throw InputError(name + " " + why_no_number(value), "give a finite decimal number");
   }
+  const bool is_whole = type.starts_with("UINT") || type.starts_with("INT");
+  if (is_whole && is_other_base(value)) {
+    throw InputError(fmt::format("{} is \"{}\", which is no decimal number", name, value),
+                     "give a decimal count");
+  }
+  if (type.starts_with("INT") && !is_whole_number(value)) {
+    throw InputError(fmt::format("{} is \"{}\"", name, value), "give a whole number");
+  }
   if (type.starts_with("UINT") && !is_count(value)) {
     throw InputError(fmt::format("{} is \"{}\"", name, value), "give a count, 0 or more");
   }
-  const bool is_whole = type.starts_with("UINT") || type.starts_with("INT");
   if (is_whole && is_octal(value)) {
     throw InputError(fmt::format("{} is \"{}\", which some read as octal", name, value),
                      "give a decimal count without leading zeros");
@@ -139,10 +162,31 @@ std::optional<std::pair<std::size_t, std::size_t>> same_file(
   return std::nullopt;
 }
 
+void check_values_first(CLI::App& app) {
+  std::vector<CLI::App*> verbs = app.get_subcommands({});
+  if (verbs.empty()) verbs.push_back(&app);  // a program that is one
+  for (CLI::App* verb : verbs) {
+    for (CLI::Option* option : verb->get_options()) {
+      if (option->get_type_size() == 0) continue;  // flags
+      option->check([option](const std::string& value) {
+        check_value(*option, value);
+        return std::string();
+      });
+      // How often it was given is said by check_given(); the parser would not say what is right.
+      if (option->get_items_expected_max() == 1) {
+        option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+      }
+    }
+  }
+}
+
 void check_given(const CLI::App& verb) {
   const std::vector<const CLI::Option*> options = verb.get_options();
   for (const CLI::Option* option : options) {
     if (option->get_type_size() == 0) continue;  // flags
+    if (option->get_items_expected_max() == 1 && option->count() > 1) {
+      throw InputError(option->get_name() + " is given twice", "give it once");
+    }
     for (const std::string& value : option->results()) check_value(*option, value);
   }
   const std::vector<std::string> names = written_into_folder(verb);

@@ -26,6 +26,10 @@ namespace shapeid::app {
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> same_file(
     const std::vector<std::string>& paths);
 
+/// Values of all options are looked at before the parser of the command line converts them: what
+/// it would say of one that it cannot convert, or of an option given twice, lacks what is right.
+void check_values_first(CLI::App& app);
+
 /// What was given to a verb, before it begins. Throws InputError for an empty value, for a number
 /// that is none, for a file to write that is read, and for a folder where a file is to be written.
 void check_given(const CLI::App& verb);

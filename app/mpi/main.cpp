@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "shapeid/app/batch.hpp"
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/run_command.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/version.hpp"
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
   options.add_to(app);
   app.get_option("--threads")->default_val(std::size_t{1});
   app.callback([&] { batch(options, peers); });
+  shapeid::app::check_values_first(app);
   const int status = shapeid::app::run_command(app, argc, argv);
   // The others wait for messages of the one that failed.
   if (status != 0) MPI_Abort(MPI_COMM_WORLD, status);
