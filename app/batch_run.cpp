@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -232,19 +233,38 @@ class Shares {
   std::vector<CompressedLog> all_;
 };
 
+/// The first reasons, so that what would be right is still on the screen.
+std::string reasons_text(const std::vector<std::string>& reasons) {
+  constexpr std::size_t most = 3;
+  const std::size_t said = std::min(reasons.size(), most);
+  const auto end = reasons.begin() + static_cast<std::ptrdiff_t>(said);
+  std::string text = fmt::format("{}", fmt::join(reasons.begin(), end, "; "));
+  if (reasons.size() > said) text += fmt::format("; and {} more", reasons.size() - said);
+  return text;
+}
+
 void judge_refused(const std::vector<BatchLog>& logs, bool skip) {
-  std::size_t refused = 0;
+  std::vector<std::string> reasons;
   for (const BatchLog& log : logs) {
     if (log.refused.empty()) continue;
-    ++refused;
-    tell(fmt::format("log {} is refused: {}\n", log.path, log.refused));
+    // Most reasons name their log themselves.
+    const bool names_it = log.refused.starts_with(log.path);
+    reasons.push_back(names_it ? log.refused : fmt::format("{}: {}", log.path, log.refused));
   }
-  if (refused == logs.size()) {
-    throw InputError("every log is refused", "give logs that `inspect` finds nothing wrong with");
+  if (reasons.empty()) return;
+  if (reasons.size() == logs.size()) {
+    throw InputError("every log is refused: " + reasons_text(reasons),
+                     "give logs that `inspect` finds nothing wrong with");
   }
-  if (refused > 0 && !skip) {
-    throw InputError(fmt::format("{} of {} logs are refused", refused, logs.size()),
+  if (!skip) {
+    throw InputError(fmt::format("{} of {} logs are refused: {}", reasons.size(), logs.size(),
+                                 reasons_text(reasons)),
                      "leave them out, or give --skip-refused");
+  }
+  for (const BatchLog& log : logs) {
+    if (!log.refused.empty()) {
+      tell(fmt::format("log {} is refused: {}\n", log.path, log.refused));
+    }
   }
 }
 

@@ -36,7 +36,8 @@ TEST(BatchProcesses, ABadLogEndsAllOfThem) {
       fmt::format("{} --json --divisions 0 --log {} absent.csv", bundled_robot(), piece_names());
   const CommandRun refused = processes(2, options);
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("log absent.csv is refused: "), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("1 of 8 logs are refused: absent.csv: "), std::string::npos)
+      << refused.err;
   const CommandRun skipped = processes(2, options + " --skip-refused");
   const CommandRun one = shapeid("batch " + options + " --skip-refused");
   ASSERT_EQ(one.status, 0) << one.err;
