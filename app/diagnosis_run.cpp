@@ -260,6 +260,7 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   const bool split = options.test.empty();
   const std::optional<Part> fitted_part = split ? std::optional(Part::fitted) : std::nullopt;
   RecordedLog log = read_recordings(fitted_logs(options), robot, options.inputs, fitted_part);
+  if (split && log.recording.samples().empty()) refuse_all_held_out(log.motion.samples);
   diagnosis::check_recording(robot.robot, log.recording, log.contacts);
   const std::vector<std::string> test_paths = split ? fitted_logs(options) : options.test;
   const std::optional<Part> test_part = split ? std::optional(Part::held_out) : std::nullopt;

@@ -197,9 +197,16 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   result.robot_yaml_file = robot.robot_yaml;
   result.log_file = inputs.log;
   result.sought = model;
-  result.found = identify(
-      robot.robot, model, [&] { return effects ? effects->next() : samples.next(); }, settings,
-      watch);
+  try {
+    result.found = identify(
+        robot.robot, model, [&] { return effects ? effects->next() : samples.next(); }, settings,
+        watch);
+  } catch (const Refusal& refusal) {
+    // A stretch of the log alone is fitted: that it holds nothing is no fault of the samples.
+    const std::size_t all = (effects ? effects->log().motion : log.report()).samples;
+    if (refusal.code() == "no-data" && options.test_log.empty()) refuse_all_held_out(all);
+    throw;
+  }
   result.motion = effects ? effects->log().motion : log.report();
   result.notes = robot.all_notes();
   result.notes.insert(result.notes.end(), result.motion.notes.begin(), result.motion.notes.end());

@@ -303,6 +303,14 @@ Part part_of(double time_since_start, const MotionInputs& inputs) {
   return Part::neither;
 }
 
+void refuse_all_held_out(std::size_t samples) {
+  if (samples == 0) return;
+  throw Refusal("no-data",
+                fmt::format("all {} samples of the log are held out for the test, or too "
+                            "near to what is; give --test, or a longer log",
+                            samples));
+}
+
 std::string held_out_words(const MotionInputs& inputs) {
   return inputs.held_out_stretch == stretches
              ? "every fifth two seconds of the log"
