@@ -2,16 +2,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "shapeid/app/inputs.hpp"
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/text.hpp"
 #include "shapeid/models/urdf.hpp"
 
 namespace shapeid::app {
@@ -130,15 +135,19 @@ void inspect_columns(const InspectArguments& options) {
     fmt::print("{}\n", json_text({{"log", options.file}, {"rows", rows}, {"columns", list}}, 2));
     return;
   }
-  fmt::print("log {}: {} rows, {} columns\n", options.file, rows, columns.size());
+  // A name in a log may hold anything that a terminal would act on.
+  constexpr std::size_t longest_name = 200, longest_path = 2000;
+  fmt::print("log {}: {} rows, {} columns\n", one_line(options.file, longest_path), rows,
+             columns.size());
   fmt::print("  {:<32}{:>12}{:>12}{:>12}{:>9}\n", "column", "lower", "mean", "upper", "empty");
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Range& r = ranges[i];
+    const std::string name = one_line(columns[i], longest_name);
     if (r.count == 0) {
-      fmt::print("  {:<32}{:>36}{:>9}\n", columns[i], "no number", r.empty);
+      fmt::print("  {:<32}{:>36}{:>9}\n", name, "no number", r.empty);
       continue;
     }
-    fmt::print("  {:<32}{:>12.5g}{:>12.5g}{:>12.5g}{:>9}\n", columns[i], r.lower,
+    fmt::print("  {:<32}{:>12.5g}{:>12.5g}{:>12.5g}{:>9}\n", name, r.lower,
                r.sum / static_cast<double>(r.count), r.upper, r.empty);
   }
 }
@@ -186,8 +195,23 @@ void inspect_motion(InspectArguments& options) {
     fmt::print("{:<26} {}\n", item.key(), json_text(item.value(), -1));
 }
 
+/// XML begins with one character, whatever its file is called, and no log does.
+bool begins_as_xml(const std::string& file) {
+  std::error_code unknown;  // what cannot be looked at is said when it is read
+  if (!std::filesystem::is_regular_file(file, unknown)) return false;
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, 4096> head{};
+  in.read(head.data(), head.size());
+  std::string_view text(head.data(), static_cast<std::size_t>(in.gcount()));
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && text[first] == '<';
+}
+
 void inspect(InspectArguments& options) {
-  const bool is_robot = options.file.ends_with(".urdf") || options.file.ends_with(".xml");
+  const bool is_robot = options.file.ends_with(".urdf") || options.file.ends_with(".xml") ||
+                        begins_as_xml(options.file);
   if (is_robot && !options.inputs.robot.empty()) {
     throw InputError({options.file}, "is a robot itself", "--robot goes with a log");
   }

@@ -37,6 +37,26 @@ TEST(InspectLog, GivesEachColumnsRange) {
       << text.out;
 }
 
+/// A terminal acts on what stands between ESC and a letter.
+TEST(InspectLog, NamesOfColumnsAreNoCommandsToATerminal) {
+  scratch_file("colour.csv", "time,q.\x1b[31mred\n0,1\n1,2\n");
+  const CommandRun run = shapeid("inspect colour.csv");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("q.\\x1b[31mred"), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find('\x1b'), std::string::npos);
+}
+
+/// What a file is called says nothing of what is in it.
+TEST(InspectLog, ARobotIsKnownByWhatIsInTheFile) {
+  const std::string robot = "<robot name=\"r\"><link name=\"a\"/></robot>\n";
+  for (const char* name : {"ARM.URDF", "arm.xacro", "arm"}) {
+    scratch_file(name, std::string("\xEF\xBB\xBF \n") + robot);
+    const CommandRun run = shapeid(std::string("inspect ") + name);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_TRUE(run.out.starts_with("robot r: 1 links")) << run.out;
+  }
+}
+
 /// A leg that hangs from a base, every sample of it as logged (--exact): the foot touches in the
 /// first three quarters.
 TEST(InspectLog, SaysWhatTheRobotDid) {
