@@ -204,6 +204,88 @@ TEST_F(Given, CountsWithLeadingZeros) {
   EXPECT_EQ(shapeid(words + "--divisions 0").status, 0);
 }
 
+/// What is right is said, not only what is wrong.
+TEST_F(Given, CountsThatAreNone) {
+  const std::string words = fmt::format("identify {} --log given.csv ", quadruped_files);
+  const std::string track = fmt::format("track {} given.csv ", quadruped_files);
+  expect_refused(words + "--hold-out 0x1",
+                 "--hold-out is \"0x1\", which is no decimal number; give a decimal count");
+  expect_refused(words + "--hold-out 1.5", "--hold-out: Value 1.5 not in range 1 to 5");
+  expect_refused(track + "--window 3.7", "--window is \"3.7\"; give a count, 0 or more");
+  expect_refused(words + "--divisions many", "--divisions");
+  expect_refused(words + "--divisions 1 --divisions 2", "--divisions is given twice; give it once");
+  expect_refused(track + "--robot given.csv", "--robot is given twice; give it once");
+}
+
+/// A log with joints alone, of a robot with an IMU.
+TEST_F(Given, ALogWithoutItsBase) {
+  LogReader log(scratch() + "/given.csv");
+  std::vector<std::size_t> kept;
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < log.columns().size(); ++c) {
+    if (log.columns()[c].starts_with("base.")) continue;
+    kept.push_back(c);
+    names.push_back(log.columns()[c]);
+  }
+  LogWriter out(scratch() + "/joints.csv", names);
+  while (const std::optional<LogRow> row = log.next()) {
+    std::vector<double> values;
+    for (const std::size_t c : kept) values.push_back(row->values[c]);
+    out.write(values);
+  }
+  out.close();
+  scratch_file("feet.yaml", "contacts: [{link: FR_foot}]\n");
+  expect_refused(
+      fmt::format("identify --robot {}quadruped.urdf --robot-yaml feet.yaml --log joints.csv",
+                  robots),
+      "the log has no base.* columns, though feet.yaml has contacts");
+  scratch_file("imu.yaml", "imu: {xyz: [0, 0, 0.1]}\n");
+  const std::string robot = fmt::format("--robot {}quadruped.urdf --robot-yaml imu.yaml ", robots);
+  expect_refused(fmt::format("identify {} --log joints.csv", robot),
+                 "the log has no base.* columns, though imu.yaml has an IMU");
+  const CommandRun run = shapeid(fmt::format("inspect joints.csv {}", robot));
+  EXPECT_NE(run.out.find("the base is taken as fixed"), std::string::npos) << run.out << run.err;
+}
+
+/// What is found beside the robot changes the answer, so it is said.
+TEST_F(Given, RobotYamlThatWasFoundIsSaid) {
+  const std::string found = robots + "quadruped.robot.yaml";
+  const std::string beside = found + " stands beside the URDF and is used";
+  for (const std::string verb :
+       {"identify --divisions 0", "load --area base 0 1 0 1 0 1 --divisions 0"}) {
+    SCOPED_TRACE(verb);
+    const std::string words =
+        fmt::format("{} --robot {}quadruped.urdf --log given.csv ", verb, robots);
+    const CommandRun text = shapeid(words);
+    EXPECT_NE(text.out.find("note: " + beside), std::string::npos) << text.out << text.err;
+    const CommandRun named = shapeid(words + "--robot-yaml " + found);
+    EXPECT_EQ(named.out.find(beside), std::string::npos) << named.out;
+    for (const char* option : {"", "--robot-yaml imu.yaml"}) {
+      scratch_file("imu.yaml", "imu: {xyz: [0, 0, 0.1]}\n");
+      const CommandRun run = shapeid(words + "--json " + option);
+      const std::string file = *option == '\0' ? found : "imu.yaml";
+      EXPECT_NE(run.out.find(fmt::format("\"robot_yaml\": \"{}\"", file)), std::string::npos)
+          << run.err;
+    }
+  }
+  ASSERT_EQ(shapeid("simulate --seconds 5 --seed 3 --out longer.csv").status, 0);
+  const CommandRun diagnosis =
+      shapeid(fmt::format("diagnose --trust --robot {}quadruped.urdf --log longer.csv --test "
+                          "given.csv --json",
+                          robots));
+  ASSERT_EQ(diagnosis.status, 0) << diagnosis.err;
+  EXPECT_NE(diagnosis.out.find(beside), std::string::npos);
+  EXPECT_NE(diagnosis.out.find(fmt::format("\"robot_yaml\": \"{}\"", found)), std::string::npos);
+}
+
+/// A log that ends within the stretch that is held out: its samples are good, but none is fitted.
+TEST_F(Given, LogsOfWhichNothingIsFitted) {
+  for (const char* verb : {"identify", "diagnose --trust"}) {
+    expect_refused(fmt::format("{} {} --log given.csv --hold-out 1", verb, quadruped_files),
+                   "held out for the test, or too near to what is; give --test", 1);
+  }
+}
+
 /// Options that would do nothing beside each other.
 TEST_F(Given, DiagnoseOptionsThatWouldDoNothing) {
   const std::string words = fmt::format("diagnose {} --log given.csv ", quadruped_files);
