@@ -72,8 +72,9 @@ struct CompressedRows {
 
 /// Identifies the free links of `model`. Memory does not grow with the stream: blocks are
 /// triangles, and neighbours merge when there are most_blocks of them. Throws Refusal "no-data" for
-/// an empty stream, "not-excited" for one in which nothing moves, "too-short" for a single block (no spread to judge by); what the rows of a
-/// sample, the row filter and the function above throw is thrown here as well.
+/// an empty stream, "not-excited" for one in which nothing moves, "too-short" for a single block
+/// (no spread to judge by); what the rows of a sample, the row filter and the function above throw
+/// is thrown here as well.
 [[nodiscard]] Identification identify(const Robot& robot, const BodyModel& model,
                                       const SampleStream& next, const IdentifySettings& settings,
                                       const std::function<void(const DivisionRun&)>& watch = {});

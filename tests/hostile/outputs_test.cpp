@@ -234,7 +234,7 @@ TEST(HostileOutputs, PlacesThatCannotBeWrittenAreFoundFirst) {
   fs::create_symlink(scratch() + "/none/there", scratch() + "/astray");
   const std::string robot = "--robot none.urdf --log none.csv ";
   for (const std::string& verb : {"identify " + robot, "diagnose " + robot, "batch " + robot,
-                                 "load --area base 0 1 0 1 0 1 " + robot, std::string("demo ")}) {
+                                  "load --area base 0 1 0 1 0 1 " + robot, std::string("demo ")}) {
     for (const std::string folder : {"plain", "plain/in/it", "/proc/none/there", "astray"}) {
       SCOPED_TRACE(verb + folder);
       const CommandRun run = shapeid(verb + "--out " + folder);
