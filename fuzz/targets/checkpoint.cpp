@@ -34,7 +34,7 @@ constexpr const char* setup = "setup";
 class Followed {
  public:
   Followed()
-      : inputs_{fuzz::hopper(), {}, {}, {}},
+      : inputs_{fuzz::hopper(), {}, {}, {}, {}, {}},
         model_(trunk_of(inputs_.robot)),
         table_("log.csv", header, 1) {
     fast::IdentifierSettings& identifier = settings_.estimates.identifier;
