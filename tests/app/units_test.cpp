@@ -92,15 +92,15 @@ TEST(Units, OfFrictionWhereAJointSlides) {
   EXPECT_NE(page.find("velocity (m/s)"), std::string::npos);
 }
 
-/// A shape of millimetres that were taken for metres: nothing near the arm's mass has its moments.
-TEST(Units, OfAShapeThatAreWrongAreSaidByWhatItPredicts) {
+/// The arm as the cuboid that has its moments about the joint, and as one whose millimetres were
+/// taken for metres: nothing near the arm's mass has its moments then.
+TEST(Units, ShapesOfTheWrongSizeAreSaidByWhatTheyPredict) {
   lift_and_arm();
-  const std::string arm = "{{kind: cuboid, size: [{0}, 0.1, 0.1], pose: {{xyz: [{1}, 0, 0]}}}}";
   for (const bool wrong : {false, true}) {
-    scratch_file("sized.shapes.yaml",
-                 "arm: [" +
-                     fmt::format(fmt::runtime(arm), wrong ? 800.0 : 0.8, wrong ? 400.0 : 0.4) +
-                     "]\n");
+    const std::string box =
+        wrong ? "size: [316.2278, 141.4214, 141.4214], pose: {xyz: [400, 0, 0]}"
+              : "size: [0.3162278, 0.1414214, 0.1414214], pose: {xyz: [0.4, 0, 0]}";
+    scratch_file("sized.shapes.yaml", "arm: [{kind: cuboid, " + box + "}]\n");
     const CommandRun run = shapeid(
         "identify --robot post.urdf --log post.csv --exact --shapes sized.shapes.yaml "
         "--divisions 0");
