@@ -22,8 +22,9 @@ std::string with_tags(std::string_view svg, const Change& change) {
   std::size_t from = 0;
   while (true) {
     const std::size_t begin = svg.find('<', from);
-    const std::size_t end = begin == svg.npos ? svg.npos : svg.find('>', begin);
-    if (end == svg.npos) return text.append(svg.substr(from));
+    const std::size_t end =
+        begin == std::string_view::npos ? std::string_view::npos : svg.find('>', begin);
+    if (end == std::string_view::npos) return text.append(svg.substr(from));
     text.append(svg.substr(from, begin - from));
     text += change(std::string(svg.substr(begin, end + 1 - begin)));
     from = end + 1;
@@ -36,7 +37,8 @@ std::string_view id_at(std::string_view tag, std::size_t at) {
 
 void note_references(const std::string& tag, Ids& ids) {
   for (const std::string_view start : before_other_id) {
-    for (std::size_t at = tag.find(start); at != tag.npos; at = tag.find(start, at + 1)) {
+    for (std::size_t at = tag.find(start); at != std::string_view::npos;
+         at = tag.find(start, at + 1)) {
       ids.emplace(id_at(tag, at + start.size()));
     }
   }
@@ -44,13 +46,14 @@ void note_references(const std::string& tag, Ids& ids) {
 
 std::string with_prefix(std::string tag, const Ids& wanted, const std::string& prefix) {
   for (const std::string_view start : before_other_id) {
-    for (std::size_t at = tag.find(start); at != tag.npos; at = tag.find(start, at + 1)) {
+    for (std::size_t at = tag.find(start); at != std::string_view::npos;
+         at = tag.find(start, at + 1)) {
       tag.insert(at + start.size(), prefix);
     }
   }
   for (const std::string_view start : before_own_id) {
     const std::size_t at = tag.find(start);
-    if (at == tag.npos) continue;
+    if (at == std::string_view::npos) continue;
     const std::string_view id = id_at(tag, at + start.size());
     if (wanted.contains(id)) {
       tag.insert(at + start.size(), prefix);
@@ -69,8 +72,9 @@ std::string without_titles(const std::string& svg) {
   std::size_t from = 0;
   while (true) {
     const std::size_t begin = svg.find(opening, from);
-    const std::size_t end = begin == svg.npos ? svg.npos : svg.find(closing, begin);
-    if (end == svg.npos) return bare + svg.substr(from);
+    const std::size_t end =
+        begin == std::string_view::npos ? std::string_view::npos : svg.find(closing, begin);
+    if (end == std::string_view::npos) return bare + svg.substr(from);
     bare += svg.substr(from, begin - from);
     from = end + closing.size();
   }

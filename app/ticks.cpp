@@ -26,9 +26,10 @@ double smallest_step(const Span& span, double pixels, const Length& length) {
   for (int power = static_cast<int>(std::floor(std::log10(range / too_many)));; ++power) {
     for (const double number : round_numbers) {
       const double step = number * std::pow(10.0, power);
-      const double first = std::ceil(span.low / step), last = std::floor(span.high / step);
+      const double first = std::ceil(span.low / step);
+      const auto ticks = static_cast<int>(std::floor(span.high / step) - first) + 1;
       double longest = 0.0;
-      for (double k = first; k <= last; ++k) longest = std::max(longest, length(k * step));
+      for (int k = 0; k < ticks; ++k) longest = std::max(longest, length((first + k) * step));
       if (step * pixels / range >= longest || step > range) return step;
     }
   }

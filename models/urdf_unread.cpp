@@ -91,7 +91,7 @@ class Unread {
   void misspelt_children(const XMLElement& element, ReadNames read) const {
     for_children(element, [&](const XMLElement& child) {
       if (is_among(read, child.Name())) return;
-      const auto meant = std::find_if(read.begin(), read.end(), [&](const char* name) {
+      const auto* const meant = std::find_if(read.begin(), read.end(), [&](const char* name) {
         return is_nearly(lower_case(child.Name()), name);
       });
       if (meant == read.end()) return;
@@ -102,7 +102,7 @@ class Unread {
   }
 
   void shapes(const XMLElement& geometry, ReadNames known) const {
-    const auto taken = std::find_if(known.begin(), known.end(), [&](const char* name) {
+    const auto* const taken = std::find_if(known.begin(), known.end(), [&](const char* name) {
       return geometry.FirstChildElement(name) != nullptr;
     });
     if (taken == known.end()) return;  // a note of the reader's
