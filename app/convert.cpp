@@ -29,7 +29,7 @@ double parsed(const std::string& text) {
   throw InputError("a parameter " + why_no_number(text), "write decimals, such as -0.25");
 }
 
-/// No more words than an order has, and one that is too much; no longer ones than a number needs.
+/// More words than any order has are not waited for, nor longer ones than a number needs.
 std::vector<std::string> words_of_standard_input() {
   constexpr std::size_t most = 64;
   constexpr int longest = 400;

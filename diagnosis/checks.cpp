@@ -200,4 +200,5 @@ void check_clocks(const Robot& robot, const Recording& recording, const LoopSett
     check_clock(std::move(own), given, settings);
   }
 }
+
 }  // namespace shapeid::diagnosis
