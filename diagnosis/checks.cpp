@@ -6,23 +6,19 @@
 #include <iterator>
 #include <numbers>
 
+#include "shapeid/diagnosis/accelerometer_axes.hpp"
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/joint_zeros.hpp"
 #include "shapeid/diagnosis/quarter_turns.hpp"
 #include "shapeid/diagnosis/series.hpp"
+#include "shapeid/diagnosis/torque_columns.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/motion_extent.hpp"
-#include "shapeid/reference/contact.hpp"
+#include "shapeid/reference/standing_feet.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
-
-constexpr std::size_t seen_samples = 2000;  // of a log, evenly: enough for these coarse questions
-
-std::size_t stride_for(const Recording& recording) {
-  return std::max<std::size_t>(1, recording.samples().size() / seen_samples);
-}
 
 void check_excitation(const Robot& robot, const Recording& recording) {
   MotionExtent extent;
@@ -31,73 +27,13 @@ void check_excitation(const Robot& robot, const Recording& recording) {
   throw Refusal("not-excited", "no joint moves; log a motion that moves and loads every joint");
 }
 
-/// What feet push against each other is left out on a floating base: it is known from torque, and
-/// would follow that at any scale.
-Eigen::VectorXd load_without_torque(const Viewer& viewer, const View& view,
-                                    const RichModel& given) {
-  if (viewer.robot().root == Root::fixed) return predict(viewer, view, given).load.joint;
-  const Eigen::VectorXd carried = view.Y * given.Phi - view.carried;
-  const Eigen::VectorXd f = carrying_forces(viewer.robot(), carried, view.J);
-  return (carried - view.J.transpose() * f).tail(viewer.robot().joint_count());
-}
-
-void check_torque_scale(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
-  const RichModel given{stacked_parameters(robot), {}};
-  const Viewer viewer(robot, contacts, {});
-  const Eigen::Index n = robot.joint_count();
-  Eigen::VectorXd pp = Eigen::VectorXd::Zero(n), pt = pp, tt = pp;
-  for (const std::size_t i : recording.usable(stride_for(recording))) {
-    const View view = viewer.view(recording, i);
-    const Eigen::VectorXd load = load_without_torque(viewer, view, given);
-    pp += load.cwiseAbs2();
-    pt += load.cwiseProduct(view.sample.tau);
-    tt += view.sample.tau.cwiseAbs2();
-  }
-  // Joints whose torque the given model follows closely tell the scale; friction and errors of
-  // inertia do not make a factor of four at all of them.
-  constexpr double close = 0.8, far = 4.0;
-  int telling = 0, against = 0, above = 0, below = 0;
-  double typical = 0.0;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const double correlation = pt[j] / std::sqrt(std::max(pp[j] * tt[j], 1e-300));
-    if (!(std::abs(correlation) > close)) continue;
-    const double scale = pt[j] / pp[j];
-    ++telling;
-    if (scale < 0.0) {
-      ++against;
-      continue;
-    }
-    if (scale > far) ++above;
-    if (scale < 1.0 / far) ++below;
-    typical += std::log(scale);
-  }
-  if (telling == 0) return;
-  if (against == telling) {
-    throw Refusal("torque-sign",
-                  fmt::format("the logged torque runs against the given model at {} joints, and "
-                              "with it at none: turn it in the mapping (sign: -1){}",
-                              telling,
-                              robot.root == Root::fixed
-                                  ? ", or the base in the URDF, if it hangs upside down, or a "
-                                    "joint's zero, if it is half a turn off"
-                                  : ""));
-  }
-  if (above == telling || below == telling) {
-    throw Refusal(
-        "torque-scale",
-        fmt::format("the logged torque follows the given model at {} joints, but is {:.2g} "
-                    "times as large: a current or the motor's torque; declare it in the "
-                    "mapping (torque: kind, factor)",
-                    telling, std::exp(typical / telling)));
-  }
-}
-
 /// Where motion is fast, torque need not run against the model of a base that hangs.
 void check_base(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
   if (robot.root != Root::fixed) return;
   const auto squared_error = [&](const std::vector<AppliedEffect>& effects) {
     const RichModel model{stacked_parameters(robot), effects};
-    return series(robot, contacts, model, recording, stride_for(recording)).residual.squaredNorm();
+    return series(robot, contacts, model, recording, recording.stride_of(2000))
+        .residual.squaredNorm();
   };
   AppliedEffect half_turn = at_start(*find_effect("gravity_tilt"), 0);
   half_turn.value[0] = std::numbers::pi;
@@ -107,39 +43,10 @@ void check_base(const Robot& robot, const Recording& recording, ContactTreatment
                 "turn the base in the URDF, or the torque in the mapping (sign: -1)");
 }
 
-void check_contact_labels(const Robot& robot, const Recording& recording) {
-  // Speed of declared stance feet against their mean, and of the feet in the air against the same.
-  double stance = 0.0, swing = 0.0;
-  std::size_t stance_count = 0, swing_count = 0;
-  for (const std::size_t i : recording.usable(stride_for(recording))) {
-    const Sample& s = recording[i];
-    const Eigen::Matrix3Xd v = reference::contact_velocities(robot, s);
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    int standing = 0;
-    for (std::size_t c = 0; c < s.in_contact.size(); ++c) {
-      if (!s.in_contact[c]) continue;
-      mean += v.col(static_cast<Eigen::Index>(c));
-      ++standing;
-    }
-    if (standing < 2) continue;
-    mean /= standing;
-    for (std::size_t c = 0; c < s.in_contact.size(); ++c) {
-      const double speed = (v.col(static_cast<Eigen::Index>(c)) - mean).squaredNorm();
-      (s.in_contact[c] ? stance : swing) += speed;
-      ++(s.in_contact[c] ? stance_count : swing_count);
-    }
-  }
-  constexpr std::size_t enough = 50;
-  if (stance_count < enough || swing_count < enough) return;
-  const double standing = std::sqrt(stance / static_cast<double>(stance_count));
-  const double flying = std::sqrt(swing / static_cast<double>(swing_count));
-  constexpr double alike = 0.7;  // standing feet of a trot move at a fifth of those in the air
-  if (standing > alike * flying) {
-    throw Refusal("contact-labels",
-                  fmt::format("feet declared to stand move against each other at {:.2g} m/s, feet "
-                              "declared in the air at {:.2g} m/s: the labels do not fit the motion",
-                              standing, flying));
-  }
+void check_standing_feet(const Robot& robot, const Recording& recording) {
+  reference::StandingFeet feet(robot);
+  for (const std::size_t i : recording.usable(recording.stride_of(2000))) feet.add(recording[i]);
+  feet.judge();
 }
 
 /// Of one log.
@@ -172,10 +79,12 @@ void check_recording(const Robot& robot, const Recording& recording, ContactTrea
 }
 
 void check_meaning(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
-  check_torque_scale(robot, recording, contacts);
+  // First what needs no inertia.
+  if (contacts == ContactTreatment::project) check_standing_feet(robot, recording);
+  check_torque_columns(robot, recording, contacts);
+  check_accelerometer(robot, recording, contacts);
   check_base(robot, recording, contacts);
   check_joint_zeros(robot, recording, contacts);
-  if (contacts == ContactTreatment::project) check_contact_labels(robot, recording);
 }
 
 void check_clocks(const Robot& robot, const Recording& recording, const LoopSettings& settings,

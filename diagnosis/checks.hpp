@@ -11,14 +11,13 @@ namespace shapeid::diagnosis {
 void check_recording(const Robot& robot, const Recording& recording, ContactTreatment contacts);
 
 /// What holds of a log that is only tested on, too. Throws Refusal:
-///  * "torque-scale": the torque that the given model predicts, and that the logged one follows,
-///    is below a quarter or above four times of it at every joint where that tells: a current, or
-///    the motor's side;
-///  * "torque-sign": the logged torque has the other sign at every joint where it tells;
+///  * "imu-axes" and "contact-labels", by feet that stand (reference/standing_feet.hpp);
+///  * "torque-scale", "torque-sign" and "torque-order", by what the given links predict
+///    (torque_columns.hpp);
+///  * "imu-axes" also if they would predict far better by other axes of the accelerometer
+///    (accelerometer_axes.hpp);
 ///  * "upside-down": the base, if it hangs, explains far more;
-///  * "joint-zero": so do joints that are read a quarter or half a turn further (joint_zeros.hpp);
-///  * "contact-labels": feet that are declared to stand move against each other as fast as feet in
-///    the air.
+///  * "joint-zero": so do joints that are read a quarter or half a turn further (joint_zeros.hpp).
 /// Units, signs, frozen channels and clocks that cannot be are refused when the log is read
 /// (models/plausibility.hpp), a torque column that is a current by its name as well.
 void check_meaning(const Robot& robot, const Recording& recording, ContactTreatment contacts);

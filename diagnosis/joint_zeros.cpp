@@ -80,8 +80,7 @@ class Zeros {
   }
   /// On some hundred samples, evenly: for as coarse a question.
   [[nodiscard]] double squared_error(const RichModel& model) const {
-    constexpr std::size_t samples = 300;
-    const std::size_t stride = std::max<std::size_t>(1, recording_.samples().size() / samples);
+    const std::size_t stride = recording_.stride_of(300);
     return series(robot_, rows_, model, recording_, stride).residual.squaredNorm();
   }
 

@@ -63,6 +63,10 @@ class Recording {
   /// Every stride-th sample that has neighbours for largest_shift on both sides. The same samples
   /// serve every hypothesis, also those that look at no neighbour.
   [[nodiscard]] std::vector<std::size_t> usable(std::size_t stride) const;
+  /// The stride of about so many samples, evenly: for coarse questions.
+  [[nodiscard]] std::size_t stride_of(std::size_t count) const {
+    return std::max<std::size_t>(1, samples_.size() / count);
+  }
 
   /// Whether so many samples go before, and follow, without a gap.
   [[nodiscard]] bool surrounded(std::size_t index, std::size_t samples) const {

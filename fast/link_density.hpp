@@ -45,9 +45,9 @@ class LinkDensity {
 
  private:
   TenRows X_, E_;
-  std::array<int, 10> pivots_{};
-  Dozen inverse_pivots_;  ///< 1 over the entries of E at the pivots
   TenRows above_;         ///< columns of E at the pivots, above these and over them
+  Dozen inverse_pivots_;  ///< 1 over the entries of E at the pivots
+  std::array<int, 10> pivots_{};
   int shapes_ = 0;
   int rank_ = 0;
   int certain_ = 0;

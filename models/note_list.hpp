@@ -1,6 +1,8 @@
 // Notes that gather the names they concern: "no <limit>, taken as none: hip, knee".
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -16,14 +18,15 @@ class NoteList {
     if (found == entries_.end()) {
       entries_.emplace_back(note, name);
     } else {
-      found->second += ", " + name;
+      found->second.append(", ").append(name);
     }
   }
 
   /// One line a note, in the order of first mention.
   [[nodiscard]] std::vector<std::string> lines() const {
     std::vector<std::string> result;
-    for (const auto& [note, names] : entries_) result.push_back(note + ": " + names);
+    result.reserve(entries_.size());
+    for (const auto& [note, names] : entries_) result.push_back(fmt::format("{}: {}", note, names));
     return result;
   }
 

@@ -68,15 +68,18 @@ Eigen::VectorXd measured_contact_force(const Robot& robot, const Sample& sample)
   return JTf;
 }
 
-Eigen::Matrix3Xd contact_velocities(const Robot& robot, const Sample& sample) {
+ContactMotions contact_motions(const Robot& robot, const Sample& sample) {
   const std::vector<LinkMotion> motions = link_motions(robot, sample);
-  Eigen::Matrix3Xd velocities(3, static_cast<Eigen::Index>(robot.contacts.size()));
-  for (std::size_t c = 0; c < robot.contacts.size(); ++c) {
-    const LinkMotion& link = motion_of(robot.contacts[c], motions);
-    const Eigen::Vector3d arm = link.pose.linear() * robot.contacts[c].frame.translation();
-    velocities.col(static_cast<Eigen::Index>(c)) = link.velocity + link.angular_velocity.cross(arm);
+  const auto count = static_cast<Eigen::Index>(robot.contacts.size());
+  ContactMotions result{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count)};
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const Contact& contact = robot.contacts[static_cast<std::size_t>(c)];
+    const LinkMotion& link = motion_of(contact, motions);
+    const Eigen::Vector3d arm = link.pose.linear() * contact.frame.translation();
+    result.place.col(c) = link.pose.translation() + arm;
+    result.velocity.col(c) = link.velocity + link.angular_velocity.cross(arm);
   }
-  return velocities;
+  return result;
 }
 
 }  // namespace shapeid::reference

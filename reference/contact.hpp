@@ -20,8 +20,11 @@ namespace shapeid::reference {
 /// has no force for each contact.
 [[nodiscard]] Eigen::VectorXd measured_contact_force(const Robot& robot, const Sample& sample);
 
-/// Velocity of each contact point in base axes relative to the base origin's velocity, m/s:
-/// 3 x contacts. Stance feet should agree on minus the base velocity.
-[[nodiscard]] Eigen::Matrix3Xd contact_velocities(const Robot& robot, const Sample& sample);
+/// Of each contact point in base axes, 3 x contacts: where it is, m, and its velocity relative to
+/// the base origin's, m/s. Stance feet should agree on minus the base velocity.
+struct ContactMotions {
+  Eigen::Matrix3Xd place, velocity;
+};
+[[nodiscard]] ContactMotions contact_motions(const Robot& robot, const Sample& sample);
 
 }  // namespace shapeid::reference

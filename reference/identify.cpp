@@ -10,6 +10,7 @@
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/motion_extent.hpp"
 #include "shapeid/reference/mass_solver.hpp"
+#include "shapeid/reference/standing_feet.hpp"
 #include "shapeid/reference/triangle.hpp"
 
 namespace shapeid::reference {
@@ -116,6 +117,16 @@ Eigen::VectorXd jackknife(const std::vector<RowBlock>& blocks, const DivisionRun
   return (factor * (Phi.colwise() - run.solution.Phi).rowwise().squaredNorm()).cwiseSqrt();
 }
 
+/// Of the expected mass (kg), shared among the shapes by volume, the multiple that fits the rows
+/// best.
+double times_expected(const BodyModel& model, const CompressedRows& rows, double mass) {
+  const Eigen::MatrixXd all = merged(rows.blocks);
+  const Eigen::VectorXd V = shape_volumes(model);
+  const Eigen::VectorXd expected =
+      all.leftCols(all.cols() - 1) * (shape_columns(model) * (mass / V.sum() * V));
+  return expected.dot(all.rightCols<1>()) / expected.squaredNorm();
+}
+
 }  // namespace
 
 Eigen::VectorXd natural_sizes(const BodyModel& model, double expected_mass) {
@@ -163,10 +174,13 @@ CompressedRows compress(const Robot& robot, const BodyModel& model, const Sample
   Blocks collected(Window(robot, model, settings.contacts, weight), std::move(filter),
                    settings.rows ? settings.rows : rigid, settings.block_seconds);
   CompressedRows result;
+  StandingFeet feet(robot);
   while (const std::optional<Sample> sample = next()) {
+    if (settings.contacts == ContactTreatment::project) feet.add(*sample);
     collected.add(*sample);
     ++result.samples;
   }
+  feet.judge();
   result.blocks = collected.finish();
   return result;
 }
@@ -194,6 +208,14 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
                     fmt::format("{} blocks of time, or logs, have too little spread to judge any "
                                 "parameter by; log a longer motion, and logs of like length",
                                 rows.blocks.size()));
+    }
+    constexpr double far = 30.0;  // no payload, and no density
+    const double times = times_expected(model, rows, settings.expected_mass);
+    if (times > far) {
+      throw Refusal("torque-scale",
+                    fmt::format("the log asks for about {:.1g} times the expected mass of {:g} kg: "
+                                "is its torque in N m?",
+                                times, settings.expected_mass));
     }
     throw Refusal("not-excited",
                   "the motion determines no parameter of the free links; use a log in which they "

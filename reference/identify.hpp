@@ -55,7 +55,8 @@ struct CompressedRows {
   std::size_t samples = 0;
 };
 
-/// Reads a stream to its end. Memory does not grow with it. No blocks for an empty stream.
+/// Reads a stream to its end. Memory does not grow with it. No blocks for an empty stream. Throws
+/// what StandingFeet::judge() throws where contact forces are projected out.
 [[nodiscard]] CompressedRows compress(const Robot& robot, const BodyModel& model,
                                       const SampleStream& next, const IdentifySettings& settings);
 
@@ -63,7 +64,8 @@ struct CompressedRows {
 [[nodiscard]] Eigen::MatrixXd merged(const std::vector<RowBlock>& blocks);
 
 /// Identifies the free links of `model` from at least two blocks, whose spread is what errors are
-/// judged by. Throws Refusal "not-excited" if the rows determine no parameter at all, "too-short"
+/// judged by. Throws Refusal "not-excited" if the rows determine no parameter at all,
+/// "torque-scale" if that is because they ask for a mass far beyond what is expected, "too-short"
 /// if the blocks are so few or so unlike that nothing tells, "not-finite" as solve_masses() does;
 /// std::invalid_argument for division options, or an expected mass, that make no sense.
 [[nodiscard]] Identification identify(const BodyModel& model, const CompressedRows& rows,

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <numbers>
 #include <string>
+#include <utility>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
@@ -64,6 +66,36 @@ TEST(Checks, TorqueOfATrotThatIsACurrent) {
   for (const double factor : {0.1, 8.0}) EXPECT_EQ(check_scaled(factor), "torque-scale") << factor;
   EXPECT_EQ(check_scaled(-1.0), "torque-sign");
   EXPECT_EQ(check_scaled(1.3), "accepted");
+}
+
+TEST(Checks, TorqueOfAnotherJoint) {
+  for (const auto& [a, b] : {std::pair{0, 1}, std::pair{1, 2}, std::pair{0, 2}}) {
+    EXPECT_EQ(check(changed(record({}), [&](Sample& s) { std::swap(s.tau[a], s.tau[b]); })),
+              "torque-order")
+        << a << b;
+  }
+  // Friction and a load do not look like that.
+  EXPECT_EQ(check(record({{test::effect("viscous_friction", 1, {4.0}),
+                           test::effect("torque_offset", 2, {5.0}),
+                           test::effect("torque_gain", 0, {1.0})}})),
+            "accepted");
+}
+
+TEST(Checks, AccelerometerOfATrotWithOtherAxes) {
+  const Trot trot;
+  const auto check_turned = [&](const Eigen::Matrix3d& M) {
+    const Recording log = changed({trot.samples, Trot::rate}, [&](Sample& s) {
+      s.base_specific_force = M * s.base_specific_force;
+    });
+    return refusal([&] { check_meaning(trot.robot, log, ContactTreatment::project); });
+  };
+  EXPECT_EQ(check_turned(Eigen::Vector3d(-1.0, -1.0, 1.0).asDiagonal()), "imu-axes");
+  EXPECT_EQ(
+      check_turned(
+          Eigen::AngleAxisd(std::numbers::pi / 2.0, Eigen::Vector3d::UnitY()).toRotationMatrix()),
+      "imu-axes");
+  EXPECT_EQ(check_turned(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()).toRotationMatrix()),
+            "accepted");
 }
 
 /// A factor that differs from joint to joint is a gain of each, to be found as that.

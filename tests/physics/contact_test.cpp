@@ -113,7 +113,7 @@ RC_GTEST_PROP(ContactJacobian, TimesVelocityIsTheContactVelocity, ()) {
   const Sample s = *test::sample(robot);
   const Eigen::MatrixXd J = SimbodyRobot(robot).contact_point_jacobian(s.q);
   const Eigen::VectorXd velocity = test::generalised_velocity(robot, Vector3d::Zero(), s);
-  const Eigen::Matrix3Xd v = reference::contact_velocities(robot, s);
+  const Eigen::Matrix3Xd v = reference::contact_motions(robot, s).velocity;
   RC_ASSERT(scaled((v.reshaped() - J * velocity).norm(), J.norm() * velocity.norm(),
                    robot.link_count()) < few_hundred_eps);
 }

@@ -1,0 +1,122 @@
+#include "shapeid/diagnosis/torque_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapeid/diagnosis/rich_model.hpp"
+#include "shapeid/models/error.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+/// What feet push against each other is left out on a floating base: it is known from torque, and
+/// would follow that at any scale.
+Eigen::VectorXd load_without_torque(const Viewer& viewer, const View& view,
+                                    const RichModel& given) {
+  if (viewer.robot().root == Root::fixed) return predict(viewer, view, given).load.joint;
+  const Eigen::VectorXd carried = view.Y * given.Phi - view.carried;
+  const Eigen::VectorXd f = carrying_forces(viewer.robot(), carried, view.J);
+  return (carried - view.J.transpose() * f).tail(viewer.robot().joint_count());
+}
+
+/// Products of what is predicted (p) and logged (t), summed over samples.
+struct Products {
+  Eigen::MatrixXd pt;      ///< joints x joints
+  Eigen::VectorXd pp, tt;  ///< of each joint
+};
+
+Products products_of(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
+  const RichModel given{stacked_parameters(robot), {}};
+  const Viewer viewer(robot, contacts, {});
+  const Eigen::Index n = robot.joint_count();
+  Products sums{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  for (const std::size_t i : recording.usable(recording.stride_of(2000))) {
+    const View view = viewer.view(recording, i);
+    const Eigen::VectorXd load = load_without_torque(viewer, view, given);
+    sums.pt += load * view.sample.tau.transpose();
+    sums.pp += load.cwiseAbs2();
+    sums.tt += view.sample.tau.cwiseAbs2();
+  }
+  return sums;
+}
+
+void check_scale(const Robot& robot, const Products& sums) {
+  // Joints whose torque the given model follows closely tell the scale; friction and errors of
+  // inertia do not make a factor of four at all of them.
+  constexpr double close = 0.8, far = 4.0;
+  int telling = 0, against = 0, above = 0, below = 0;
+  double typical = 0.0;
+  for (Eigen::Index j = 0; j < robot.joint_count(); ++j) {
+    const double pt = sums.pt(j, j);
+    const double correlation = pt / std::sqrt(std::max(sums.pp[j] * sums.tt[j], 1e-300));
+    if (!(std::abs(correlation) > close)) continue;
+    const double scale = pt / sums.pp[j];
+    ++telling;
+    if (scale < 0.0) {
+      ++against;
+      continue;
+    }
+    if (scale > far) ++above;
+    if (scale < 1.0 / far) ++below;
+    typical += std::log(scale);
+  }
+  if (telling == 0) return;
+  if (against == telling) {
+    throw Refusal("torque-sign",
+                  fmt::format("the logged torque runs against the given model at {} joints, and "
+                              "with it at none: turn it in the mapping (sign: -1){}",
+                              telling,
+                              robot.root == Root::fixed
+                                  ? ", or the base in the URDF, if it hangs upside down, or a "
+                                    "joint's zero, if it is half a turn off"
+                                  : ""));
+  }
+  if (above == telling || below == telling) {
+    throw Refusal(
+        "torque-scale",
+        fmt::format("the logged torque follows the given model at {} joints, but is {:.2g} times "
+                    "as large: another unit than N m, a current or the motor's torque; declare it "
+                    "in the mapping (scale, or torque: kind, factor)",
+                    telling, std::exp(typical / telling)));
+  }
+}
+
+void check_order(const Robot& robot, const Products& sums) {
+  // Legs that move alike do not tell; links that are given wrong make no quarter of an error.
+  constexpr double far_better = 0.25;
+  double least = far_better;
+  Eigen::Index first = -1, second = -1;
+  for (Eigen::Index a = 0; a < robot.joint_count(); ++a) {
+    for (Eigen::Index b = a + 1; b < robot.joint_count(); ++b) {
+      const double squares = sums.pp[a] + sums.pp[b] + sums.tt[a] + sums.tt[b];
+      const double own = squares - 2.0 * (sums.pt(a, a) + sums.pt(b, b));
+      const double other = squares - 2.0 * (sums.pt(a, b) + sums.pt(b, a));
+      // Well enough to be a prediction at all, too.
+      const double share = other / std::min(own, sums.tt[a] + sums.tt[b]);
+      if (!(share < least)) continue;
+      least = share;
+      first = a;
+      second = b;
+    }
+  }
+  if (first < 0) return;
+  throw Refusal("torque-order",
+                fmt::format("the logged torque of {} follows what the given model predicts at {}, "
+                            "and the other way round: exchange them in the mapping, or their "
+                            "joints in the URDF",
+                            robot.joint(static_cast<int>(first)).name,
+                            robot.joint(static_cast<int>(second)).name));
+}
+
+}  // namespace
+
+void check_torque_columns(const Robot& robot, const Recording& recording,
+                          ContactTreatment contacts) {
+  const Products sums = products_of(robot, recording, contacts);
+  check_scale(robot, sums);
+  check_order(robot, sums);
+}
+
+}  // namespace shapeid::diagnosis

@@ -1,0 +1,134 @@
+#include "shapeid/reference/standing_feet.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/error.hpp"
+#include "shapeid/models/signed_axes.hpp"
+#include "shapeid/reference/contact.hpp"
+
+namespace shapeid::reference {
+namespace {
+
+// Feet of so many samples say something.
+constexpr std::size_t enough = 50;
+
+/// What the gyro is multiplied with, reading by reading.
+std::vector<Eigen::Matrix3d> all_readings() {
+  constexpr double degree = std::numbers::pi / 180.0;
+  std::vector<Eigen::Matrix3d> result;
+  for (const double unit : {1.0, degree}) {
+    for (const SignedAxes& axes : all_signed_axes()) result.emplace_back(unit * axes.matrix());
+  }
+  result.emplace_back(Eigen::Matrix3d::Zero());
+  return result;
+}
+
+void count_difference(bool first, bool second, StandingFeet::Difference& difference) {
+  if (first && !second) ++difference.gained;
+  if (second && !first) ++difference.lost;
+}
+
+/// Against the mean of those that stand, and by the joints alone.
+ContactMotions against_stance(const Robot& robot, const Sample& sample, double standing) {
+  ContactMotions feet = contact_motions(robot, sample);
+  Eigen::Vector3d mean_place = Eigen::Vector3d::Zero(), mean_velocity = Eigen::Vector3d::Zero();
+  for (Eigen::Index c = 0; c < feet.place.cols(); ++c) {
+    feet.velocity.col(c) -= sample.base_angular_velocity.cross(feet.place.col(c));
+    if (!sample.in_contact[static_cast<std::size_t>(c)]) continue;
+    mean_place += feet.place.col(c) / standing;
+    mean_velocity += feet.velocity.col(c) / standing;
+  }
+  feet.place.colwise() -= mean_place;
+  feet.velocity.colwise() -= mean_velocity;
+  return feet;
+}
+
+}  // namespace
+
+void StandingFeet::add(const Sample& sample) {
+  static const std::vector<Eigen::Matrix3d> reading = all_readings();
+  const auto standing = std::count(sample.in_contact.begin(), sample.in_contact.end(), true);
+  if (standing < 2) return;
+  const ContactMotions feet = against_stance(*robot_, sample, static_cast<double>(standing));
+  const auto squared_speed = [&](Eigen::Index foot, const Eigen::Vector3d& omega) {
+    return (omega.cross(feet.place.col(foot)) + feet.velocity.col(foot)).squaredNorm();
+  };
+  // Many feet slip for a part of their stance; those that do not tell the readings apart.
+  constexpr double slow = 0.05;  // m/s
+  for (Eigen::Index c = 0; c < feet.place.cols(); ++c) {
+    const double as_logged = squared_speed(c, sample.base_angular_velocity);
+    if (!sample.in_contact[static_cast<std::size_t>(c)]) {
+      flying_ += as_logged;
+      ++flying_count_;
+      continue;
+    }
+    ++standing_count_;
+    if (standing < feet.place.cols()) {
+      standing_ += as_logged;
+      ++beside_flying_count_;
+    }
+    std::array<bool, readings> is_still{};
+    for (std::size_t k = 0; k < readings; ++k) {
+      is_still[k] = squared_speed(c, reading[k] * sample.base_angular_velocity) < slow * slow;
+    }
+    for (std::size_t k = 0; k < readings; ++k) {
+      if (is_still[k]) ++still_[k];
+      count_difference(is_still[k], is_still.front(), from_logged_[k]);
+      count_difference(is_still[k], is_still.back(), from_none_[k]);
+    }
+  }
+}
+
+void StandingFeet::judge() const {
+  if (standing_count_ < enough) return;
+  judge_gyro();
+  judge_labels();
+}
+
+void StandingFeet::judge_gyro() const {
+  // Feet that slip, roll or are labelled wrongly stand still now and then by any reading.
+  constexpr std::size_t one_in = 20, times = 3;
+  const auto tells = [&](const Difference& d) {
+    return d.gained > standing_count_ / one_in && d.gained > times * d.lost;
+  };
+  const auto best = static_cast<std::size_t>(
+      std::distance(still_.begin(), std::max_element(still_.begin(), still_.end())));
+  if (!tells(from_logged_[best]) || !tells(from_none_[best])) return;
+  const auto percent = [&](std::size_t reading) {
+    return 1e2 * static_cast<double>(still_[reading]) / static_cast<double>(standing_count_);
+  };
+  const SignedAxes& axes = all_signed_axes().at(best % signed_axes_count);
+  std::vector<std::string> wrong;
+  if (best >= signed_axes_count) wrong.emplace_back("its unit were degrees per second");
+  if (best % signed_axes_count != 0) wrong.push_back("its axes were " + axes.words());
+  throw Refusal("imu-axes",
+                fmt::format("{:.0f} % of the standing feet stand still by the gyro as it is, and "
+                            "{:.0f} % if {}: turn the IMU (robot.yaml), or the gyro in the "
+                            "mapping; or legs are exchanged",
+                            percent(0), percent(best), fmt::join(wrong, " and ")));
+}
+
+void StandingFeet::judge_labels() const {
+  if (flying_count_ < enough) return;
+  const double standing = std::sqrt(standing_ / static_cast<double>(beside_flying_count_));
+  const double flying = std::sqrt(flying_ / static_cast<double>(flying_count_));
+  constexpr double alike = 0.7;  // standing feet of a trot move at a fifth of those in the air
+  if (!(standing > alike * flying)) return;
+  throw Refusal("contact-labels",
+                fmt::format("feet declared to stand move against each other at {:.2g} m/s, feet "
+                            "declared in the air at {:.2g} m/s: the labels do not fit the motion",
+                            standing, flying));
+}
+
+}  // namespace shapeid::reference
