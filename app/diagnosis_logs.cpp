@@ -1,12 +1,35 @@
 #include "shapeid/app/diagnosis_logs.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "shapeid/app/option_checks.hpp"
+#include "shapeid/diagnosis/checks.hpp"
 #include "shapeid/diagnosis/motion_noise.hpp"
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::app {
+namespace {
+
+/// Of the logs that are fitted; all of them, where others are for testing.
+std::optional<Part> fitted_part(const DiagnoseOptions& options) {
+  return options.test.empty() ? std::optional(Part::fitted) : std::nullopt;
+}
+
+/// What is wrong with another log than the one that is diagnosed names that log.
+template <typename Check>
+void check_other(const std::string& path, const Check& check) {
+  try {
+    check();
+  } catch (const Refusal& refusal) {
+    throw Refusal(refusal.code(), fmt::format("{}: {}", path, refusal.reason()));
+  }
+}
+
+}  // namespace
 
 std::vector<std::string> fitted_logs(const DiagnoseOptions& options) {
   std::vector<std::string> paths = {options.inputs.log};
@@ -27,6 +50,54 @@ void refuse_same_logs(const DiagnoseOptions& options) {
                      "a test on data that are used for nothing else");
   }
   throw InputError({paths[second]}, "is given twice", "each log once");
+}
+
+DiagnosedLogs read_logs(const RobotInputs& robot, const DiagnoseOptions& options) {
+  const bool split = options.test.empty();
+  const std::vector<std::string> fitted_paths = fitted_logs(options);
+  RecordedLog fitted = read_recordings(fitted_paths, robot, options.inputs, fitted_part(options));
+  if (split && fitted.recording.samples().empty()) refuse_all_held_out(fitted.motion.samples);
+  diagnosis::check_recording(robot.robot, fitted.recording, fitted.contacts);
+
+  const std::vector<std::string>& test_paths = split ? fitted_paths : options.test;
+  const std::optional<Part> test_part = split ? std::optional(Part::held_out) : std::nullopt;
+  RecordedLog test = read_recordings(test_paths, robot, options.inputs, test_part,
+                                     split ? fitted.shifts : std::vector<double>());
+  const ContactSource contacts{options.inputs.log, fitted.motion.contacts_derived};
+  check_contacts_alike(contacts, {test_paths.front(), test.motion.contacts_derived},
+                       fitted.contacts);
+  MotionInputs unsmoothed = options.inputs;
+  unsmoothed.cutoff = 0.0;
+  RecordedLog raw = read_recordings(test_paths, robot, unsmoothed, test_part, test.shifts);
+
+  std::optional<RecordedLog> earlier;
+  if (!options.reference.empty()) {
+    earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);
+    check_other(options.reference, [&] {
+      diagnosis::check_recording(robot.robot, earlier->recording, earlier->contacts);
+    });
+    check_contacts_alike(contacts, {options.reference, earlier->motion.contacts_derived},
+                         fitted.contacts);
+  }
+  return {std::move(fitted), std::move(test), std::move(raw), std::move(earlier)};
+}
+
+void check_logs(const RobotInputs& robot, const DiagnoseOptions& options, const DiagnosedLogs& logs,
+                const diagnosis::LoopSettings& settings) {
+  const RecordedLog &fitted = logs.fitted, &test = logs.test;
+  if (test.recording.usable(stride_of(options.inputs, test.motion.rate)).empty()) {
+    throw Refusal("no-data", "nothing is left to test on; give --test, or a longer log");
+  }
+  diagnosis::check_clocks(robot.robot, fitted.recording, settings, fitted.starts,
+                          fitted_logs(options));
+  if (logs.earlier) {
+    diagnosis::check_clocks(robot.robot, logs.earlier->recording, settings, {},
+                            {options.reference});
+  }
+  if (options.test.empty()) return;
+  check_other(fmt::format("{}", fmt::join(options.test, ", ")),
+              [&] { diagnosis::check_meaning(robot.robot, test.recording, fitted.contacts); });
+  diagnosis::check_clocks(robot.robot, test.recording, settings, test.starts, options.test);
 }
 
 std::size_t stride_of(const MotionInputs& inputs, double rate) {
@@ -53,6 +124,20 @@ std::optional<RecordedLog> SameLogs::smoother() const {
   MotionInputs other = inputs;
   other.cutoff *= diagnosis::slower_by;
   return read_recordings(paths, robot, other, part, shifts);
+}
+
+SameLogs same_fitted(const RobotInputs& robot, const DiagnoseOptions& options,
+                     const RecordedLog& fitted) {
+  return {
+      robot,        options.inputs, fitted_logs(options), fitted_part(options), fitted.motion.rate,
+      fitted.shifts};
+}
+
+std::optional<SameLogs> same_earlier(const RobotInputs& robot, const DiagnoseOptions& options,
+                                     const std::optional<RecordedLog>& earlier) {
+  if (!earlier) return std::nullopt;
+  return SameLogs{robot,        options.inputs,       {options.reference},
+                  std::nullopt, earlier->motion.rate, earlier->shifts};
 }
 
 }  // namespace shapeid::app

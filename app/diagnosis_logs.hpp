@@ -15,6 +15,21 @@ namespace shapeid::app {
 /// Held-out errors are of data that were used for nothing else: throws InputError.
 void refuse_same_logs(const DiagnoseOptions& options);
 
+/// The logs of a diagnosis in memory, none of which is refused by what holds before anything is
+/// sought.
+struct DiagnosedLogs {
+  RecordedLog fitted, test;
+  RecordedLog raw;                     ///< the test logs without any filter
+  std::optional<RecordedLog> earlier;  ///< --reference
+};
+/// Reads them. Throws InputError and Refusal.
+[[nodiscard]] DiagnosedLogs read_logs(const RobotInputs& robot, const DiagnoseOptions& options);
+
+/// Throws Refusal if nothing is left to test on, for clocks that drift apart in one of them, and
+/// for a test log whose columns are not what they are called.
+void check_logs(const RobotInputs& robot, const DiagnoseOptions& options, const DiagnosedLogs& logs,
+                const diagnosis::LoopSettings& settings);
+
 /// Every how many samples of a log of this rate (Hz) count: five a period of the filter's cutoff
 /// say all that is left in the signals.
 [[nodiscard]] std::size_t stride_of(const MotionInputs& inputs, double rate);
@@ -37,5 +52,12 @@ struct SameLogs {
   /// Behind diagnosis::slower_by times the cutoff; none if there is no filter.
   [[nodiscard]] std::optional<RecordedLog> smoother() const;
 };
+
+/// Of what is fitted, and of --reference if it is given.
+[[nodiscard]] SameLogs same_fitted(const RobotInputs& robot, const DiagnoseOptions& options,
+                                   const RecordedLog& fitted);
+[[nodiscard]] std::optional<SameLogs> same_earlier(const RobotInputs& robot,
+                                                   const DiagnoseOptions& options,
+                                                   const std::optional<RecordedLog>& earlier);
 
 }  // namespace shapeid::app

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "shapeid/app/diagnosis_logs.hpp"
 #include "shapeid/app/motion_noise.hpp"
-#include "shapeid/diagnosis/checks.hpp"
 #include "shapeid/diagnosis/contact_reach.hpp"
 #include "shapeid/diagnosis/contacts_in_loop.hpp"
 #include "shapeid/diagnosis/names.hpp"
@@ -224,16 +224,6 @@ void note_moments(const Robot& robot, const DiagnoseOptions& options, DiagnosisR
   }
 }
 
-/// What is wrong with another log than the one that is diagnosed names that log.
-template <typename Check>
-void check_other(const std::string& path, const Check& check) {
-  try {
-    check();
-  } catch (const Refusal& refusal) {
-    throw Refusal(refusal.code(), fmt::format("{}: {}", path, refusal.reason()));
-  }
-}
-
 /// What was corrected in the logs belongs to the model that goes with them as they were.
 void add_flags(const std::vector<diagnosis::Found>& flags, DiagnosisRun& run) {
   for (const diagnosis::Found& f : flags) {
@@ -253,161 +243,178 @@ void note_contact_reach(const diagnosis::ContactReach& reach, DiagnosisRun& run)
       1e3 * reach.before, 1e3 * reach.after));
 }
 
+Recording* recording_in(std::optional<RecordedLog>& log) { return log ? &log->recording : nullptr; }
+
+/// The steps of a diagnosis, in the order in which they are called.
+class Diagnosis {
+ public:
+  Diagnosis(const RobotInputs& robot, const DiagnoseOptions& options,
+            const diagnosis::LoopSettings& settings, DiagnosedLogs logs);
+
+  void close_loop();
+  void find_bodies();
+  void measure_errors();
+  void find_remains();
+  void add_notes();
+  [[nodiscard]] DiagnosisRun take() &&;
+
+ private:
+  [[nodiscard]] Recording* reference() { return recording_in(logs_.earlier); }
+  [[nodiscard]] diagnosis::Series series(const diagnosis::RichModel& model) const {
+    return diagnosis::series(robot_.robot, run_.settings.rows, model, run_.test, run_.test_stride);
+  }
+  void add_slow_remains(const diagnosis::Series& remaining);
+
+  const RobotInputs& robot_;
+  const DiagnoseOptions& options_;
+  DiagnosedLogs logs_;
+  Recording& log_;
+  const SameLogs same_fitted_;
+  const std::optional<SameLogs> same_earlier_;
+  std::optional<RecordedLog> rough_, rough_earlier_;  ///< LoopSettings::rough
+  DiagnosisRun run_;
+  std::vector<diagnosis::Found> flags_;  ///< contact flags that were corrected in the logs
+  std::optional<NoiseOfMotion> noise_;   ///< once the loop is closed
+};
+
+Diagnosis::Diagnosis(const RobotInputs& robot, const DiagnoseOptions& options,
+                     const diagnosis::LoopSettings& settings, DiagnosedLogs logs)
+    : robot_(robot),
+      options_(options),
+      logs_(std::move(logs)),
+      log_(logs_.fitted.recording),
+      same_fitted_(same_fitted(robot, options, logs_.fitted)),
+      same_earlier_(same_earlier(robot, options, logs_.earlier)),
+      rough_(same_fitted_.less_smooth()),
+      rough_earlier_(same_earlier_ ? same_earlier_->less_smooth() : std::nullopt),
+      run_{settings,
+           {},
+           {},
+           {},
+           {},
+           {},
+           {},
+           {},
+           std::move(logs_.test.recording),
+           stride_of(options.inputs, logs_.test.motion.rate),
+           {},
+           {},
+           logs_.fitted.motion,
+           robot.all_notes(),
+           robot.robot_yaml} {
+  run_.settings.rough = recording_in(rough_);
+  run_.settings.rough_reference = recording_in(rough_earlier_);
+  run_.settings.cutoff = options.inputs.cutoff;
+  run_.notes.insert(run_.notes.end(), run_.motion.notes.begin(), run_.motion.notes.end());
+}
+
+DiagnosisRun Diagnosis::take() && {
+  run_.settings.rough = run_.settings.rough_reference = nullptr;  // they end here
+  return std::move(run_);
+}
+
+void Diagnosis::close_loop() {
+  diagnosis::LoopWithContacts closed = diagnosis::close_loop_with_contacts(
+      robot_.robot, log_, reference(),
+      {recording_in(rough_), recording_in(rough_earlier_), &run_.test}, run_.settings);
+  run_.loop = std::move(closed.loop);
+  flags_ = std::move(closed.flags);
+  note_contact_reach(closed.reach, run_);
+  log_.set_correction(run_.loop.correction);
+  noise_.emplace(same_fitted_, same_earlier_, flags_, closed.reach);
+  noise_->question_laws(log_, reference(), run_);
+  for (diagnosis::Found& f : flags_) {
+    f.beside_unknown = diagnosis::is_beside_unknown(robot_.robot, run_.loop, f);
+  }
+  if (reference() != nullptr) reference()->set_correction(run_.loop.reference_correction);
+}
+
+void Diagnosis::find_bodies() {
+  const Robot& robot = robot_.robot;
+  run_.consistent = diagnosis::make_consistent(robot, log_, reference(), run_.settings, run_.loop);
+  diagnosis::add_needed_causes(robot, log_, reference(), run_.settings, run_.loop, run_.consistent);
+  diagnosis::add_needed_rotors(robot, log_, reference(), run_.settings, run_.loop, run_.consistent);
+  diagnosis::mark_faded(log_, run_.settings, run_.consistent, run_.loop);
+  run_.unnoticed =
+      diagnosis::unnoticed(robot, log_, reference(), run_.settings, run_.loop, run_.consistent);
+  run_.causes_alone =
+      diagnosis::beside_causes_alone(robot, log_, reference(), run_.settings, run_.loop);
+}
+
+void Diagnosis::measure_errors() {
+  run_.before = series({stacked_parameters(robot_.robot), {}});
+  run_.after = series(run_.consistent.model);
+  run_.errors = test_errors(robot_, options_, run_, logs_.raw.recording);
+  run_.errors.usual =
+      series(diagnosis::usual_model(robot_.robot, log_, run_.settings, run_.loop)).rms();
+}
+
+// On the log itself, which is longer and has no error of the filter in it; curves are judged on
+// blocks that they were not fitted to.
+void Diagnosis::find_remains() {
+  const Robot& robot = robot_.robot;
+  const diagnosis::LoopSettings& settings = run_.settings;
+  const diagnosis::RichModel& model = run_.consistent.model;
+  const diagnosis::Series remaining =
+      diagnosis::series(robot, settings.rows, model, log_, settings.stride);
+  run_.structures = diagnosis::unexplained(robot, log_, remaining, settings.stride);
+  noise_->question_curves(log_, remaining, run_);
+  run_.curves = diagnosis::curves_for(robot, settings.rows, model, run_.loop, log_, settings.stride,
+                                      noise_->silent());
+  if (!run_.curves.empty()) {
+    diagnosis::RichModel richest = model;
+    richest.curves = run_.curves;
+    run_.errors.with_curves = series(richest).rms();
+  }
+  const auto unnamed_effects = unnamed(robot, log_, run_);
+  for (const diagnosis::Stranger& s : run_.loop.strangers) {
+    run_.structures.push_back(
+        diagnosis::lawless(robot, settings.rows, model, log_, settings.stride, s));
+  }
+  run_.structures.insert(run_.structures.begin(), unnamed_effects.begin(), unnamed_effects.end());
+  add_slow_remains(remaining);
+}
+
+/// Where no curve was found the residual may still be no noise; but if one was that noise of motion
+/// made, what is slow there is a part of that.
+void Diagnosis::add_slow_remains(const diagnosis::Series& remaining) {
+  const double given = options_.inputs.cutoff;
+  const double cutoff = given > 0.0 ? given : 0.5 * run_.motion.rate;
+  for (const diagnosis::Structure& slow :
+       diagnosis::slow_remains(robot_.robot, log_, remaining, cutoff)) {
+    const bool known = std::any_of(run_.structures.begin(), run_.structures.end(),
+                                   [&](const auto& s) { return s.joint == slow.joint; });
+    const bool is_noise = std::ranges::find(noise_->silent(), slow.joint) != noise_->silent().end();
+    if (!known && !is_noise) run_.structures.push_back(slow);
+  }
+}
+
+void Diagnosis::add_notes() {
+  const Robot& robot = robot_.robot;
+  add_flags(flags_, run_);
+  noise_->note(run_);
+  note_rests(robot, run_);
+  note_worse_joints(robot, run_);
+  note_unsettled_links(robot, run_);
+  note_mass_beside_forces(robot, run_);
+  note_far_masses(robot, run_);
+  note_moments(robot, options_, run_);
+}
+
 }  // namespace
 
 DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& options) {
   refuse_same_logs(options);
-  const bool split = options.test.empty();
-  const std::optional<Part> fitted_part = split ? std::optional(Part::fitted) : std::nullopt;
-  RecordedLog log = read_recordings(fitted_logs(options), robot, options.inputs, fitted_part);
-  if (split && log.recording.samples().empty()) refuse_all_held_out(log.motion.samples);
-  diagnosis::check_recording(robot.robot, log.recording, log.contacts);
-  const std::vector<std::string> test_paths = split ? fitted_logs(options) : options.test;
-  const std::optional<Part> test_part = split ? std::optional(Part::held_out) : std::nullopt;
-  RecordedLog test = read_recordings(test_paths, robot, options.inputs, test_part,
-                                     split ? log.shifts : std::vector<double>());
-  check_contacts_alike({options.inputs.log, log.motion.contacts_derived},
-                       {test_paths.front(), test.motion.contacts_derived}, log.contacts);
-  MotionInputs unsmoothed = options.inputs;
-  unsmoothed.cutoff = 0.0;
-  const RecordedLog raw = read_recordings(test_paths, robot, unsmoothed, test_part, test.shifts);
-  std::optional<RecordedLog> earlier;
-  if (!options.reference.empty()) {
-    earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);
-    check_other(options.reference, [&] {
-      diagnosis::check_recording(robot.robot, earlier->recording, earlier->contacts);
-    });
-    check_contacts_alike({options.inputs.log, log.motion.contacts_derived},
-                         {options.reference, earlier->motion.contacts_derived}, log.contacts);
-  }
-
-  DiagnosisRun run{settings_for(robot, options, log),
-                   {},
-                   {},
-                   {},
-                   {},
-                   {},
-                   {},
-                   {},
-                   std::move(test.recording),
-                   stride_of(options.inputs, test.motion.rate),
-                   {},
-                   {},
-                   log.motion,
-                   robot.robot.notes};
-  if (run.test.usable(run.test_stride).empty()) {
-    throw Refusal("no-data", "nothing is left to test on; give --test, or a longer log");
-  }
-  diagnosis::check_clocks(robot.robot, log.recording, run.settings, log.starts);
-  if (earlier) {
-    check_other(options.reference,
-                [&] { diagnosis::check_clocks(robot.robot, earlier->recording, run.settings); });
-  }
-  if (!split) {
-    check_other(fmt::format("{}", fmt::join(options.test, ", ")), [&] {
-      diagnosis::check_meaning(robot.robot, run.test, log.contacts);
-      diagnosis::check_clocks(robot.robot, run.test, run.settings, test.starts);
-    });
-  }
-  const SameLogs same{robot,       options.inputs,  fitted_logs(options),
-                      fitted_part, log.motion.rate, log.shifts};
-  std::optional<SameLogs> same_earlier;
-  if (earlier) {
-    same_earlier.emplace(SameLogs{robot,
-                                  options.inputs,
-                                  {options.reference},
-                                  std::nullopt,
-                                  earlier->motion.rate,
-                                  earlier->shifts});
-  }
-  std::optional<RecordedLog> rough = same.less_smooth();
-  std::optional<RecordedLog> rough_earlier;
-  if (same_earlier) rough_earlier = same_earlier->less_smooth();
-  const auto pointer = [](std::optional<RecordedLog>& of) { return of ? &of->recording : nullptr; };
-  run.settings.rough = pointer(rough);
-  run.settings.rough_reference = pointer(rough_earlier);
-  run.settings.cutoff = options.inputs.cutoff;
-  Recording* reference = pointer(earlier);
-  const std::vector<Recording*> along = {pointer(rough), pointer(rough_earlier), &run.test};
-  diagnosis::LoopWithContacts closed = diagnosis::close_loop_with_contacts(
-      robot.robot, log.recording, reference, along, run.settings);
-  run.loop = std::move(closed.loop);
-  std::vector<diagnosis::Found>& flags = closed.flags;
-  note_contact_reach(closed.reach, run);
-  log.recording.set_correction(run.loop.correction);
-  NoiseOfMotion noise(same, same_earlier, flags, closed.reach);
-  noise.question_laws(log.recording, reference, run);
-  for (diagnosis::Found& f : flags) {
-    f.beside_unknown = diagnosis::is_beside_unknown(robot.robot, run.loop, f);
-  }
-  if (reference != nullptr) reference->set_correction(run.loop.reference_correction);
-  run.consistent =
-      diagnosis::make_consistent(robot.robot, log.recording, reference, run.settings, run.loop);
-  diagnosis::add_needed_causes(robot.robot, log.recording, reference, run.settings, run.loop,
-                               run.consistent);
-  diagnosis::add_needed_rotors(robot.robot, log.recording, reference, run.settings, run.loop,
-                               run.consistent);
-  diagnosis::mark_faded(log.recording, run.settings, run.consistent, run.loop);
-  run.unnoticed = diagnosis::unnoticed(robot.robot, log.recording, reference, run.settings,
-                                       run.loop, run.consistent);
-  run.causes_alone =
-      diagnosis::beside_causes_alone(robot.robot, log.recording, reference, run.settings, run.loop);
-  run.robot_yaml = robot.robot_yaml;
-  run.notes.insert(run.notes.end(), robot.remarks.begin(), robot.remarks.end());
-  run.notes.insert(run.notes.end(), robot.warnings.begin(), robot.warnings.end());
-  run.notes.insert(run.notes.end(), log.motion.notes.begin(), log.motion.notes.end());
-  const diagnosis::RichModel given{stacked_parameters(robot.robot), {}};
-  run.before = diagnosis::series(robot.robot, run.settings.rows, given, run.test, run.test_stride);
-  run.after = diagnosis::series(robot.robot, run.settings.rows, run.consistent.model, run.test,
-                                run.test_stride);
-  run.errors = test_errors(robot, options, run, raw.recording);
-  run.errors.usual =
-      diagnosis::series(robot.robot, run.settings.rows,
-                        diagnosis::usual_model(robot.robot, log.recording, run.settings, run.loop),
-                        run.test, run.test_stride)
-          .rms();
-  // On the log itself, which is longer and has no error of the filter in it; curves are judged on
-  // blocks that they were not fitted to.
-  const diagnosis::Series remaining = diagnosis::series(
-      robot.robot, run.settings.rows, run.consistent.model, log.recording, run.settings.stride);
-  run.structures =
-      diagnosis::unexplained(robot.robot, log.recording, remaining, run.settings.stride);
-  noise.question_curves(log.recording, remaining, run);
-  diagnosis::RichModel richest = run.consistent.model;
-  richest.curves = run.curves =
-      diagnosis::curves_for(robot.robot, run.settings.rows, run.consistent.model, run.loop,
-                            log.recording, run.settings.stride, noise.silent());
-  if (!run.curves.empty()) {
-    run.errors.with_curves =
-        diagnosis::series(robot.robot, run.settings.rows, richest, run.test, run.test_stride).rms();
-  }
-  const auto unnamed_effects = unnamed(robot.robot, log.recording, run);
-  for (const diagnosis::Stranger& s : run.loop.strangers) {
-    run.structures.push_back(diagnosis::lawless(robot.robot, run.settings.rows,
-                                                run.consistent.model, log.recording,
-                                                run.settings.stride, s));
-  }
-  run.structures.insert(run.structures.begin(), unnamed_effects.begin(), unnamed_effects.end());
-  // Where no curve was found the residual may still be no noise; but if one was that noise of
-  // motion made, what is slow there is a part of that.
-  const double cutoff = options.inputs.cutoff > 0.0 ? options.inputs.cutoff : 0.5 * run.motion.rate;
-  for (const diagnosis::Structure& slow :
-       diagnosis::slow_remains(robot.robot, log.recording, remaining, cutoff)) {
-    const bool known = std::any_of(run.structures.begin(), run.structures.end(),
-                                   [&](const auto& s) { return s.joint == slow.joint; });
-    const bool is_noise = std::ranges::find(noise.silent(), slow.joint) != noise.silent().end();
-    if (!known && !is_noise) run.structures.push_back(slow);
-  }
-  add_flags(flags, run);
-  noise.note(run);
-  note_rests(robot.robot, run);
-  note_worse_joints(robot.robot, run);
-  note_unsettled_links(robot.robot, run);
-  note_mass_beside_forces(robot.robot, run);
-  note_far_masses(robot.robot, run);
-  note_moments(robot.robot, options, run);
-  run.settings.rough = run.settings.rough_reference = nullptr;  // they end here
-  return run;
+  DiagnosedLogs logs = read_logs(robot, options);
+  const diagnosis::LoopSettings settings = settings_for(robot, options, logs.fitted);
+  check_logs(robot, options, logs, settings);
+  Diagnosis diagnosis(robot, options, settings, std::move(logs));
+  diagnosis.close_loop();
+  diagnosis.find_bodies();
+  diagnosis.measure_errors();
+  diagnosis.find_remains();
+  diagnosis.add_notes();
+  return std::move(diagnosis).take();
 }
 
 }  // namespace shapeid::app

@@ -53,6 +53,7 @@ TrackRun::TrackRun(const LogTable& log, const RobotInputs& robot, const BodyMode
       settings_(std::move(settings)),
       meaning_(log, robot.robot, robot.mapping),
       guard_(meaning_.plan(), static_cast<std::size_t>(robot.robot.joint_count())),
+      path_(log.path()),
       stream_(log.path(), meaning_.plan(), robot.robot, robot.notes.imu, settings_.stream),
       events_(meaning_.plan().channels.size(), robot.robot.contacts.size()) {}
 
@@ -109,8 +110,25 @@ void TrackRun::watch_clock(MeasuredRow row) {
 void TrackRun::take(const GuardedRow& row) {
   events_.add(row.faults);
   stream_.push(row.row);
-  if (stream_.rate() > 0.0 && !estimates_) prepare();
+  if (stream_.rate() > 0.0 && !estimates_) {
+    prepare();
+    Plausibility::Options units;  // what stands still or jumps is counted, and left out
+    units.longest_step = gap_steps * stream_.row_step();
+    units.refuse_frozen = units.refuse_readings = false;
+    units_.emplace(path_, robot_.robot, meaning_.plan(), units);
+  }
+  watch_units(row.row);
   while (const std::optional<Sample> sample = stream_.next()) take(*sample);
+}
+
+/// A wrong unit is wrong from the beginning. A robot that has run for hours is not stopped for what
+/// looks like one.
+void TrackRun::watch_units(const MeasuredRow& row) {
+  if (!units_) return;
+  constexpr std::size_t at_once = 1000, all = 5000;
+  units_->add(row);
+  if (++rows_of_units_ % at_once == 0) units_->judge();
+  if (rows_of_units_ == all) units_.reset();
 }
 
 std::string TrackRun::why_no_line() const {

@@ -11,6 +11,7 @@
 #include "shapeid/app/track_estimates.hpp"
 #include "shapeid/app/track_events.hpp"
 #include "shapeid/app/track_slip.hpp"
+#include "shapeid/models/plausibility.hpp"
 #include "shapeid/models/row_guard.hpp"
 #include "shapeid/models/sample_stream.hpp"
 
@@ -29,7 +30,8 @@ class TrackRun {
            TrackSettings settings);
 
   /// Takes the next row and returns the lines that became due (docs/formats/track.md). Throws
-  /// InputError for rows that cannot be read at all.
+  /// InputError for rows that cannot be read at all, and, in the first some thousand of them, for
+  /// units and signs that cannot be (Plausibility).
   [[nodiscard]] std::vector<nlohmann::json> push(const LogRow& row);
 
   [[nodiscard]] std::size_t lines() const { return lines_; }
@@ -64,6 +66,7 @@ class TrackRun {
 
   void prepare();
   void watch_clock(MeasuredRow row);
+  void watch_units(const MeasuredRow& row);
   void take(const GuardedRow& row);
   void take(const Sample& sample);
   [[nodiscard]] bool stands_still(const Sample& sample);
@@ -80,10 +83,13 @@ class TrackRun {
   TrackSettings settings_;
   RowMeaning meaning_;
   RowGuard guard_;
+  std::string path_;
   SampleStream stream_;
   std::optional<Estimates> estimates_;  ///< once the rate is known
   std::optional<SlipWatch> slip_;
   TrackEvents events_;
+  std::optional<Plausibility> units_;  ///< of the first rows; in no checkpoint
+  std::size_t rows_of_units_ = 0;
   std::optional<double> row_time_;     ///< s, of the last row
   std::optional<double> row_step_;     ///< s, between the last two
   std::optional<double> line_time_;    ///< s, of the last line, or of the first row after a break

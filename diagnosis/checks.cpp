@@ -50,7 +50,8 @@ void check_standing_feet(const Robot& robot, const Recording& recording) {
 }
 
 /// Of one log.
-void check_clock(Tally tally, const RichModel& given, const LoopSettings& settings) {
+void check_clock(Tally tally, const RichModel& given, const LoopSettings& settings,
+                 const std::string& name) {
   const Eigen::Index column = tally.inertial;
   const std::size_t half = tally.blocks.size() / 2;
   if (half < 4) return;
@@ -64,9 +65,10 @@ void check_clock(Tally tally, const RichModel& given, const LoopSettings& settin
   const double drift = fit.value[last];
   if (std::abs(drift) > least_drift && std::abs(drift) > least_z * fit.standard_error[last]) {
     throw Refusal("clock-skew",
-                  fmt::format("torque is {:.1f} ms late in the log's first half and {:.1f} ms in "
-                              "its second: the clocks of torque and joints drift apart",
-                              1e3 * fit.value[last - 1], 1e3 * (fit.value[last - 1] + drift)));
+                  fmt::format("{}{}torque is {:.1f} ms late in the log's first half and {:.1f} ms "
+                              "in its second: the clocks of torque and joints drift apart",
+                              name, name.empty() ? "" : ": ", 1e3 * fit.value[last - 1],
+                              1e3 * (fit.value[last - 1] + drift)));
   }
 }
 
@@ -88,7 +90,8 @@ void check_meaning(const Robot& robot, const Recording& recording, ContactTreatm
 }
 
 void check_clocks(const Robot& robot, const Recording& recording, const LoopSettings& settings,
-                  const std::vector<std::size_t>& log_starts) {
+                  const std::vector<std::size_t>& log_starts,
+                  const std::vector<std::string>& names) {
   const std::vector<AppliedEffect> delay = {at_start(*find_effect("torque_delay"), 0)};
   const Tally nothing = empty_tally(robot, delay);
   Tally all = nothing;
@@ -106,7 +109,7 @@ void check_clocks(const Robot& robot, const Recording& recording, const LoopSett
     Tally own = nothing;
     std::ranges::copy_if(all.blocks, std::back_inserter(own.blocks),
                          [log](const Block& block) { return block.log == log; });
-    check_clock(std::move(own), given, settings);
+    check_clock(std::move(own), given, settings, names.empty() ? "" : names.at(log));
   }
 }
 

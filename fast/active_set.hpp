@@ -101,7 +101,7 @@ class ActiveSet {
   }
   /// The same after run() and perhaps damp(), by what these go by. False also if nothing is
   /// factorised.
-  [[nodiscard]] bool none_enters(const std::vector<int>& massless) noexcept;
+  [[nodiscard]] bool none_enters(const std::vector<int>& shapes) noexcept;
   /// Whether every shape that is not passive would certainly raise the objective, and there are no
   /// more passive ones than independent columns.
   [[nodiscard]] bool is_at_a_vertex() noexcept { return now_.is_at_a_vertex(); }

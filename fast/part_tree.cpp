@@ -18,15 +18,6 @@ PartTree::Part part_of(Shape shape, int parent, int generation) {
   return part;
 }
 
-/// None of a mesh that is too thin to be cut in double precision: only the cut tells.
-std::optional<std::pair<Shape, Shape>> parts_if_any(const Shape& shape) {
-  try {
-    return divide(shape);
-  } catch (const std::invalid_argument&) {
-    return std::nullopt;
-  }
-}
-
 }  // namespace
 
 PartTree::PartTree(const BodyModel& model, int most_divisions)

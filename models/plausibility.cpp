@@ -100,7 +100,7 @@ void Plausibility::add(const MeasuredRow& row) {
                                                row.values[plan_.dq + j], options_.longest_step);
     }
   }
-  for (int j = 0; j < robot_.joint_count(); ++j) add_step(j, row);
+  for (int j = 0; options_.refuse_readings && j < robot_.joint_count(); ++j) add_step(j, row);
   if (plan_.floating()) add_gravity(row);
   if (++rows_ == block) judge();
 }
@@ -174,7 +174,7 @@ void Plausibility::judge_size() const {
 }
 
 void Plausibility::judge() {
-  judge_size();
+  if (options_.refuse_readings) judge_size();
   for (int j = 0; j < robot_.joint_count(); ++j) {
     judge_slope(j);
     judge_position(j);

@@ -34,6 +34,7 @@ class Plausibility {
     double longest_step = 0.0;  ///< s between rows; slopes are not taken across longer ones
     bool expect_gravity = true;
     bool refuse_frozen = true;
+    bool refuse_readings = true;  ///< single ones that no robot has, and angles that wrap
   };
   Plausibility(std::string path, const Robot& robot, const ChannelPlan& plan, Options options);
 

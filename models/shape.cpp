@@ -230,4 +230,12 @@ std::pair<Shape, Shape> divide(const Shape& shape) {
   return std::visit([](const auto& s) { return halve(s); }, shape);
 }
 
+std::optional<std::pair<Shape, Shape>> parts_if_any(const Shape& shape) {
+  try {
+    return divide(shape);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace shapeid

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -124,5 +125,8 @@ inline constexpr double tie_of_sides = 1e-9;
 /// root mean square of the stretch along the coordinate. A polyhedron is cut across its principal
 /// direction of largest spread. Of sides that tie the one of the lowest axis is cut.
 [[nodiscard]] std::pair<Shape, Shape> divide(const Shape& shape);
+/// The same of a divisible shape, but none of a mesh that is too thin to be cut in double
+/// precision, as only the cut tells.
+[[nodiscard]] std::optional<std::pair<Shape, Shape>> parts_if_any(const Shape& shape);
 
 }  // namespace shapeid

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "shapeid/reference/mass_solver.hpp"
@@ -59,14 +60,15 @@ Eigen::Index next_to_divide(const Eigen::VectorXd& v, double tie) {
   return first - v.begin();
 }
 
-Split split_shape(const BodyModel& model, const MassProblem& problem, const Eigen::VectorXd& m,
-                  Eigen::Index place) {
+std::optional<Split> split_shape(const BodyModel& model, const MassProblem& problem,
+                                 const Eigen::VectorXd& m, Eigen::Index place) {
+  const SoughtShape& whole = model.shapes[static_cast<std::size_t>(place)];
+  auto parts = parts_if_any(whole.shape);
+  if (!parts) return std::nullopt;
   Split split{model, problem, Eigen::VectorXd(m.size() + 1)};
   std::vector<SoughtShape>& shapes = split.model.shapes;
-  const SoughtShape whole = shapes[static_cast<std::size_t>(place)];
-  auto [first, second] = divide(whole.shape);
-  shapes[static_cast<std::size_t>(place)] = {whole.link, std::move(first), whole.id + ".0"};
-  shapes.push_back({whole.link, std::move(second), whole.id + ".1"});
+  shapes[static_cast<std::size_t>(place)] = {whole.link, std::move(parts->first), whole.id + ".0"};
+  shapes.push_back({whole.link, std::move(parts->second), whole.id + ".1"});
   split.problem.U = shape_columns(split.model);
   split.problem.V = shape_volumes(split.model);
 
@@ -109,6 +111,30 @@ Violation why_changed(const MassProblem& before, const Eigen::VectorXd& m, const
   return std::nullopt;
 }
 
+namespace {
+
+struct NextSplit {
+  Eigen::Index place;
+  double criterion;  ///< v
+  Split split;
+};
+
+/// Of the shape with the largest v; of the next one where a mesh is too thin.
+std::optional<NextSplit> largest_that_splits(const DivisionRun& run,
+                                             const DivisionOptions& options) {
+  Eigen::VectorXd v = division_criterion(run.model, run.solution.m, options);
+  while (true) {
+    const Eigen::Index place = next_to_divide(v, options.tie);
+    if (place < 0) return std::nullopt;
+    if (auto split = split_shape(run.model, run.problem, run.solution.m, place)) {
+      return NextSplit{place, v[place], std::move(*split)};
+    }
+    v[place] = 0.0;
+  }
+}
+
+}  // namespace
+
 DivisionRun divide_and_solve(const BodyModel& model, const MassProblem& problem,
                              const DivisionOptions& options,
                              const std::function<void(const DivisionRun&)>& watch) {
@@ -122,18 +148,17 @@ DivisionRun divide_and_solve(const BodyModel& model, const MassProblem& problem,
       run.stopped_by = "limit";
       return run;
     }
-    const Eigen::VectorXd v = division_criterion(run.model, run.solution.m, options);
-    const Eigen::Index place = next_to_divide(v, options.tie);
-    if (place < 0) {
+    std::optional<NextSplit> next_split = largest_that_splits(run, options);
+    if (!next_split) {
       run.stopped_by = "nothing divisible";
       return run;
     }
+    Split& split = next_split->split;
     DivisionStep step;
-    step.divided = run.model.shapes[static_cast<std::size_t>(place)].id;
-    step.criterion = v[place];
+    step.divided = run.model.shapes[static_cast<std::size_t>(next_split->place)].id;
+    step.criterion = next_split->criterion;
     step.objective_before = run.solution.value.total();
 
-    Split split = split_shape(run.model, run.problem, run.solution.m, place);
     step.objective_at_split = objective(split.problem, split.start).total();
     MassSolution next = solve_masses(split.problem, split.start);
     step.objective_after = next.value.total();

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,9 +40,10 @@ struct Split {
 };
 
 /// Cuts the shape at `place`. The first part ("3.0") takes its place, the second ("3.1") is
-/// appended, so that every other shape keeps its place.
-[[nodiscard]] Split split_shape(const BodyModel& model, const MassProblem& problem,
-                                const Eigen::VectorXd& m, Eigen::Index place);
+/// appended, so that every other shape keeps its place. None of a shape that cannot be cut
+/// (parts_if_any()).
+[[nodiscard]] std::optional<Split> split_shape(const BodyModel& model, const MassProblem& problem,
+                                               const Eigen::VectorXd& m, Eigen::Index place);
 
 /// Empty if the problem's columns and volumes are those of the model's shapes.
 [[nodiscard]] Violation why_unrelated(const BodyModel& model, const MassProblem& problem);

@@ -195,6 +195,14 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
   DivisionOptions division = settings.division;
   division.expected_mass = settings.expected_mass;
   if (const Violation reason = why_senseless(division)) throw std::invalid_argument(*reason);
+  constexpr double far = 100.0;  // as N mm are; no payload that is heavier than it was thought is
+  const double times = times_expected(model, rows, settings.expected_mass);
+  if (times > far) {
+    throw Refusal("torque-scale",
+                  fmt::format("the log asks for about {:.1g} times the expected mass of {:g} kg: "
+                              "its torque is not in N m, or far more is to be expected",
+                              times, settings.expected_mass));
+  }
   Identification result;
   result.samples = rows.samples;
   result.data = determine(rows.blocks, natural_sizes(model, settings.expected_mass));
@@ -208,14 +216,6 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
                     fmt::format("{} blocks of time, or logs, have too little spread to judge any "
                                 "parameter by; log a longer motion, and logs of like length",
                                 rows.blocks.size()));
-    }
-    constexpr double far = 30.0;  // no payload, and no density
-    const double times = times_expected(model, rows, settings.expected_mass);
-    if (times > far) {
-      throw Refusal("torque-scale",
-                    fmt::format("the log asks for about {:.1g} times the expected mass of {:g} kg: "
-                                "is its torque in N m?",
-                                times, settings.expected_mass));
     }
     throw Refusal("not-excited",
                   "the motion determines no parameter of the free links; use a log in which they "

@@ -64,9 +64,9 @@ struct CompressedRows {
 [[nodiscard]] Eigen::MatrixXd merged(const std::vector<RowBlock>& blocks);
 
 /// Identifies the free links of `model` from at least two blocks, whose spread is what errors are
-/// judged by. Throws Refusal "not-excited" if the rows determine no parameter at all,
-/// "torque-scale" if that is because they ask for a mass far beyond what is expected, "too-short"
-/// if the blocks are so few or so unlike that nothing tells, "not-finite" as solve_masses() does;
+/// judged by. Throws Refusal "torque-scale" if the rows ask for more than a hundred times the
+/// expected mass, "not-excited" if they determine no parameter at all, "too-short" if the blocks
+/// are so few or so unlike that nothing tells, "not-finite" as solve_masses() does;
 /// std::invalid_argument for division options, or an expected mass, that make no sense.
 [[nodiscard]] Identification identify(const BodyModel& model, const CompressedRows& rows,
                                       const IdentifySettings& settings,

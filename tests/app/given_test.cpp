@@ -239,7 +239,7 @@ TEST_F(Given, ALogWithoutItsBase) {
       fmt::format("identify --robot {}quadruped.urdf --robot-yaml feet.yaml --log joints.csv",
                   robots),
       "the log has no base.* columns, though feet.yaml has contacts");
-  scratch_file("imu.yaml", "imu: {xyz: [0, 0, 0.1]}\n");
+  scratch_file("imu.yaml", "imu: {xyz: [0, 0, 0.1], rpy: [0, 0, 1.57]}\n");
   const std::string robot = fmt::format("--robot {}quadruped.urdf --robot-yaml imu.yaml ", robots);
   expect_refused(fmt::format("identify {} --log joints.csv", robot),
                  "the log has no base.* columns, though imu.yaml has an IMU");
@@ -261,7 +261,7 @@ TEST_F(Given, RobotYamlThatWasFoundIsSaid) {
     const CommandRun named = shapeid(words + "--robot-yaml " + found);
     EXPECT_EQ(named.out.find(beside), std::string::npos) << named.out;
     for (const char* option : {"", "--robot-yaml imu.yaml"}) {
-      scratch_file("imu.yaml", "imu: {xyz: [0, 0, 0.1]}\n");
+      scratch_file("imu.yaml", "imu: {xyz: [0, 0, 0.1], rpy: [0, 0, 1.57]}\n");
       const CommandRun run = shapeid(words + "--json " + option);
       const std::string file = *option == '\0' ? found : "imu.yaml";
       EXPECT_NE(run.out.find(fmt::format("\"robot_yaml\": \"{}\"", file)), std::string::npos)

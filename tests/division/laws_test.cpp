@@ -67,7 +67,7 @@ RC_GTEST_PROP(Division, SplitChangesNeitherPhiNorObjective, ()) {
   const Eigen::VectorXd m = any_masses(given);
   for (Eigen::Index j = 0; j < m.size(); ++j) {
     if (!divisible(given.model.shapes[static_cast<std::size_t>(j)].shape)) continue;
-    const Split split = split_shape(given.model, given.problem, m, j);
+    const Split split = split_shape(given.model, given.problem, m, j).value();
     expect_sums_of_halves(given, m, split, j);
     RC_ASSERT(why_changed(given.problem, m, split) == std::nullopt);
     RC_ASSERT(why_unrelated(split.model, split.problem) == std::nullopt);
@@ -81,7 +81,7 @@ RC_GTEST_PROP(Division, WrongStartIsNoticed, ()) {
   const ModelWithRows given = *model_with_rows();
   RC_PRE(divisible(given.model.shapes.front().shape));
   const Eigen::VectorXd m = Eigen::VectorXd::Constant(given.problem.shapes(), given.expected_mass);
-  Split split = split_shape(given.model, given.problem, m, 0);
+  Split split = split_shape(given.model, given.problem, m, 0).value();
   split.start[0] *= 1.0 + 1e-7;
   split.start[m.size()] *= 1.0 - 1e-7;
   RC_ASSERT(why_changed(given.problem, m, split) != std::nullopt);

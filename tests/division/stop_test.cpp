@@ -6,11 +6,13 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <optional>
 
 #include "shapeid/reference/division.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 #include "shapeid/tests/support/any_model.hpp"
 #include "shapeid/tests/support/load_problem.hpp"
+#include "shapeid/tests/support/thin_mesh.hpp"
 
 namespace shapeid::reference {
 namespace {
@@ -88,13 +90,63 @@ TEST(Stop, WithoutMassNothingIsDivided) {
   EXPECT_EQ(result.solution.Phi, Eigen::VectorXd::Zero(10));
 }
 
+/// What is left of a thin mesh when it has been cut as often as it can be.
+std::optional<Shape> too_thin_to_cut() {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    Shape shape = test::flat_tetrahedron(1e-13, seed);
+    for (int cuts = 0; cuts < 100; ++cuts) {
+      const auto parts = parts_if_any(shape);
+      if (!parts) return shape;
+      shape = parts->first;
+    }
+  }
+  return std::nullopt;
+}
+
+/// That a mesh is too thin to be cut only the cut tells: then the shape with the next largest v is
+/// divided, and at last none. (It was a defect: std::invalid_argument out of divide_and_solve().)
+TEST(Stop, WhereMeshesAreTooThinToBeCut) {
+  const std::optional<Shape> thin = too_thin_to_cut();
+  ASSERT_TRUE(thin);
+  test::ModelWithRows given = load_in_region();
+  given.model.shapes = {{0, *thin, "0"}};
+  test::use_shapes(given.problem, given.model, 1.0);
+  given.problem.F = given.problem.Y * given.problem.U.col(0);
+  const DivisionOptions five{.step = 0.0, .most_divisions = 5, .expected_mass = 1.0};
+  const DivisionRun alone = run(given, five);
+  EXPECT_EQ(alone.stopped_by, "nothing divisible");
+  EXPECT_TRUE(alone.history.empty());
+  EXPECT_NEAR(alone.solution.m[0], 1.0, 1e-2);
+
+  given.model.shapes.push_back(load_in_region().model.shapes[0]);
+  given.model.shapes[1].id = "1";
+  test::use_shapes(given.problem, given.model, 1.0);
+  given.problem.F = given.problem.Y * given.problem.U.rowwise().sum();
+  const DivisionRun both = run(given, five);
+  ASSERT_EQ(both.stopped_by, "limit");
+  for (const DivisionStep& step : both.history) EXPECT_EQ(step.divided.front(), '1');
+}
+
+/// Moments and volumes of a thin mesh far from the origin lose digits, and a cut is still no change
+/// beyond these.
+TEST(Split, OfThinMeshesChangesNothing) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    test::ModelWithRows given = load_in_region();
+    given.model.shapes = {{0, test::flat_tetrahedron(1e-4, seed), "0"}};
+    test::use_shapes(given.problem, given.model, 1.0);
+    const Eigen::VectorXd m = Eigen::VectorXd::Constant(1, 0.7);
+    const Split split = split_shape(given.model, given.problem, m, 0).value();
+    EXPECT_EQ(why_changed(given.problem, m, split).value_or(""), "") << seed;
+  }
+}
+
 // The place of every other shape stays: the first part replaces, the second is appended.
 TEST(Split, FirstPartReplacesSecondIsAppended) {
   test::ModelWithRows given = load_in_region();
   given.model.shapes.push_back(
       {0, make_cuboid({0.1, 0.1, 0.3}, Eigen::Isometry3d::Identity()), "1"});
   test::use_shapes(given.problem, given.model, 1.0);
-  const Split split = split_shape(given.model, given.problem, Eigen::Vector2d(3.0, 1.0), 0);
+  const Split split = split_shape(given.model, given.problem, Eigen::Vector2d(3.0, 1.0), 0).value();
   ASSERT_EQ(split.model.shapes.size(), 3U);
   EXPECT_EQ(split.model.shapes[0].id, "0.0");
   EXPECT_EQ(split.model.shapes[1].id, "1");

@@ -6,12 +6,12 @@
 
 #include <cmath>
 #include <memory>
-#include <random>
 #include <utility>
 #include <vector>
 
 #include "shapeid/fast/division.hpp"
 #include "shapeid/tests/support/scaled.hpp"
+#include "shapeid/tests/support/thin_mesh.hpp"
 
 namespace shapeid::fast {
 namespace {
@@ -80,20 +80,6 @@ TEST(PartTree, ForgetsWhereARunMayHaveNoRoom) {
   EXPECT_EQ(tree[2].generation, 1);
 }
 
-/// A tetrahedron about a metre wide and `thin` times as high, somewhere.
-Shape flat_tetrahedron(double thin, unsigned seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const auto some = [&] { return uniform(random); };
-  std::vector<Eigen::Vector3d> v;
-  for (int i = 0; i < 4; ++i) v.emplace_back(some(), some(), some() * thin);
-  if ((v[1] - v[0]).cross(v[2] - v[0]).dot(v[3] - v[0]) > 0.0) std::swap(v[0], v[1]);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = Eigen::Quaterniond(some(), some(), some(), some()).normalized().matrix();
-  pose.translation() = Eigen::Vector3d(some(), some(), some());
-  return make_mesh(v, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}}, pose);
-}
-
 /// A run on rows that the shape itself makes, to its end.
 struct RunOn {
   explicit RunOn(const Shape& shape);
@@ -126,7 +112,7 @@ RunOn::RunOn(const Shape& shape) {
 /// of them to all, in checked builds: half of these runs ended the program.)
 TEST(PartTree, ThinMeshesAreDivided) {
   for (unsigned seed = 0; seed < 8; ++seed) {
-    const RunOn flat(flat_tetrahedron(1e-4, seed));
+    const RunOn flat(test::flat_tetrahedron(1e-4, seed));
     EXPECT_EQ(flat.stop, Division::Stop::limit) << seed;
     EXPECT_EQ(flat.run->history().size(), 100U) << seed;
     EXPECT_NEAR(flat.run->masses().m().sum(), 1.0, 1e-4) << seed;
@@ -139,7 +125,7 @@ TEST(PartTree, MeshesThatAreTooThinAreNotDivided) {
   int found = 0;
   for (unsigned seed = 0; seed < 8; ++seed) {
     BodyModel model = two_shapes();
-    model.shapes[0].shape = flat_tetrahedron(1e-13, seed);
+    model.shapes[0].shape = test::flat_tetrahedron(1e-13, seed);
     PartTree tree(model, 100);
     int part = 0, first = 0;
     while (tree.is_divisible(part) && (first = tree.parts_of(part)) >= 0) part = first;

@@ -133,7 +133,7 @@ TEST(DefinitionsOfTheProofs, MassesAfterACutAreTheCodes) {
   p.U = shape_columns(model);
   p.V = shape_volumes(model);
   const Eigen::VectorXd m = draw.positives(3);
-  const reference::Split split = reference::split_shape(model, p, m, 1);
+  const reference::Split split = reference::split_shape(model, p, m, 1).value();
   const std::string definitions =
       fmt::format("Definition p := {}.\nDefinition p' := {}.\nDefinition m := vec {}.",
                   coq_problem(p), coq_problem(split.problem), coq_list(m));

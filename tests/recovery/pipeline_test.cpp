@@ -66,6 +66,9 @@ TEST(Pipeline, LogsThatCannotAnswerAreRefused) {
   const test::Quadruped q = test::bundled_quadruped();
   EXPECT_EQ(refusal_code(q, {}), "no-data");
   EXPECT_EQ(refusal_code(q, trot_samples(q, 0.3, 0.0)), "too-short");
+  std::vector<Sample> in_millimetres = trot_samples(q, 2.0, 0.1);
+  for (Sample& s : in_millimetres) s.tau *= 1e3;  // N mm
+  EXPECT_EQ(refusal_code(q, in_millimetres), "torque-scale");
 }
 
 // Blocks of one sample each are more than most_blocks: neighbours merge, nothing may be lost.

@@ -272,5 +272,19 @@ TEST(TrackInput, IsRefusedInOneLine) {
   EXPECT_EQ(shapeid(track("nowhere.csv")).status, 2);
 }
 
+TEST(TrackInput, UnitsThatCannotBeAreRefusedInTheFirstRows) {
+  const auto said = [](const std::string& column, double factor) {
+    Lines log = trot_log();
+    change(log, column, 0, log.size() - 1, [&](double value) { return factor * value; });
+    scratch_file("units.csv", joined(log));
+    const CommandRun run = shapeid(track("units.csv"));
+    EXPECT_EQ(run.status, 2) << column;
+    return run.err;
+  };
+  EXPECT_NE(said("q.FR_knee", 57.29578).find("looks like degrees"), std::string::npos);
+  EXPECT_NE(said("dq.RL_hip", 57.29578).find("looks like degrees per second"), std::string::npos);
+  EXPECT_NE(said("dq.FL_hip", -1.0).find("sign: -1"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace shapeid::test

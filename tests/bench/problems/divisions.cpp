@@ -83,7 +83,7 @@ std::vector<DenseProblem> division_run(SeedSet seeds, std::uint64_t number, test
     // Beyond some four hundred shapes all mass sits in parts that were cut as often as parts are
     // cut at all. The run goes on with the largest shape, for the sake of the number of columns.
     if (place < 0) shape_volumes(model).maxCoeff(&place);
-    reference::Split split = reference::split_shape(model, last.triangle, m, place);
+    reference::Split split = reference::split_shape(model, last.triangle, m, place).value();
     DenseProblem next = {
         std::move(split.problem), last.R, {0, last.first.back() + 1}, true, std::nullopt};
     next.cut = Cut{place, next.triangle.V[place] / last.triangle.V[place]};
