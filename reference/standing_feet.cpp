@@ -114,8 +114,8 @@ void StandingFeet::judge_gyro() const {
   if (best % signed_axes_count != 0) wrong.push_back("its axes were " + axes.words());
   throw Refusal("imu-axes",
                 fmt::format("{:.0f} % of the standing feet stand still by the gyro as it is, and "
-                            "{:.0f} % if {}: turn the IMU (robot.yaml), or the gyro in the "
-                            "mapping; or legs are exchanged",
+                            "{:.0f} % if {}: turn the IMU (robot.yaml: without it its axes are "
+                            "the base's), or the gyro in the mapping; or legs are exchanged",
                             percent(0), percent(best), fmt::join(wrong, " and ")));
 }
 

@@ -412,11 +412,17 @@ TEST_F(Given, ARobotWithoutNotesSaysWhatIsTakenForGranted) {
   std::filesystem::create_directories(scratch() + "/alone");
   std::filesystem::copy_file(robots + "quadruped.urdf", scratch() + "/alone/dog.urdf",
                              std::filesystem::copy_options::overwrite_existing);
-  const std::string words = "identify --robot alone/dog.urdf --log given.csv --divisions 0";
-  EXPECT_NE(shapeid(words).out.find("IMU is taken to be at the base's origin"), std::string::npos);
+  const std::string words = "identify --robot alone/dog.urdf --divisions 0 --log ";
+  // The bundled robot's IMU is turned by a quarter.
+  expect_refused(words + "given.csv", "turn the IMU (robot.yaml: without it", 1);
+  scratch_file("no_imu.yaml",
+               "contacts: [{link: FR_foot}, {link: FL_foot}, {link: RR_foot}, {link: RL_foot}]\n");
+  ASSERT_EQ(shapeid("simulate --seconds 3 --robot-yaml no_imu.yaml --out no_imu.csv").status, 0);
+  EXPECT_NE(shapeid(words + "no_imu.csv").out.find("IMU is taken to be at the base's origin"),
+            std::string::npos);
   std::filesystem::remove(scratch() + "/alone/dog.robot.yaml");
   std::filesystem::create_symlink("nowhere.yaml", scratch() + "/alone/dog.robot.yaml");
-  expect_refused(words, "dog.robot.yaml");
+  expect_refused(words + "no_imu.csv", "dog.robot.yaml");
 }
 
 TEST_F(Given, EffectsBeyondTheirRange) {

@@ -58,7 +58,10 @@ void write_log(const Robot& robot, std::size_t k) {
     row.insert(row.end(), s.base_specific_force.begin(), s.base_specific_force.end());
     row.insert(row.end(), s.q.begin(), s.q.end());
     row.insert(row.end(), s.tau.begin(), s.tau.end());
-    for (const bool touches : s.in_contact) row.push_back(touches ? 1.0 : 0.0);
+    // Feet of this motion do not stand: of one alone that is not asked.
+    for (std::size_t c = 0; c < s.in_contact.size(); ++c) {
+      row.push_back(c == 0 && s.in_contact[c] ? 1.0 : 0.0);
+    }
     out.write(row);
   }
   out.close();
