@@ -53,9 +53,9 @@ TrackRun::TrackRun(const LogTable& log, const RobotInputs& robot, const BodyMode
       settings_(std::move(settings)),
       meaning_(log, robot.robot, robot.mapping),
       guard_(meaning_.plan(), static_cast<std::size_t>(robot.robot.joint_count())),
-      path_(log.path()),
       stream_(log.path(), meaning_.plan(), robot.robot, robot.notes.imu, settings_.stream),
-      events_(meaning_.plan().channels.size(), robot.robot.contacts.size()) {}
+      events_(meaning_.plan().channels.size(), robot.robot.contacts.size()),
+      path_(log.path()) {}
 
 std::vector<json> TrackRun::push(const LogRow& row) {
   due_.clear();

@@ -83,13 +83,11 @@ class TrackRun {
   TrackSettings settings_;
   RowMeaning meaning_;
   RowGuard guard_;
-  std::string path_;
+  std::size_t rows_of_units_ = 0;  ///< that were looked at
   SampleStream stream_;
   std::optional<Estimates> estimates_;  ///< once the rate is known
   std::optional<SlipWatch> slip_;
   TrackEvents events_;
-  std::optional<Plausibility> units_;  ///< of the first rows; in no checkpoint
-  std::size_t rows_of_units_ = 0;
   std::optional<double> row_time_;     ///< s, of the last row
   std::optional<double> row_step_;     ///< s, between the last two
   std::optional<double> line_time_;    ///< s, of the last line, or of the first row after a break
@@ -98,6 +96,8 @@ class TrackRun {
   std::size_t held_back_ = 0;          ///< still samples since the last line
   std::size_t lines_ = 0;
   std::vector<nlohmann::json> due_;
+  std::string path_;
+  std::optional<Plausibility> units_;  ///< of the first rows; in no checkpoint
 };
 
 }  // namespace shapeid::app

@@ -27,7 +27,7 @@ const std::array<SignedAxes, signed_axes_count>& all_signed_axes() {
   static const auto all = [] {
     std::array<SignedAxes, signed_axes_count> result;
     std::array<int, 3> order = {0, 1, 2};
-    auto next = result.begin();
+    SignedAxes* next = result.data();
     do {
       for (const double x : {1.0, -1.0}) {
         for (const double y : {1.0, -1.0}) {

@@ -69,10 +69,10 @@ TEST(Checks, TorqueOfATrotThatIsACurrent) {
 }
 
 TEST(Checks, TorqueOfAnotherJoint) {
-  for (const auto& [a, b] : {std::pair{0, 1}, std::pair{1, 2}, std::pair{0, 2}}) {
-    EXPECT_EQ(check(changed(record({}), [&](Sample& s) { std::swap(s.tau[a], s.tau[b]); })),
-              "torque-order")
-        << a << b;
+  for (const auto& pair : {std::pair{0, 1}, std::pair{1, 2}, std::pair{0, 2}}) {
+    const Recording exchanged =
+        changed(record({}), [&](Sample& s) { std::swap(s.tau[pair.first], s.tau[pair.second]); });
+    EXPECT_EQ(check(exchanged), "torque-order") << pair.first << pair.second;
   }
   // Friction and a load do not look like that.
   EXPECT_EQ(check(record({{test::effect("viscous_friction", 1, {4.0}),

@@ -13,6 +13,7 @@ Shape flat_tetrahedron(double thin, unsigned seed) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto some = [&] { return uniform(random); };
   std::vector<Eigen::Vector3d> v;
+  v.reserve(4);
   for (int i = 0; i < 4; ++i) v.emplace_back(some(), some(), some() * thin);
   if ((v[1] - v[0]).cross(v[2] - v[0]).dot(v[3] - v[0]) > 0.0) std::swap(v[0], v[1]);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
