@@ -104,12 +104,14 @@ void check_clocks(const Robot& robot, const Recording& recording, const LoopSett
       recording.duration() / (blocks * static_cast<double>(log_starts.size() + 1));
   const RichModel given{stacked_parameters(robot), {}};
   add_to_tally(all, robot, settings.rows, given, recording, options, false);
+  // A log without samples begins nowhere, and leaves open which are the others.
+  const bool is_named = names.size() == log_starts.size() + 1;
   // Each log by itself: clocks that were set anew between two logs do not drift.
   for (std::size_t log = 0; log <= log_starts.size(); ++log) {
     Tally own = nothing;
     std::ranges::copy_if(all.blocks, std::back_inserter(own.blocks),
                          [log](const Block& block) { return block.log == log; });
-    check_clock(std::move(own), given, settings, names.empty() ? "" : names.at(log));
+    check_clock(std::move(own), given, settings, is_named ? names[log] : "");
   }
 }
 

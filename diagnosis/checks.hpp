@@ -28,7 +28,7 @@ void check_meaning(const Robot& robot, const Recording& recording, ContactTreatm
 
 /// Throws Refusal "clock-skew" if torque and joints drift apart in time: the delay that explains
 /// the first half of a log best differs from that of its second half. `log_starts`: samples at
-/// which further logs begin; `names`: of all logs, or none.
+/// which further logs begin; `names`: of all logs, to be said, or none.
 void check_clocks(const Robot& robot, const Recording& recording, const LoopSettings& settings,
                   const std::vector<std::size_t>& log_starts = {},
                   const std::vector<std::string>& names = {});

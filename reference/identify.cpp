@@ -119,12 +119,11 @@ Eigen::VectorXd jackknife(const std::vector<RowBlock>& blocks, const DivisionRun
 
 /// Of the expected mass (kg), shared among the shapes by volume, the multiple that fits the rows
 /// best.
-double times_expected(const BodyModel& model, const CompressedRows& rows, double mass) {
-  const Eigen::MatrixXd all = merged(rows.blocks);
+double times_expected(const BodyModel& model, const Eigen::MatrixXd& rows, double mass) {
   const Eigen::VectorXd V = shape_volumes(model);
   const Eigen::VectorXd expected =
-      all.leftCols(all.cols() - 1) * (shape_columns(model) * (mass / V.sum() * V));
-  return expected.dot(all.rightCols<1>()) / expected.squaredNorm();
+      rows.leftCols(rows.cols() - 1) * (shape_columns(model) * (mass / V.sum() * V));
+  return expected.dot(rows.rightCols<1>()) / expected.squaredNorm();
 }
 
 }  // namespace
@@ -176,8 +175,8 @@ CompressedRows compress(const Robot& robot, const BodyModel& model, const Sample
   CompressedRows result;
   StandingFeet feet(robot);
   while (const std::optional<Sample> sample = next()) {
-    if (settings.contacts == ContactTreatment::project) feet.add(*sample);
     collected.add(*sample);
+    if (settings.contacts == ContactTreatment::project) feet.add(*sample);
     ++result.samples;
   }
   feet.judge();
@@ -196,7 +195,8 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
   division.expected_mass = settings.expected_mass;
   if (const Violation reason = why_senseless(division)) throw std::invalid_argument(*reason);
   constexpr double far = 100.0;  // as N mm are; no payload that is heavier than it was thought is
-  const double times = times_expected(model, rows, settings.expected_mass);
+  const Eigen::MatrixXd all_rows = merged(rows.blocks);
+  const double times = times_expected(model, all_rows, settings.expected_mass);
   if (times > far) {
     throw Refusal("torque-scale",
                   fmt::format("the log asks for about {:.1g} times the expected mass of {:g} kg: "
@@ -223,7 +223,7 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
   }
 
   MassProblem problem;
-  set_rows(problem, merged(rows.blocks));
+  set_rows(problem, all_rows);
   problem.U = shape_columns(model);
   problem.V = shape_volumes(model);
   problem.lambda = settings.lambda.value_or(default_lambda(problem, settings.expected_mass));

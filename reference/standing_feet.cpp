@@ -34,11 +34,6 @@ std::vector<Eigen::Matrix3d> all_readings() {
   return result;
 }
 
-void count_difference(bool first, bool second, StandingFeet::Difference& difference) {
-  if (first && !second) ++difference.gained;
-  if (second && !first) ++difference.lost;
-}
-
 /// Against the mean of those that stand, and by the joints alone.
 ContactMotions against_stance(const Robot& robot, const Sample& sample, double standing) {
   ContactMotions feet = contact_motions(robot, sample);
@@ -84,8 +79,8 @@ void StandingFeet::add(const Sample& sample) {
     }
     for (std::size_t k = 0; k < readings; ++k) {
       if (is_still[k]) ++still_[k];
-      count_difference(is_still[k], is_still.front(), from_logged_[k]);
-      count_difference(is_still[k], is_still.back(), from_none_[k]);
+      from_logged_[k].count(is_still[k], is_still.front());
+      from_none_[k].count(is_still[k], is_still.back());
     }
   }
 }
@@ -123,7 +118,8 @@ void StandingFeet::judge_labels() const {
   if (flying_count_ < enough) return;
   const double standing = std::sqrt(standing_ / static_cast<double>(beside_flying_count_));
   const double flying = std::sqrt(flying_ / static_cast<double>(flying_count_));
-  constexpr double alike = 0.7;  // standing feet of a trot move at a fifth of those in the air
+  // A foot in the air beside one that stands makes it 1; feet that slip at touchdown, a part of it.
+  constexpr double alike = 0.7;
   if (!(standing > alike * flying)) return;
   throw Refusal("contact-labels",
                 fmt::format("feet declared to stand move against each other at {:.2g} m/s, feet "

@@ -29,18 +29,19 @@ class StandingFeet {
   ///    each other about as fast as these.
   void judge() const;
 
+ private:
   /// Ways to read a gyro: the 48 exchanges and signs of axes, as logged first, in rad/s and then in
   /// degrees per second; the last is that it reads nothing.
   static constexpr std::size_t readings = 2 * signed_axes_count + 1;
   /// Feet of samples that stand still by a reading and not by another one, and the other way round.
   struct Difference {
     std::size_t gained = 0, lost = 0;
+    void count(bool by_this, bool by_other) {
+      if (by_this && !by_other) ++gained;
+      if (by_other && !by_this) ++lost;
+    }
   };
-  [[nodiscard]] const Difference& from_logged(std::size_t reading) const {
-    return from_logged_.at(reading);
-  }
 
- private:
   void judge_gyro() const;
   void judge_labels() const;
 

@@ -149,6 +149,12 @@ TEST(Checks, ClocksThatDriftApart) {
   }
   const Recording drifting(samples, log.rate());
   EXPECT_EQ(refusal([&] { check_clocks(arm(), drifting, arm_settings()); }), "clock-skew");
+  try {
+    check_clocks(arm(), drifting, arm_settings(), {}, {"slow.csv"});
+    ADD_FAILURE() << "accepted";
+  } catch (const Refusal& r) {
+    EXPECT_EQ(r.reason().rfind("slow.csv: ", 0), 0U) << r.what();
+  }
 }
 
 /// Each log has a clock that was set anew: 12 ms between them are no drift of either.
