@@ -58,7 +58,6 @@ struct Instant {
   const Robot& robot;
   const Sample& sample;
   const std::vector<reference::LinkMotion>& motions;  ///< of all links, at this sample
-  const Eigen::MatrixXd& Y;                           ///< regressor, dof x (10 per link)
   /// Predicted joint torques of the rigid links, n, with contact forces from the base's balance.
   /// Measured torque is only in what that leaves open (predicted_load()).
   const Eigen::VectorXd& load;

@@ -86,14 +86,15 @@ Eigen::VectorXd HypothesisColumns::difference(const AppliedEffect& hypothesis, c
     const bool same_view = hypothesis.effect->transform.sample == nullptr &&
                            hypothesis.effect->transform.robot == nullptr;
     if (same_view) {
-      const Prediction changed = predict(viewer, view, model_, predicted.load);
+      const Prediction changed = predict(viewer, view, predicted.links, model_, predicted.load);
       return changed.force - changed.J.transpose() * predicted.load.force;
     }
     // The contacts whose forces are held fixed, also where a delay looks across a touchdown.
     Sample moved = viewer.moved(recording, index);
     moved.in_contact = view.sample.in_contact;
+    const Scene scene = viewer.scene(std::move(moved), view.surroundings);
     const Prediction changed =
-        predict(viewer, viewer.view(std::move(moved), view.surroundings), model_, predicted.load);
+        predict(viewer, scene, viewer.links(scene, model_.Phi), model_, predicted.load);
     return changed.force - changed.J.transpose() * predicted.load.force;
   };
   return (force(d.plus) - force(d.minus)) / d.step;

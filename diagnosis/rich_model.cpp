@@ -59,26 +59,35 @@ View Viewer::view(const Recording& recording, std::size_t index) const {
 }
 
 View Viewer::view(Sample moved, Surroundings surroundings) const {
-  View view;
-  view.sample = std::move(moved);
-  view.surroundings = std::move(surroundings);
-  view.motions = reference::link_motions(robot_, view.sample);
-  view.Y = rows_->regressor(robot_, view.sample);
-  view.J = source_.contacts == ContactTreatment::project
-               ? rows_->contact_jacobian(robot_, view.sample)
-               : Eigen::MatrixXd(0, robot_.dof());
-  view.carried = source_.contacts == ContactTreatment::measured
-                     ? reference::measured_contact_force(robot_, view.sample)
-                     : Eigen::VectorXd(Eigen::VectorXd::Zero(robot_.dof()));
+  View view{scene(std::move(moved), std::move(surroundings)), {}, {}, {}};
+  view.Y = rows_->regressor(robot_, view.sample, view.motions);
   return view;
 }
 
-void Viewer::transform(const View& view, Rows& rows) const {
+Scene Viewer::scene(Sample moved, Surroundings surroundings) const {
+  Scene scene;
+  scene.sample = std::move(moved);
+  scene.surroundings = std::move(surroundings);
+  scene.motions = reference::link_motions(robot_, scene.sample);
+  scene.J = source_.contacts == ContactTreatment::project
+                ? rows_->contact_jacobian(robot_, scene.sample, scene.motions)
+                : Eigen::MatrixXd(0, robot_.dof());
+  scene.carried = source_.contacts == ContactTreatment::measured
+                      ? reference::measured_contact_force(robot_, scene.sample)
+                      : Eigen::VectorXd(Eigen::VectorXd::Zero(robot_.dof()));
+  return scene;
+}
+
+Eigen::VectorXd Viewer::links(const Scene& scene, const Eigen::VectorXd& Phi) const {
+  return rows_->inverse_dynamics(robot_, scene.sample, scene.motions, Phi);
+}
+
+void Viewer::transform(const Scene& scene, Rows& rows) const {
   for (const bool scales : {false, true}) {
     for (const AppliedEffect& a : transforming_) {
       const Transformation& transform = a.effect->transform;
       if (transform.rows == nullptr || transform.scales != scales) continue;
-      transform.rows(robot_, view.sample, view.surroundings.down, a.site, a.value, rows);
+      transform.rows(robot_, scene.sample, scene.surroundings.down, a.site, a.value, rows);
     }
   }
 }
@@ -104,9 +113,8 @@ bool needs_load_rate(const std::vector<AppliedEffect>& effects) {
                      [](const AppliedEffect& a) { return a.effect->needs_load_rate; });
 }
 
-Instant instant_of(const Viewer& viewer, const View& view, const PredictedLoad& load) {
-  return {viewer.robot(), view.sample, view.motions,     view.Y,
-          load.joint,     load.rate,   view.surroundings};
+Instant instant_of(const Viewer& viewer, const Scene& scene, const PredictedLoad& load) {
+  return {viewer.robot(), scene.sample, scene.motions, load.joint, load.rate, scene.surroundings};
 }
 
 namespace {
@@ -125,21 +133,21 @@ Eigen::VectorXd force_of(const std::vector<AppliedEffect>& effects,
 
 /// Contact forces are those that carry links and effects, and come closest to the torque with both;
 /// of effects that grow with the load, by the load that links alone make of all torque.
-PredictedLoad load_of(const Viewer& viewer, const View& view, const RichModel& model) {
-  const auto load = [&](const Eigen::VectorXd& applied, const auto& at) {
-    return predicted_load(viewer.robot(), applied, at.Y * model.Phi - at.carried, at.J);
-  };
+PredictedLoad load_of(const Viewer& viewer, const View& view, const Eigen::VectorXd& links,
+                      const RichModel& model) {
   const Eigen::VectorXd applied = logged_force(viewer, view);
-  PredictedLoad now = load(applied, view);
+  PredictedLoad now = predicted_load(viewer.robot(), applied, links - view.carried, view.J);
   if (view.around.size() == 2) {
-    const Neighbour &before = view.around[0], &after = view.around[1];
-    now.rate = (load(after.applied, after).joint - load(before.applied, before).joint) /
-               (2.0 * neighbour_step(viewer.robot()));
+    const auto load = [&](const Neighbour& near) -> Eigen::VectorXd {
+      const Eigen::VectorXd taken = near.Y * model.Phi - near.carried;
+      return predicted_load(viewer.robot(), near.applied, taken, near.J).joint;
+    };
+    now.rate =
+        (load(view.around[1]) - load(view.around[0])) / (2.0 * neighbour_step(viewer.robot()));
   }
   if (view.J.rows() == 0 || (model.effects.empty() && model.curves.empty())) return now;
   const Eigen::VectorXd E = force_of(model.effects, model.curves, instant_of(viewer, view, now));
-  PredictedLoad all =
-      predicted_load(viewer.robot(), applied, view.Y * model.Phi - view.carried + E, view.J);
+  PredictedLoad all = predicted_load(viewer.robot(), applied, links - view.carried + E, view.J);
   now.force = std::move(all.force);
   now.joint = all.joint - E.tail(viewer.robot().joint_count());
   return now;
@@ -148,21 +156,23 @@ PredictedLoad load_of(const Viewer& viewer, const View& view, const RichModel& m
 }  // namespace
 
 Prediction predict(const Viewer& viewer, const View& view, const RichModel& model) {
-  return predict(viewer, view, model, load_of(viewer, view, model));
+  Eigen::VectorXd links = view.Y * model.Phi;
+  const PredictedLoad load = load_of(viewer, view, links, model);
+  return predict(viewer, view, std::move(links), model, load);
 }
 
-Prediction predict(const Viewer& viewer, const View& view, const RichModel& model,
-                   const PredictedLoad& load) {
-  const Instant instant = instant_of(viewer, view, load);
-  Rows rows{view.Y * model.Phi - view.carried, view.J};
+Prediction predict(const Viewer& viewer, const Scene& scene, Eigen::VectorXd links,
+                   const RichModel& model, const PredictedLoad& load) {
+  const Instant instant = instant_of(viewer, scene, load);
+  Rows rows{links - scene.carried, scene.J};
   rows.E += force_of(model.effects, model.curves, instant);
-  viewer.transform(view, rows);
-  return {rows.E, std::move(rows.J), load};
+  viewer.transform(scene, rows);
+  return {rows.E, std::move(rows.J), std::move(links), load};
 }
 
 reference::SampleRows mass_rows(const Viewer& viewer, const View& view, const RichModel& model,
                                 const std::vector<int>& free_links) {
-  const PredictedLoad load = load_of(viewer, view, model);
+  const PredictedLoad load = load_of(viewer, view, view.Y * model.Phi, model);
   const Instant instant = instant_of(viewer, view, load);
   const Eigen::Index sought = 10 * std::ssize(free_links);
   Rows rows{Eigen::MatrixXd(viewer.robot().dof(), sought + 1), view.J};

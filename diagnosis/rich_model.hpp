@@ -31,15 +31,19 @@ struct Neighbour {
 };
 
 /// A sample as the model sees it: transformations done.
-struct View {
+struct Scene {
   Sample sample;
   std::vector<reference::LinkMotion> motions;
-  Eigen::MatrixXd Y;  ///< dof x (10 per link), before Transformation::rows
-  Eigen::MatrixXd J;  ///< contact rows x dof, likewise
+  Eigen::MatrixXd J;  ///< contact rows x dof, before Transformation::rows
   /// J^T f of measured contact forces, dof, likewise; zero where they are not used. It is on the
   /// side of the prediction: a gain scales what the joints need not provide as well.
   Eigen::VectorXd carried;
   Surroundings surroundings;
+};
+
+/// With all that rows are made of.
+struct View : Scene {
+  Eigen::MatrixXd Y;           ///< dof x (10 per link), before Transformation::rows
   Eigen::VectorXd correction;  ///< Recording::correction()
   /// neighbour_step() before and after, or empty if nothing needs the load's rate.
   std::vector<Neighbour> around;
@@ -67,8 +71,11 @@ class Viewer {
   [[nodiscard]] View view(const Recording& recording, std::size_t index) const;
   /// Of a sample whose own transformations are done already (moved()).
   [[nodiscard]] View view(Sample moved, Surroundings surroundings) const;
+  [[nodiscard]] Scene scene(Sample moved, Surroundings surroundings) const;
+  /// Y Phi of a scene, dof: what the rigid links take, before Transformation::rows.
+  [[nodiscard]] Eigen::VectorXd links(const Scene& scene, const Eigen::VectorXd& Phi) const;
   /// Applies the row transformations, in order but for those that scale, which come last.
-  void transform(const View& view, Rows& rows) const;
+  void transform(const Scene& scene, Rows& rows) const;
   [[nodiscard]] const Robot& robot() const { return robot_; }
   [[nodiscard]] const RowSource& source() const { return source_; }
   /// The sample after all sample transformations.
@@ -87,18 +94,20 @@ class Viewer {
 };
 
 /// Refers to all that it is given.
-[[nodiscard]] Instant instant_of(const Viewer& viewer, const View& view, const PredictedLoad& load);
+[[nodiscard]] Instant instant_of(const Viewer& viewer, const Scene& scene,
+                                 const PredictedLoad& load);
 
 /// Y Phi + E theta and J with all transformations done: the model's rows before any projection.
 struct Prediction {
   Eigen::VectorXd force;  ///< dof: what joints must provide, and contacts of no measured force
   Eigen::MatrixXd J;      ///< contact rows x dof
+  Eigen::VectorXd links;  ///< Viewer::links()
   PredictedLoad load;     ///< of the rigid links
 };
 [[nodiscard]] Prediction predict(const Viewer& viewer, const View& view, const RichModel& model);
-/// The same with the load given.
-[[nodiscard]] Prediction predict(const Viewer& viewer, const View& view, const RichModel& model,
-                                 const PredictedLoad& load);
+/// The same with `links` (Viewer::links()) and the load given.
+[[nodiscard]] Prediction predict(const Viewer& viewer, const Scene& scene, Eigen::VectorXd links,
+                                 const RichModel& model, const PredictedLoad& load);
 
 /// Rows of the mass problem for the links that are sought, with everything else that the model
 /// knows (other links, effects) moved over: what reference::sample_rows() says of rigid links.

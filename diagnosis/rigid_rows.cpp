@@ -1,9 +1,9 @@
 #include "shapeid/diagnosis/rigid_rows.hpp"
 
 #include <numeric>
-#include <vector>
 
 #include "shapeid/reference/contact.hpp"
+#include "shapeid/reference/inverse_dynamics.hpp"
 #include "shapeid/reference/projection.hpp"
 #include "shapeid/reference/regressor.hpp"
 
@@ -31,12 +31,26 @@ RigidRows::RigidRows(const Robot& robot, Path path) {
   if (path == Path::fast) fast_.emplace(robot);
 }
 
-Eigen::MatrixXd RigidRows::regressor(const Robot& robot, const Sample& sample) {
-  return fast_ ? fast_->regressor(sample) : reference::regressor(robot, sample);
+Eigen::MatrixXd RigidRows::regressor(const Robot& robot, const Sample& sample,
+                                     const std::vector<reference::LinkMotion>& motions) {
+  return fast_ ? fast_->regressor(sample) : reference::regressor(robot, motions);
 }
 
-Eigen::MatrixXd RigidRows::contact_jacobian(const Robot& robot, const Sample& sample) {
-  if (!fast_) return reference::contact_jacobian(robot, sample);
+Eigen::VectorXd RigidRows::inverse_dynamics(const Robot& robot, const Sample& sample,
+                                            const std::vector<reference::LinkMotion>& motions,
+                                            const Eigen::VectorXd& Phi) {
+  if (!fast_) return reference::inverse_dynamics(robot, motions, Phi);
+  if (!fast_->dynamics || fast_->Phi != Phi) {
+    fast_->Phi = Phi;
+    fast_->dynamics.emplace(robot, Phi);
+  }
+  fast_->kinematics.start(sample);
+  return (*fast_->dynamics)(fast_->kinematics);
+}
+
+Eigen::MatrixXd RigidRows::contact_jacobian(const Robot& robot, const Sample& sample,
+                                            const std::vector<reference::LinkMotion>& motions) {
+  if (!fast_) return reference::contact_jacobian(robot, motions, sample.in_contact);
   fast_->kinematics.start(sample);
   fast_->jacobian.update(fast_->kinematics, sample);
   return fast_->jacobian.transposed().transpose();

@@ -4,13 +4,16 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <vector>
 
 #include "shapeid/fast/contact.hpp"
+#include "shapeid/fast/inverse_dynamics.hpp"
 #include "shapeid/fast/projection.hpp"
 #include "shapeid/fast/regressor.hpp"
 #include "shapeid/models/contact_treatment.hpp"
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
+#include "shapeid/reference/kinematics.hpp"
 
 namespace shapeid::diagnosis {
 
@@ -25,17 +28,24 @@ struct RowSource {
       : contacts(contacts_), path(path_) {}
 };
 
-/// Y and J of a sample: `reference::regressor` and `reference::contact_jacobian`, or the same
-/// matrices by the fast path. Not for several threads at once.
+/// Y, Y Phi and J of a sample: `reference::regressor`, `reference::inverse_dynamics` and
+/// `reference::contact_jacobian`, or the same by the fast path, which needs no motions. Not for
+/// several threads at once.
 class RigidRows {
  public:
   /// What the fast path needs of the robot is copied.
   RigidRows(const Robot& robot, Path path);
 
-  /// dof x (10 per link). `robot` is that of the construction.
-  [[nodiscard]] Eigen::MatrixXd regressor(const Robot& robot, const Sample& sample);
+  /// dof x (10 per link). `robot` is that of the construction, `motions` are the sample's.
+  [[nodiscard]] Eigen::MatrixXd regressor(const Robot& robot, const Sample& sample,
+                                          const std::vector<reference::LinkMotion>& motions);
+  /// dof, of `Phi`: 10 per link.
+  [[nodiscard]] Eigen::VectorXd inverse_dynamics(const Robot& robot, const Sample& sample,
+                                                 const std::vector<reference::LinkMotion>& motions,
+                                                 const Eigen::VectorXd& Phi);
   /// Contact rows x dof.
-  [[nodiscard]] Eigen::MatrixXd contact_jacobian(const Robot& robot, const Sample& sample);
+  [[nodiscard]] Eigen::MatrixXd contact_jacobian(const Robot& robot, const Sample& sample,
+                                                 const std::vector<reference::LinkMotion>& motions);
 
  private:
   struct Fast {
@@ -43,6 +53,8 @@ class RigidRows {
     fast::Regressor regressor;
     fast::Kinematics kinematics;
     fast::ContactJacobian jacobian;
+    Eigen::VectorXd Phi;  ///< what `dynamics` was made for
+    std::optional<fast::InverseDynamics> dynamics;
   };
   std::optional<Fast> fast_;
 };

@@ -8,15 +8,6 @@
 #include "shapeid/models/inertia.hpp"
 
 namespace shapeid::fast {
-namespace {
-
-[[maybe_unused]] Violation why_not_stacked(const Eigen::VectorXd& Phi, const Robot& robot) {
-  if (Phi.size() == Eigen::Index{10} * robot.link_count()) return std::nullopt;
-  return "not ten parameters for each link";
-}
-
-}  // namespace
-
 InverseDynamics::InverseDynamics(const Robot& robot, const Eigen::VectorXd& Phi)
     : wrenches_(robot.links.size()), force_(Eigen::VectorXd::Zero(robot.dof())) {
   SHAPEID_CONTRACT(why_malformed(robot));

@@ -74,4 +74,9 @@ Eigen::VectorXd stacked_parameters(const Robot& robot) {
   return Phi;
 }
 
+Violation why_not_stacked(const Eigen::VectorXd& Phi, const Robot& robot) {
+  if (Phi.size() == Eigen::Index{10} * robot.link_count()) return std::nullopt;
+  return "not ten parameters for each link";
+}
+
 }  // namespace shapeid

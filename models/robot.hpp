@@ -139,5 +139,7 @@ struct Robot {
 
 /// The parameters of all links stacked, 10 per link.
 [[nodiscard]] Eigen::VectorXd stacked_parameters(const Robot& robot);
+/// Empty if `Phi` has ten for each link.
+[[nodiscard]] Violation why_not_stacked(const Eigen::VectorXd& Phi, const Robot& robot);
 
 }  // namespace shapeid

@@ -1,10 +1,8 @@
 #include "shapeid/reference/contact.hpp"
 
 #include <cstddef>
-#include <vector>
 
 #include "shapeid/models/error.hpp"
-#include "shapeid/reference/kinematics.hpp"
 
 namespace shapeid::reference {
 namespace {
@@ -44,10 +42,14 @@ Eigen::MatrixXd contact_rows(const Robot& robot, const std::vector<LinkMotion>& 
 }  // namespace
 
 Eigen::MatrixXd contact_jacobian(const Robot& robot, const Sample& sample) {
-  const std::vector<LinkMotion> motions = link_motions(robot, sample);
+  return contact_jacobian(robot, link_motions(robot, sample), sample.in_contact);
+}
+
+Eigen::MatrixXd contact_jacobian(const Robot& robot, const std::vector<LinkMotion>& motions,
+                                 const std::vector<bool>& in_contact) {
   Eigen::MatrixXd J(0, robot.dof());
-  for (std::size_t c = 0; c < sample.in_contact.size(); ++c) {
-    if (!sample.in_contact[c]) continue;
+  for (std::size_t c = 0; c < in_contact.size(); ++c) {
+    if (!in_contact[c]) continue;
     const Eigen::MatrixXd rows = contact_rows(robot, motions, robot.contacts[c]);
     J.conservativeResize(J.rows() + rows.rows(), Eigen::NoChange);
     J.bottomRows(rows.rows()) = rows;

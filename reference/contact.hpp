@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
+#include "shapeid/reference/kinematics.hpp"
 
 namespace shapeid::reference {
 
@@ -13,6 +16,11 @@ namespace shapeid::reference {
 /// line 5, the angular velocity about its frame's y and z added; a plane 6, the angular velocity in
 /// base axes added. No row if nothing touches.
 [[nodiscard]] Eigen::MatrixXd contact_jacobian(const Robot& robot, const Sample& sample);
+/// The same where the links' motions (link_motions()) are there already. `in_contact`: of the
+/// robot's contacts, as in Sample.
+[[nodiscard]] Eigen::MatrixXd contact_jacobian(const Robot& robot,
+                                               const std::vector<LinkMotion>& motions,
+                                               const std::vector<bool>& in_contact);
 
 /// J^T f of equation (4) from the sample's measured forces, generalised order. Forces act at the
 /// origins of all contacts, whether or not they are said to touch: a measured force needs no label.

@@ -1,10 +1,8 @@
 #include "shapeid/reference/regressor.hpp"
 
 #include <cstddef>
-#include <vector>
 
 #include "shapeid/models/inertia.hpp"
-#include "shapeid/reference/kinematics.hpp"
 
 namespace shapeid::reference {
 namespace {
@@ -35,23 +33,31 @@ Eigen::Matrix<double, 6, 10> body_regressor(const Eigen::Vector3d& omega,
 
 }  // namespace
 
-Eigen::MatrixXd regressor(const Robot& robot, const Sample& sample) {
-  const std::vector<LinkMotion> motions = link_motions(robot, sample);
+Eigen::Matrix<double, Eigen::Dynamic, 10> link_regressor(const Robot& robot,
+                                                         const std::vector<LinkMotion>& motions,
+                                                         int link) {
+  const LinkMotion& motion = motions[static_cast<std::size_t>(link)];
+  const Eigen::Matrix3d R = motion.pose.linear();
+  Eigen::Matrix<double, 6, 10> B = body_regressor(R.transpose() * motion.angular_velocity,
+                                                  R.transpose() * motion.angular_acceleration,
+                                                  R.transpose() * motion.proper_acceleration);
+  B.topRows<3>() = R * B.topRows<3>();
+  B.bottomRows<3>() = R * B.bottomRows<3>();
+  // Equation (3): a wrench on the link counts in each generalised direction by the velocity that
+  // this direction gives the link (virtual power).
+  return point_jacobian(robot, motions, link, motion.pose.translation()).transpose() * B;
+}
+
+Eigen::MatrixXd regressor(const Robot& robot, const std::vector<LinkMotion>& motions) {
   Eigen::MatrixXd Y(robot.dof(), 10 * robot.link_count());
   for (int i = 0; i < robot.link_count(); ++i) {
-    const LinkMotion& link = motions[static_cast<std::size_t>(i)];
-    const Eigen::Matrix3d R = link.pose.linear();
-    Eigen::Matrix<double, 6, 10> B = body_regressor(R.transpose() * link.angular_velocity,
-                                                    R.transpose() * link.angular_acceleration,
-                                                    R.transpose() * link.proper_acceleration);
-    B.topRows<3>() = R * B.topRows<3>();
-    B.bottomRows<3>() = R * B.bottomRows<3>();
-    // Equation (3): a wrench on the link counts in each generalised direction by the velocity that
-    // this direction gives the link (virtual power).
-    Y.middleCols<10>(Eigen::Index{10} * i) =
-        point_jacobian(robot, motions, i, link.pose.translation()).transpose() * B;
+    Y.middleCols<10>(Eigen::Index{10} * i) = link_regressor(robot, motions, i);
   }
   return Y;
+}
+
+Eigen::MatrixXd regressor(const Robot& robot, const Sample& sample) {
+  return regressor(robot, link_motions(robot, sample));
 }
 
 Eigen::VectorXd applied_force(const Robot& robot, const Sample& sample) {

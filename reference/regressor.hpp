@@ -4,8 +4,11 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
+#include "shapeid/reference/kinematics.hpp"
 
 namespace shapeid::reference {
 
@@ -13,6 +16,11 @@ namespace shapeid::reference {
 /// order: base force (N) and moment about the base origin (N m) in base axes, then joint torques.
 /// Columns: ten for each link in the robot's order. A fixed root's columns are zero.
 [[nodiscard]] Eigen::MatrixXd regressor(const Robot& robot, const Sample& sample);
+/// The same where the links' motions (link_motions()) are there already.
+[[nodiscard]] Eigen::MatrixXd regressor(const Robot& robot, const std::vector<LinkMotion>& motions);
+/// The ten columns of one link.
+[[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, 10> link_regressor(
+    const Robot& robot, const std::vector<LinkMotion>& motions, int link);
 
 /// S^T tau: zeros for the base rows, then the joint torques.
 [[nodiscard]] Eigen::VectorXd applied_force(const Robot& robot, const Sample& sample);

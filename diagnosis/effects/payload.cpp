@@ -1,11 +1,12 @@
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/effects/payload_parts.hpp"
+#include "shapeid/reference/regressor.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
 
 Eigen::MatrixXd columns(const Instant& at, int link, const Eigen::VectorXd&) {
-  return at.Y.middleCols<10>(Eigen::Index{10} * link);
+  return reference::link_regressor(at.robot, at.motions, link);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/effects/payload_parts.hpp"
+#include "shapeid/reference/regressor.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
 
 Eigen::MatrixXd columns(const Instant& at, int link, const Eigen::VectorXd& shape) {
   const double carried = at.surroundings.elapsed >= shape[0] ? 1.0 : 0.0;
-  return carried * at.Y.middleCols<10>(Eigen::Index{10} * link);
+  return carried * reference::link_regressor(at.robot, at.motions, link);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ struct Scene {
     surroundings.until_touch = 2.5 * surroundings.since_touch;
   }
   [[nodiscard]] Instant instant() const {
-    return {robot, sample, motions, Y, load, load_rate, surroundings};
+    return {robot, sample, motions, load, load_rate, surroundings};
   }
   [[nodiscard]] Eigen::MatrixXd columns(const Effect& e, int site) const {
     Eigen::VectorXd shape(static_cast<Eigen::Index>(e.shape.size()));

@@ -9,6 +9,7 @@
 #include "shapeid/diagnosis/rigid_rows.hpp"
 #include "shapeid/diagnosis/shape_masses.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
@@ -36,10 +37,12 @@ RC_GTEST_PROP(EitherPath, HasTheSameRowsBeyondContacts, ()) {
   const Root root = *rc::gen::element(Root::fixed, Root::floating);
   const Robot robot = *test::robot({2, 8, root});
   const Sample sample = *test::sample(robot);
+  const auto motions = reference::link_motions(robot, sample);
   RigidRows one(robot, Path::reference), other(robot, Path::fast);
-  const Eigen::MatrixXd Y = one.regressor(robot, sample), J = one.contact_jacobian(robot, sample);
-  const Eigen::MatrixXd Y2 = other.regressor(robot, sample),
-                        J2 = other.contact_jacobian(robot, sample);
+  const Eigen::MatrixXd Y = one.regressor(robot, sample, motions),
+                        J = one.contact_jacobian(robot, sample, motions);
+  const Eigen::MatrixXd Y2 = other.regressor(robot, sample, motions),
+                        J2 = other.contact_jacobian(robot, sample, motions);
   RC_ASSERT(Y2.rows() == Y.rows() && Y2.cols() == Y.cols());
   RC_ASSERT(J2.rows() == J.rows() && J2.cols() == J.cols());
   RC_ASSERT(scaled((Y2 - Y).norm(), 1.0 + Y.norm(), robot.link_count()) < few_hundred_eps);
@@ -63,6 +66,26 @@ RC_GTEST_PROP(EitherPath, HasTheSameRowsBeyondContacts, ()) {
   ContactFree ones_one(robot, ones, Path::reference), ones_other(robot, ones, Path::fast);
   RC_ASSERT(scaled((ones_other.beyond(J, Y) - ones_one.beyond(J, Y)).norm(),
                    plain * (1.0 + Y.norm()), robot.dof()) < few_hundred_eps);
+}
+
+RC_GTEST_PROP(EitherPath, TakesTheSameForce, ()) {
+  const Root root = *rc::gen::element(Root::fixed, Root::floating);
+  const Robot robot = *test::robot({2, 8, root});
+  // Let loose, the root feels all wrenches whole; a joint may feel a small part of a large one.
+  Robot loose = robot;
+  loose.root = Root::floating;
+  RigidRows one(robot, Path::reference), other(robot, Path::fast);
+  for (int k = 0; k < 3; ++k) {  // of other numbers each time: nothing of the earlier ones stays
+    const Eigen::VectorXd Phi = *test::vector(10 * robot.link_count(), 2.0);
+    const Sample sample = *test::sample(robot);
+    const auto motions = reference::link_motions(robot, sample);
+    const Eigen::MatrixXd Y = one.regressor(robot, sample, motions);
+    const double terms = reference::regressor(loose, motions).norm() * Phi.norm();
+    RC_ASSERT(scaled((one.inverse_dynamics(robot, sample, motions, Phi) - Y * Phi).norm(), terms,
+                     robot.link_count()) < few_hundred_eps);
+    RC_ASSERT(scaled((other.inverse_dynamics(robot, sample, motions, Phi) - Y * Phi).norm(), terms,
+                     robot.link_count()) < few_hundred_eps);
+  }
 }
 
 /// Names, numbers and masses; the paths differ by rounding, which the loop's many fits and the

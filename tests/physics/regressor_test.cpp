@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "shapeid/reference/inverse_dynamics.hpp"
 #include "shapeid/tests/physics/dynamics.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
@@ -39,6 +40,23 @@ RC_GTEST_PROP(Regressor, FreeBodyObeysNewtonAndEuler, ()) {
   const Eigen::MatrixXd Y = regressor(robot, s);
   RC_ASSERT(scaled((Y * body.values - expected).norm(), size_of_terms(Y, body.values), 10) <
             few_hundred_eps);
+}
+
+// Wrenches that are summed from the leaves to the root, against each link's alone by virtual power;
+// of any numbers, also such as no body has.
+RC_GTEST_PROP(Regressor, TimesParametersIsInverseDynamics, ()) {
+  const Root root = *rc::gen::element(Root::floating, Root::fixed);
+  const Robot robot = *test::robot({1, 12, root});
+  const Sample s = *test::sample(robot);
+  const Eigen::VectorXd Phi = *test::vector(10 * robot.link_count(), 3.0);
+  const Eigen::VectorXd by_recursion =
+      reference::inverse_dynamics(robot, reference::link_motions(robot, s), Phi);
+  // Let loose, the root feels all wrenches whole; a joint may feel a small part of a large one.
+  Robot loose = robot;
+  loose.root = Root::floating;
+  RC_ASSERT(by_recursion.size() == robot.dof());
+  RC_ASSERT(scaled((regressor(robot, s) * Phi - by_recursion).norm(),
+                   size_of_terms(regressor(loose, s), Phi), robot.link_count()) < few_hundred_eps);
 }
 
 // A door: a body on a fixed, tilted hinge, with its base at rest in gravity.

@@ -11,6 +11,7 @@
 #include <iostream>
 
 #include "shapeid/models/simbody/simbody_robot.hpp"
+#include "shapeid/reference/inverse_dynamics.hpp"
 #include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/physics/dynamics.hpp"
 #include "shapeid/tests/support/generators.hpp"
@@ -57,6 +58,18 @@ TEST_P(AgreesWithSimbody, YPhiIsInverseDynamics) {
   EXPECT_TRUE(rc::check("Y Phi = H qddot + C qdot + G", [&] {
     const Robot robot = *moving_robot(GetParam(), 20);
     RC_ASSERT(disagreement(robot, SimbodyRobot(robot), *test::sample(robot)) < few_hundred_eps);
+  }));
+}
+
+TEST_P(AgreesWithSimbody, RecursionIsInverseDynamics) {
+  EXPECT_TRUE(rc::check("link by link = H qddot + C qdot + G", [&] {
+    const Robot robot = *moving_robot(GetParam(), 20);
+    const Sample s = *test::sample(robot);
+    const Eigen::VectorXd ours = reference::inverse_dynamics(
+        robot, reference::link_motions(robot, s), stacked_parameters(robot));
+    const double error = (ours - SimbodyRobot(robot).inverse_dynamics(s)).norm();
+    RC_ASSERT(scaled(error, test::size_of_terms_with_weight(robot, s), robot.link_count()) <
+              few_hundred_eps);
   }));
 }
 
