@@ -12,8 +12,9 @@ namespace shapeid::app {
 
 [[nodiscard]] std::vector<std::string> fitted_logs(const DiagnoseOptions& options);
 
-/// Held-out errors are of data that were used for nothing else: throws InputError.
-void refuse_same_logs(const DiagnoseOptions& options);
+/// Held-out errors are of data that were used for nothing else: throws InputError. `mapping`: that
+/// of the logs.
+void refuse_same_logs(const DiagnoseOptions& options, const std::optional<Mapping>& mapping);
 
 /// The logs of a diagnosis in memory, none of which is refused by what holds before anything is
 /// sought.

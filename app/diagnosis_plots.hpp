@@ -1,4 +1,4 @@
-// Pictures of a diagnosis, drawn by gnuplot as SVG.
+// Pictures of what a diagnosis leaves of the torque, drawn by gnuplot as SVG.
 #pragma once
 
 #include <string>
@@ -20,15 +20,5 @@ namespace shapeid::app {
 
 /// Autocorrelation of the residual before and after, with the band of white noise, every joint.
 [[nodiscard]] std::string autocorrelation_picture(const DiagnosisRun& run, const Robot& robot);
-
-/// Hypotheses by held-out gain, as they stood beside rigid links alone.
-[[nodiscard]] std::string ranking_picture(const DiagnosisRun& run);
-
-/// Given and found inertia of a link as ellipses of its second moments, seen along y and z.
-[[nodiscard]] std::string inertia_picture(const DiagnosisRun& run, const Robot& robot, int link);
-
-/// The empirical curve of what stays unexplained.
-[[nodiscard]] std::string structure_picture(const diagnosis::Structure& structure,
-                                            const Robot& robot);
 
 }  // namespace shapeid::app

@@ -9,6 +9,7 @@
 
 #include "shapeid/app/diagnosis_plots.hpp"
 #include "shapeid/app/diagnosis_result.hpp"
+#include "shapeid/app/found_plots.hpp"
 #include "shapeid/app/html.hpp"
 #include "shapeid/app/result.hpp"
 #include "shapeid/diagnosis/body_sums.hpp"

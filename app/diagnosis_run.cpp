@@ -404,7 +404,7 @@ void Diagnosis::add_notes() {
 }  // namespace
 
 DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& options) {
-  refuse_same_logs(options);
+  refuse_same_logs(options, robot.mapping);
   DiagnosedLogs logs = read_logs(robot, options);
   const diagnosis::LoopSettings settings = settings_for(robot, options, logs.fitted);
   check_logs(robot, options, logs, settings);

@@ -7,7 +7,9 @@
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -149,12 +151,30 @@ void check_no_folder_in_the_way(const std::filesystem::path& folder,
 
 }  // namespace
 
+namespace {
+
+bool have_same_bytes(const std::string& one, const std::string& other) {
+  std::ifstream a(one, std::ios::binary), b(other, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return a && b && std::equal(Bytes(a), Bytes(), Bytes(b), Bytes());
+}
+
+}  // namespace
+
 std::optional<std::pair<std::size_t, std::size_t>> same_file(
     const std::vector<std::string>& paths) {
+  std::vector<std::uintmax_t> sizes;
+  sizes.reserve(paths.size());
+  std::error_code unknown;
+  for (const std::string& path : paths) {
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    sizes.push_back(unknown ? 0 : size);
+  }
   for (std::size_t second = 1; second < paths.size(); ++second) {
     for (std::size_t first = 0; first < second; ++first) {
-      std::error_code unknown;
-      if (std::filesystem::equivalent(paths[second], paths[first], unknown)) {
+      const bool alike = sizes[first] == sizes[second] && sizes[first] > 0;
+      if (std::filesystem::equivalent(paths[second], paths[first], unknown) ||
+          (alike && have_same_bytes(paths[first], paths[second]))) {
         return std::pair(first, second);
       }
     }

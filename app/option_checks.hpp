@@ -21,8 +21,8 @@ namespace shapeid::app {
 /// Samples a second of logs.
 [[nodiscard]] CLI::Validator rate_of_a_log();
 
-/// Places of two paths that name one file, the second as far in front as can be. A file that cannot
-/// be opened is said when it is read.
+/// Places of two paths that name one file, or files of the same bytes, the second as far in front
+/// as can be. A file that cannot be opened is said when it is read.
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> same_file(
     const std::vector<std::string>& paths);
 

@@ -125,6 +125,9 @@ std::string OutputPlace::folder() const {
 void OutputPlace::finish() const {
   if (writable_ == path_) return;
   std::error_code failed;
+  // Who might read or write what was there may do so with what is there now.
+  const fs::file_status before = fs::status(final_, failed);
+  if (fs::is_regular_file(before)) fs::permissions(writable_, before.permissions(), failed);
   fs::rename(writable_, final_, failed);
   end_file(writable_);
   if (failed) fail("cannot be replaced: " + failed.message());

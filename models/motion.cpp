@@ -65,6 +65,10 @@ struct MotionReader::State {
     if (plan.dq < 0) {
       report.notes.emplace_back("no dq.* columns: units of q and time are not checked by slopes");
     }
+    if (options.smoothing == Smoothing::none && !options.exact_derivatives) {
+      report.notes.emplace_back(
+          "nothing is smoothed: accelerations are differences of readings, with all their noise");
+    }
     read_head();
   }
 

@@ -209,6 +209,37 @@ TEST(Diagnose, TestsOnNothingThatIsFitted) {
   expect_refused("--log run.csv --test other.csv other.csv", "other.csv: is given twice");
 }
 
+/// Copies, logs with another clock, and what was cut out of a log are no data of their own.
+TEST(Diagnose, TestsOnNoCopyOfWhatIsFitted) {
+  ASSERT_EQ(shapeid("simulate --seconds 2 --out fitted.csv").status, 0);
+  ASSERT_EQ(shapeid("simulate --seconds 2 --seed 2 --out else.csv").status, 0);
+  std::filesystem::copy_file(scratch() + "/fitted.csv", scratch() + "/copy.csv",
+                             std::filesystem::copy_options::overwrite_existing);
+  write_changed("fitted.csv", "later.csv", [](NamedRow& row) { row["time"] += 100.0; });
+  const auto end_of = [](const std::string& file) {
+    const std::string text = text_of(scratch() + "/" + file);
+    return text.substr(text.find('\n', text.size() / 2) + 1);
+  };
+  const std::string fitted = text_of(scratch() + "/fitted.csv");
+  scratch_file("end.csv", fitted.substr(0, fitted.find('\n') + 1) + end_of("fitted.csv"));
+  scratch_file("joined.csv", text_of(scratch() + "/else.csv") + end_of("later.csv"));
+  const auto expect_refused = [](const std::string& words, const std::string& says) {
+    expect_one_line(shapeid(fmt::format("{} {}", words, quadruped_files)), 2, says);
+  };
+  expect_refused("diagnose --log fitted.csv --test copy.csv", "copy.csv: is fitted, too");
+  const std::string as_well = " of its rows stand in fitted.csv as well";
+  for (const std::string name : {"later.csv", "end.csv", "joined.csv"}) {
+    const std::string tested = fmt::format("--log fitted.csv --test {}", name);
+    expect_refused("diagnose " + tested, as_well + ", which is fitted; a test on data");
+    expect_refused("identify " + tested, as_well + ", which is fitted; a test on data");
+    if (name == "joined.csv") continue;  // nor is it beside else.csv, which comes first
+    expect_refused("diagnose --log else.csv --also fitted.csv " + name, as_well + "; each");
+  }
+  expect_refused("diagnose --log else.csv --reference fitted.csv --test end.csv",
+                 "which is fitted");
+  expect_refused("batch --log fitted.csv else.csv copy.csv", "copy.csv: is given twice");
+}
+
 TEST(Diagnose, LogsOfDifferentRatesAreNotMixed) {
   ASSERT_EQ(shapeid("simulate --seconds 2 --out run.csv").status, 0);
   ASSERT_EQ(shapeid("simulate --seconds 2 --rate 250 --out slow.csv").status, 0);

@@ -45,6 +45,18 @@ CommandRun run_in_shell(const std::string& before, const std::string& arguments,
   return program(in_bash(fmt::format("{} {} {}", before, command(arguments), after)));
 }
 
+/// A report that was for some eyes only stays so when it is made again.
+TEST(HostileOutputs, PermissionsStayWhereAFileIsReplaced) {
+  const std::string path = scratch_file("private.json", "{}\n");
+  for (const mode_t mode : {0600, 0640, 0664}) {
+    ASSERT_EQ(::chmod(path.c_str(), mode), 0);
+    write_file(path, "{\"again\": 1}\n");
+    struct stat now {};
+    ASSERT_EQ(::stat(path.c_str(), &now), 0);
+    EXPECT_EQ(now.st_mode & 0777U, mode);
+  }
+}
+
 TEST(HostileOutputs, StandardOutputThatIsFull) {
   expect_one_line(run_in_shell("", ten_numbers, ">/dev/full"), 2, "standard output");
   expect_one_line(run_in_shell("", ten_numbers, ">&-"), 2, "standard output");

@@ -171,6 +171,8 @@ TEST(Motion, WithoutSmoothingValuesAreThoseLogged) {
   options.smoothing = Smoothing::none;
   const auto [samples, report] = read_motion(path, robot, options);
   ASSERT_GE(samples.size(), 1995u);  // two rows a side, and perhaps the last
+  ASSERT_EQ(report.notes.size(), 1U);
+  EXPECT_NE(report.notes.front().find("nothing is smoothed"), std::string::npos);
   // h^4 / 30 and h^4 / 90 of the fifth and sixth derivative, plus roundings of q over h^2
   const double w = 2.0 * std::numbers::pi * highest, h = 0.002;
   const Errors e = errors(robot, samples);

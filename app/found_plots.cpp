@@ -1,0 +1,115 @@
+#include "shapeid/app/found_plots.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "shapeid/app/gnuplot.hpp"
+#include "shapeid/app/plot_script.hpp"
+#include "shapeid/app/result.hpp"
+
+namespace shapeid::app {
+
+std::string ranking_picture(const DiagnosisRun& run) {
+  constexpr std::size_t shown = 15;
+  const auto count = static_cast<Eigen::Index>(std::min(shown, run.loop.first_ranking.size()));
+  std::string script = canvas(plot_width, 80 + 24 * static_cast<int>(count)) +
+                       "unset key\nset lmargin 36\nset xlabel 'held-out gain (% of the squared "
+                       "error)'\nset style fill solid 0.8\nset yrange [*:*] reverse\n$d << EOD\n";
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const diagnosis::Ranked& r = run.loop.first_ranking[static_cast<std::size_t>(i)];
+    const double error = r.t > 0.0 ? 100.0 * std::abs(r.gain / r.t) : 0.0;
+    script += fmt::format("{} {:.4g} {:.4g} {}\n", i, 100.0 * r.gain, error,
+                          gnuplot_entry(r.credible ? r.id : r.id + " *"));
+  }
+  script += fmt::format(
+      "EOD\nplot $d using (0):1:(0):2:($1-0.35):($1+0.35):ytic(4) with boxxyerrorbars lc rgb '{}', "
+      "$d using 2:1:3 with xerrorbars pt 0 lc rgb '#333333'\n",
+      blue);
+  return gnuplot(script);
+}
+
+std::string inertia_picture(const DiagnosisRun& run, const Robot& robot, int link) {
+  const auto outline = [](const InertialParameters& body, int a, int b) {
+    std::vector<std::array<double, 2>> points;
+    if (!(body.mass() > 0.0)) return points;
+    const Eigen::Matrix3d about = body.tensor_about_centre();
+    const Eigen::Matrix3d moments =
+        (0.5 * about.trace() * Eigen::Matrix3d::Identity() - about) / body.mass();
+    Eigen::Matrix2d plane;
+    plane << moments(a, a), moments(a, b), moments(b, a), moments(b, b);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(plane);
+    const Eigen::Matrix2d root =
+        eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    const Eigen::Vector3d centre = body.centre_of_mass();
+    constexpr int corners = 60;
+    for (int i = 0; i <= corners; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / corners;
+      // The ellipsoid of uniform density with these moments has sqrt(5) of their roots as axes.
+      const Eigen::Vector2d p =
+          Eigen::Vector2d(centre[a], centre[b]) +
+          std::sqrt(5.0) * root * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      points.push_back({p.x(), p.y()});
+    }
+    return points;
+  };
+  const InertialParameters given = robot.links[static_cast<std::size_t>(link)].inertia;
+  const InertialParameters found{run.consistent.model.Phi.segment<10>(Eigen::Index{10} * link)};
+  constexpr int height = 280, panels = 2;
+  // What labels and key leave of a panel, pixels; the same scale in both directions.
+  constexpr double across = static_cast<double>(plot_width) / panels - 110.0, up = height - 95.0;
+  std::string script = canvas(plot_width, height) +
+                       "set multiplot layout 1,2\nset size ratio -1\nset xlabel 'x (m)'\n";
+  const std::array<std::pair<int, const char*>, 2> views = {std::pair{2, "z (m)"}, {1, "y (m)"}};
+  for (const auto& [axis, label] : views) {
+    std::string plots;
+    std::vector<double> along, upward;
+    for (const bool is_found : {false, true}) {
+      const auto points = outline(is_found ? found : given, 0, axis);
+      if (points.empty()) continue;
+      for (const auto& [x, y] : points) {
+        along.push_back(x);
+        upward.push_back(y);
+      }
+      const std::string name = is_found ? "found" : "given";
+      script += data_rows(name, std::ssize(points),
+                          [&](Eigen::Index i) { return points[static_cast<std::size_t>(i)]; });
+      plots += fmt::format("{}${} with lines lw 2 lc rgb '{}' title '{}'",
+                           plots.empty() ? "" : ", ", name, is_found ? blue : orange, name);
+    }
+    if (plots.empty()) return {};
+    const Span x = Span::around(along), y = Span::around(upward);
+    const double scale = std::min(across / (x.high - x.low), up / (y.high - y.low));
+    script += x_axis(x, scale * (x.high - x.low));
+    script += fmt::format("set yrange [{:.9g}:{:.9g}]\nset ytics {:g}\nset ylabel '{}'\nplot {}\n",
+                          y.low, y.high, step_up(y, scale * (y.high - y.low)), label, plots);
+  }
+  return gnuplot(script + "unset multiplot\n");
+}
+
+std::string structure_picture(const diagnosis::Structure& structure, const Robot& robot) {
+  std::string script = canvas(420, 240) + "unset key\n" +
+                       data_rows("d", std::ssize(structure.at), [&](Eigen::Index i) {
+                         const auto k = static_cast<std::size_t>(i);
+                         return std::array{structure.at[k], structure.value[k]};
+                       });
+  const auto joint = robot.find_joint(structure.joint);
+  const std::string over =
+      structure.law.empty()
+          ? fmt::format("residual of {} ({})", structure.joint,
+                        joint ? unit_at(robot.joint(*joint), "N m") : joints_unit(robot))
+          : fmt::format("number of {}", structure.law);
+  return gnuplot(script + fmt::format("set xlabel {}\nset ylabel {}\n"
+                                      "plot $d with linespoints pt 7 ps 0.5 lc rgb '{}'\n",
+                                      gnuplot_string(structure.variable), gnuplot_string(over),
+                                      blue));
+}
+
+}  // namespace shapeid::app
