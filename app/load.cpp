@@ -1,6 +1,7 @@
 // shapeid load: mass and place of an unknown load on a link, every link's inertia being known.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -52,16 +53,40 @@ double mass_of_load(const LoadArguments& options, const RobotNotes& notes) {
   return 0.5 * (range->second.lower + range->second.upper);
 }
 
+/// Signals are filtered less, and rows of the equations as signals were: a filter bends the motion
+/// where products of its parts count, and rows that are filtered it does not bend. Empty where
+/// there is no other filter, or nothing is found behind it.
+std::optional<LoadElsewhere> behind_other_filter(const LoadArguments& options,
+                                                 const RobotInputs& robot, const BodyModel& model,
+                                                 double rate) {
+  constexpr double times = 4.0, highest = 0.4;  // of the rate
+  MotionInputs inputs = options.inputs;
+  if (inputs.exact || inputs.cutoff == 0.0 || inputs.row_cutoff > 0.0) return std::nullopt;
+  inputs.row_cutoff = inputs.cutoff;
+  inputs.cutoff = std::min(times * inputs.cutoff, highest * rate);
+  if (!(inputs.cutoff > inputs.row_cutoff)) return std::nullopt;
+  try {
+    const Result result = run_identification(robot, model, inputs, options.run);
+    return LoadElsewhere{inputs.cutoff, inputs.row_cutoff, result.found.run.solution.Phi[0],
+                         result.found.standard_error[0]};
+  } catch (const Refusal&) {
+    return std::nullopt;
+  }
+}
+
 void load(LoadArguments& options) {
   check_delivery(options.delivery);
   const RobotInputs robot = read_robot(options.inputs);
   const BodyModel model = region(options, robot.robot);
   options.run.settings.expected_mass = mass_of_load(options, robot.notes);
-  const Result result = run_identification(robot, model, options.inputs, options.run);
+  Result result = run_identification(robot, model, options.inputs, options.run);
+  const auto other = behind_other_filter(options, robot, model, result.motion.rate);
+  const std::string note = other ? filter_note(result, *other) : std::string();
+  if (!note.empty()) result.notes.push_back(note);
   const Judgement judged = judge(result);
   const std::optional<double>& floor = judged.certified.proof.floor;
   nlohmann::json document = result_json(result, floor, robot.robot);
-  document["load"] = load_json(result, robot.robot);
+  document["load"] = load_json(result, robot.robot, other);
   deliver(options.delivery, document,
           result_text(result, floor, robot.robot) + load_text(result, robot.robot), result, judged,
           robot, options.inputs);

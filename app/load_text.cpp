@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace shapeid::app {
 namespace {
 
@@ -16,7 +18,19 @@ const std::string& carrier(const Result& result, const Robot& robot) {
 
 }  // namespace
 
-nlohmann::json load_json(const Result& result, const Robot& robot) {
+std::string filter_note(const Result& result, const LoadElsewhere& other) {
+  constexpr double far = 3.0;  // standard errors of a difference
+  const double here = found_load(result).mass(), error = result.found.standard_error[0];
+  if (!(std::abs(here - other.mass) > far * std::hypot(error, other.error))) return {};
+  return fmt::format(
+      "behind another filter (--cutoff {:g} --row-cutoff {:g}) the load is {:.4g} kg (s.e. "
+      "{:.2g}): "
+      "what filters do to the motion is more than standard errors contain",
+      other.cutoff, other.row_cutoff, other.mass, other.error);
+}
+
+nlohmann::json load_json(const Result& result, const Robot& robot,
+                         const std::optional<LoadElsewhere>& other) {
   const InertialParameters load = found_load(result);
   const Eigen::Vector3d c = load.centre_of_mass();
   const Eigen::Matrix3d I = load.tensor_about_centre();
@@ -24,6 +38,12 @@ nlohmann::json load_json(const Result& result, const Robot& robot) {
   if (load.mass() > 0.0) {
     document["centre"] = {c.x(), c.y(), c.z()};
     document["inertia_about_centre"] = {I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2)};
+  }
+  if (other) {
+    document["other_filter"] = {{"cutoff", other->cutoff},
+                                {"row_cutoff", other->row_cutoff},
+                                {"mass", other->mass},
+                                {"standard_error", other->error}};
   }
   return document;
 }

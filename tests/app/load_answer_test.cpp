@@ -182,5 +182,42 @@ TEST(LoadAnswer, OfNothing) {
   EXPECT_TRUE(answer.text.ends_with("\nno load on base\n")) << answer.text;
 }
 
+/// A trot's touch-downs, behind 20 Hz, look like 13 g that nobody carries; its error does not say
+/// so.
+TEST(LoadAnswer, SaysWhatAnotherFilterMakesOfIt) {
+  ASSERT_EQ(shapeid("simulate --seconds 5 --seed 3 --out bare.csv").status, 0);
+  const std::string words = fmt::format(
+      "--robot {}quadruped.urdf --log bare.csv --area base -0.25 0.25 -0.15 0.15 0.05 0.2 ",
+      robots);
+  const std::string said = "behind another filter (--cutoff 80 --row-cutoff 20) the load is ";
+  const Answer answer = load(words, 10);
+  const json& here = answer.document.at("load");
+  const json& other = here.at("other_filter");
+  EXPECT_NE(answer.text.find(said), std::string::npos) << answer.text;
+  EXPECT_LT(other.at("mass").get<double>(), 3.0 * other.at("standard_error").get<double>());
+
+  const Answer there = load(words + "--cutoff 80 --row-cutoff 20", 10);
+  EXPECT_EQ(there.document.at("load").at("mass"), other.at("mass"));
+  EXPECT_EQ(there.document.at("links")[0].at("standard_error")[0], other.at("standard_error"));
+  EXPECT_FALSE(there.document.at("load").contains("other_filter"));
+  EXPECT_EQ(there.text.find("behind another filter"), std::string::npos);
+}
+
+/// Where both agree nothing is said: a load that is there.
+TEST(LoadAnswer, SaysNothingOfFiltersThatAgree) {
+  ASSERT_EQ(shapeid("simulate --seconds 4 --seed 3 --out cube.csv --load 1.3 0.07 -0.03 0.09 0.06")
+                .status,
+            0);
+  const Answer answer = load(
+      fmt::format("--robot {}quadruped.urdf --log cube.csv --cutoff 45 --area base -0.1 0.2 -0.12 "
+                  "0.08 0.03 0.16",
+                  robots),
+      10);
+  const json& load = answer.document.at("load");
+  EXPECT_NEAR(load.at("other_filter").at("mass").get<double>(), load.at("mass").get<double>(),
+              0.02);
+  EXPECT_EQ(answer.text.find("behind another filter"), std::string::npos) << answer.text;
+}
+
 }  // namespace
 }  // namespace shapeid::test
