@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "shapeid/app/option_checks.hpp"
-#include "shapeid/app/shared_rows.hpp"
+#include "shapeid/app/shared_stretches.hpp"
 #include "shapeid/diagnosis/checks.hpp"
 #include "shapeid/diagnosis/motion_noise.hpp"
 #include "shapeid/models/error.hpp"
@@ -39,20 +38,9 @@ std::vector<std::string> fitted_logs(const DiagnoseOptions& options) {
 }
 
 void refuse_same_logs(const DiagnoseOptions& options, const std::optional<Mapping>& mapping) {
-  std::vector<std::string> paths = fitted_logs(options);
-  if (!options.reference.empty()) paths.push_back(options.reference);
-  const std::vector<std::string> fitted = paths;
-  paths.insert(paths.end(), options.test.begin(), options.test.end());
-  if (paths.size() == 1) return;
-  if (const auto twice = same_file(paths)) {
-    const auto& [first, second] = *twice;
-    if (first < fitted.size() && second >= fitted.size()) {
-      throw InputError({paths[second]}, "is fitted, too",
-                       "a test on data that are used for nothing else");
-    }
-    throw InputError({paths[second]}, "is given twice", "each log once");
-  }
-  refuse_shared_rows(fitted, options.test, mapping);
+  LogsByUse logs{fitted_logs(options), {}, options.test};
+  if (!options.reference.empty()) logs.earlier.push_back(options.reference);
+  refuse_same_data(logs, mapping);
 }
 
 DiagnosedLogs read_logs(const RobotInputs& robot, const DiagnoseOptions& options) {

@@ -12,7 +12,7 @@
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/output_folder.hpp"
 #include "shapeid/app/recordings.hpp"
-#include "shapeid/app/shared_rows.hpp"
+#include "shapeid/app/shared_stretches.hpp"
 #include "shapeid/app/tell.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
 #include "shapeid/diagnosis/series.hpp"
@@ -169,17 +169,16 @@ reference::IdentifySettings settings_for(const LogSamples& log, const RobotInput
   return settings;
 }
 
+void check_test_log(const RobotInputs& robot, const MotionInputs& inputs,
+                    const RunOptions& options) {
+  check_no_stream(options.test_log);
+  if (options.test_log.empty()) return;
+  refuse_same_data({{inputs.log}, {}, {options.test_log}}, robot.mapping);
+}
+
 Result run_identification(const RobotInputs& robot, const BodyModel& model,
                           const MotionInputs& inputs, const RunOptions& options,
                           const std::function<void(const reference::DivisionRun&)>& watch) {
-  check_no_stream(options.test_log);
-  if (!options.test_log.empty()) {
-    if (same_file({inputs.log, options.test_log})) {
-      throw InputError({options.test_log}, "is fitted, too",
-                       "a test on data that are used for nothing else");
-    }
-    refuse_shared_rows({inputs.log}, {options.test_log}, robot.mapping);
-  }
   check_solver(options.settings);
   std::optional<EffectsRun> effects;
   if (!options.effects.empty()) effects.emplace(robot, inputs, options);

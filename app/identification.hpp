@@ -18,6 +18,10 @@ struct RunOptions {
   reference::IdentifySettings settings;
 };
 
+/// Throws InputError for a test log that flows by, or that holds what is fitted.
+void check_test_log(const RobotInputs& robot, const MotionInputs& inputs,
+                    const RunOptions& options);
+
 /// Fits, then measures the residual on motion that was not fitted.
 [[nodiscard]] Result run_identification(
     const RobotInputs& robot, const BodyModel& model, const MotionInputs& inputs,

@@ -71,6 +71,7 @@ void identify(IdentifyArguments& options) {
   if (options.online) return identify_windows(options, robot, model, mass);
 
   options.run.settings.expected_mass = mass;
+  check_test_log(robot, options.inputs, options.run);
   const Result result = run_identification(robot, model, options.inputs, options.run);
   check_some_mass(result, mass);
   const Judgement judged = judge(result);

@@ -79,6 +79,7 @@ void load(LoadArguments& options) {
   const RobotInputs robot = read_robot(options.inputs);
   const BodyModel model = region(options, robot.robot);
   options.run.settings.expected_mass = mass_of_load(options, robot.notes);
+  check_test_log(robot, options.inputs, options.run);
   Result result = run_identification(robot, model, options.inputs, options.run);
   const auto other = behind_other_filter(options, robot, model, result.motion.rate);
   const std::string note = other ? filter_note(result, *other) : std::string();

@@ -149,10 +149,6 @@ void check_no_folder_in_the_way(const std::filesystem::path& folder,
   }
 }
 
-}  // namespace
-
-namespace {
-
 bool have_same_bytes(const std::string& one, const std::string& other) {
   std::ifstream a(one, std::ios::binary), b(other, std::ios::binary);
   using Bytes = std::istreambuf_iterator<char>;

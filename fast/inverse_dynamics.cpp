@@ -8,6 +8,7 @@
 #include "shapeid/models/inertia.hpp"
 
 namespace shapeid::fast {
+
 InverseDynamics::InverseDynamics(const Robot& robot, const Eigen::VectorXd& Phi)
     : wrenches_(robot.links.size()), force_(Eigen::VectorXd::Zero(robot.dof())) {
   SHAPEID_CONTRACT(why_malformed(robot));

@@ -125,7 +125,7 @@ std::string OutputPlace::folder() const {
 void OutputPlace::finish() const {
   if (writable_ == path_) return;
   std::error_code failed;
-  // Who might read or write what was there may do so with what is there now.
+  // As far as the file system has them; that it has none is no reason to write nothing.
   const fs::file_status before = fs::status(final_, failed);
   if (fs::is_regular_file(before)) fs::permissions(writable_, before.permissions(), failed);
   fs::rename(writable_, final_, failed);

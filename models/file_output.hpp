@@ -7,8 +7,9 @@
 namespace shapeid {
 
 /// Where a file goes, and where it is written until it is whole. A symbolic link is followed: what
-/// it points to is replaced, the link stays. What replaces a file has its permissions. A device or
-/// a pipe (/dev/null, /dev/stdout) cannot be replaced and is written to as it stands.
+/// it points to is replaced, the link stays. What replaces a file takes over its permissions, not
+/// its owner. A device or a pipe (/dev/null, /dev/stdout) cannot be replaced and is written to as
+/// it stands.
 class OutputPlace {
  public:
   /// Throws InputError for a folder.

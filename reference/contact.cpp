@@ -39,6 +39,12 @@ Eigen::MatrixXd contact_rows(const Robot& robot, const std::vector<LinkMotion>& 
   throw Defect("a contact of no known kind");
 }
 
+/// Empty if there is one for each contact, or none.
+[[maybe_unused]] Violation why_not_flags(const std::vector<bool>& in_contact, const Robot& robot) {
+  if (in_contact.empty() || in_contact.size() == robot.contacts.size()) return std::nullopt;
+  return "not a flag for each contact";
+}
+
 }  // namespace
 
 Eigen::MatrixXd contact_jacobian(const Robot& robot, const Sample& sample) {
@@ -47,6 +53,8 @@ Eigen::MatrixXd contact_jacobian(const Robot& robot, const Sample& sample) {
 
 Eigen::MatrixXd contact_jacobian(const Robot& robot, const std::vector<LinkMotion>& motions,
                                  const std::vector<bool>& in_contact) {
+  SHAPEID_CONTRACT(why_not_motions(motions, robot));
+  SHAPEID_CONTRACT(why_not_flags(in_contact, robot));
   Eigen::MatrixXd J(0, robot.dof());
   for (std::size_t c = 0; c < in_contact.size(); ++c) {
     if (!in_contact[c]) continue;

@@ -37,6 +37,7 @@ Wrench wrench_of(const InertialParameters& body, const LinkMotion& link) {
 Eigen::VectorXd inverse_dynamics(const Robot& robot, const std::vector<LinkMotion>& motions,
                                  const Eigen::VectorXd& Phi) {
   SHAPEID_CONTRACT(why_not_stacked(Phi, robot));
+  SHAPEID_CONTRACT(why_not_motions(motions, robot));
   Eigen::VectorXd force = Eigen::VectorXd::Zero(robot.dof());
   std::vector<Wrench> taken(motions.size());
   // Children stand behind their parents.

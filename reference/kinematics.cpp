@@ -57,6 +57,11 @@ std::vector<LinkMotion> link_motions(const Robot& robot, const Sample& sample) {
   return motions;
 }
 
+Violation why_not_motions(const std::vector<LinkMotion>& motions, const Robot& robot) {
+  if (motions.size() == robot.links.size()) return std::nullopt;
+  return "not one motion for each link";
+}
+
 Jacobian point_jacobian(const Robot& robot, const std::vector<LinkMotion>& motions, int link,
                         const Eigen::Vector3d& point) {
   Jacobian J = Jacobian::Zero(6, robot.dof());

@@ -26,6 +26,9 @@ struct LinkMotion {
 /// Motion of every link, in the robot's order.
 [[nodiscard]] std::vector<LinkMotion> link_motions(const Robot& robot, const Sample& sample);
 
+/// Empty if there is one for each link.
+[[nodiscard]] Violation why_not_motions(const std::vector<LinkMotion>& motions, const Robot& robot);
+
 /// Rows: linear velocity of a point (base axes, m/s), then angular velocity of its link (rad/s).
 /// Columns: generalised order.
 using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;

@@ -36,6 +36,7 @@ Eigen::Matrix<double, 6, 10> body_regressor(const Eigen::Vector3d& omega,
 Eigen::Matrix<double, Eigen::Dynamic, 10> link_regressor(const Robot& robot,
                                                          const std::vector<LinkMotion>& motions,
                                                          int link) {
+  SHAPEID_CONTRACT(why_not_motions(motions, robot));
   const LinkMotion& motion = motions[static_cast<std::size_t>(link)];
   const Eigen::Matrix3d R = motion.pose.linear();
   Eigen::Matrix<double, 6, 10> B = body_regressor(R.transpose() * motion.angular_velocity,

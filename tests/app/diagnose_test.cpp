@@ -227,7 +227,7 @@ TEST(Diagnose, TestsOnNoCopyOfWhatIsFitted) {
     expect_one_line(shapeid(fmt::format("{} {}", words, quadruped_files)), 2, says);
   };
   expect_refused("diagnose --log fitted.csv --test copy.csv", "copy.csv: is fitted, too");
-  const std::string as_well = " of its rows stand in fitted.csv as well";
+  const std::string as_well = "holds measurements of fitted.csv";
   for (const std::string name : {"later.csv", "end.csv", "joined.csv"}) {
     const std::string tested = fmt::format("--log fitted.csv --test {}", name);
     expect_refused("diagnose " + tested, as_well + ", which is fitted; a test on data");

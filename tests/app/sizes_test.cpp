@@ -58,11 +58,11 @@ struct Column {
   double value;
 };
 
-/// What an arm on a fixed base would log.
-void write_log(const std::string& path, const Robot& robot) {
+/// What an arm on a fixed base would log, from some time (s) of its motion on.
+void write_log(const std::string& path, const Robot& robot, double begins) {
   std::unique_ptr<LogWriter> out;
   for (int k = 0; k < 3000; ++k) {
-    const double t = 0.002 * k;
+    const double t = begins + 0.002 * k;
     Sample s;
     s.time = t;
     const Eigen::Index n = robot.joint_count();
@@ -104,10 +104,10 @@ json identified(const std::string& name, const std::string& text, const std::str
   UrdfOptions as;
   as.root = Root::fixed;
   const Robot robot = read_urdf(robot_file, as).robot;
-  write_log(scratch() + "/" + name + ".csv", robot);
-  write_log(scratch() + "/" + name + "_again.csv", robot);
+  write_log(scratch() + "/" + name + ".csv", robot, 0.0);
+  write_log(scratch() + "/" + name + "_later.csv", robot, 7.001);
   const CommandRun run =
-      shapeid(fmt::format("identify --robot {0}.urdf --log {0}.csv --test {0}_again.csv --exact "
+      shapeid(fmt::format("identify --robot {0}.urdf --log {0}.csv --test {0}_later.csv --exact "
                           "--json --divisions 2 {1}",
                           name, options));
   EXPECT_EQ(run.status, 0) << name << ": " << run.err;

@@ -10,7 +10,6 @@
 
 #include "shapeid/tests/app/command.hpp"
 #include "shapeid/tests/batch/pieces.hpp"
-#include "shapeid/tests/support/files.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 #include "shapeid/tests/track/logs.hpp"
 
@@ -63,9 +62,9 @@ TEST(BatchThreads, EqualsIdentifyOnOneLogWithGaps) {
   // is a piece's last.
   const json parts = done(batch("--rate 500 --divisions 5 --log " + piece_names()));
   // All of it is fitted if something else is tested on.
-  scratch_file("again.csv", text_of(scratch() + "/" + whole_name()));
+  ASSERT_EQ(shapeid("simulate --seconds 2 --rate 500 --seed 9 --out other.csv").status, 0);
   const json whole =
-      done(fmt::format("identify {0} --json --rate 500 --divisions 5 --log {1} --test again.csv",
+      done(fmt::format("identify {0} --json --rate 500 --divisions 5 --log {1} --test other.csv",
                        bundled_robot(), whole_name()));
   EXPECT_EQ(parts.at("samples"), whole.at("samples"));
   EXPECT_LE(apart(parts, whole), few_hundred_eps);

@@ -75,8 +75,10 @@ RC_GTEST_PROP(EitherPath, TakesTheSameForce, ()) {
   Robot loose = robot;
   loose.root = Root::floating;
   RigidRows one(robot, Path::reference), other(robot, Path::fast);
-  for (int k = 0; k < 3; ++k) {  // of other numbers each time: nothing of the earlier ones stays
-    const Eigen::VectorXd Phi = *test::vector(10 * robot.link_count(), 2.0);
+  const Eigen::VectorXd first = *test::vector(10 * robot.link_count(), 2.0),
+                        second = *test::vector(10 * robot.link_count(), 2.0);
+  // Twice the same, then other numbers, then the first again: nothing of the earlier ones stays.
+  for (const Eigen::VectorXd& Phi : {first, first, second, first}) {
     const Sample sample = *test::sample(robot);
     const auto motions = reference::link_motions(robot, sample);
     const Eigen::MatrixXd Y = one.regressor(robot, sample, motions);

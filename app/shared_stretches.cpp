@@ -1,0 +1,181 @@
+#include "shapeid/app/shared_stretches.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "shapeid/app/option_checks.hpp"
+#include "shapeid/models/error.hpp"
+
+namespace shapeid::app {
+namespace {
+
+/// Rows that are compared together. Single rows of one joint and coarse sensors coincide in any two
+/// logs, so many that follow each other do not.
+constexpr std::size_t length = 10;
+/// Of one log's stretches.
+constexpr double too_many = 0.1;
+/// Digests that are kept of a log: the smallest, which are the same ones in a copy.
+constexpr std::size_t most_kept = 1U << 16U;
+
+/// The next state of splitmix64 (Steele, Lea, Flood 2014).
+std::uint64_t mixed(std::uint64_t state) {
+  state += 0x9E3779B97F4A7C15;
+  state = (state ^ (state >> 30U)) * 0xBF58476D1CE4E5B9;
+  state = (state ^ (state >> 27U)) * 0x94D049BB133111EB;
+  return state ^ (state >> 31U);
+}
+
+/// Columns of what was measured at the joints, in the order of our names for them.
+std::vector<std::size_t> measured_columns(const LogReader& log,
+                                          const std::optional<Mapping>& mapping) {
+  std::map<std::string, std::string> names;  // ours, theirs
+  for (const std::string& column : log.columns()) names[column] = column;
+  if (mapping) {
+    for (const auto& [ours, rule] : mapping->columns) names[ours] = rule.from;
+  }
+  std::vector<std::size_t> places;
+  for (const auto& [ours, theirs] : names) {
+    if (!ours.starts_with("q.") && !ours.starts_with("tau.")) continue;
+    const auto found = std::find(log.columns().begin(), log.columns().end(), theirs);
+    if (found == log.columns().end()) continue;
+    places.push_back(static_cast<std::size_t>(found - log.columns().begin()));
+  }
+  return places;
+}
+
+/// Whether the mapping keeps a row.
+class Kept {
+ public:
+  Kept(const LogReader& log, const std::optional<Mapping>& mapping) {
+    if (!mapping) return;
+    for (const auto& [column, value] : mapping->keep_rows) {
+      const auto found = std::find(log.columns().begin(), log.columns().end(), column);
+      if (found == log.columns().end()) continue;
+      wanted_.emplace_back(static_cast<std::size_t>(found - log.columns().begin()), value);
+    }
+  }
+  bool operator()(const LogRow& row) const {
+    return std::all_of(wanted_.begin(), wanted_.end(),
+                       [&](const auto& want) { return row.values[want.first] == want.second; });
+  }
+
+ private:
+  std::vector<std::pair<std::size_t, double>> wanted_;
+};
+
+std::uint64_t digest(const LogRow& row, const std::vector<std::size_t>& columns) {
+  std::uint64_t state = 0;
+  for (const std::size_t place : columns) {
+    const double value = row.values[place];
+    // An empty field is one NaN, and a zero has no sign.
+    const std::uint64_t bits =
+        std::isnan(value) ? 1 : (value == 0.0 ? 0 : std::bit_cast<std::uint64_t>(value));
+    state = mixed(state ^ bits);
+  }
+  return state;
+}
+
+/// The smallest digests of a log's stretches, and whether it has a stretch once only: a robot that
+/// rests may read the same in any log, and so may a simulated one that repeats itself.
+class Stretches {
+ public:
+  Stretches(const std::string& path, const std::optional<Mapping>& mapping) {
+    LogReader log(path);
+    const std::vector<std::size_t> columns = measured_columns(log, mapping);
+    const Kept is_kept(log, mapping);
+    std::array<std::uint64_t, length> last{};
+    std::size_t rows = 0;
+    while (const std::optional<LogRow> row = log.next()) {
+      if (!is_kept(*row)) continue;
+      last[rows % length] = digest(*row, columns);
+      if (++rows < length) continue;
+      std::uint64_t state = 0;
+      for (std::size_t k = 0; k < length; ++k) state = mixed(state ^ last[(rows + k) % length]);
+      keep(state);
+    }
+  }
+
+  /// How many stand in both, if that is more than a tenth of one of them; else zero.
+  [[nodiscard]] std::size_t shared_with(const Stretches& other) const {
+    const std::uint64_t limit = std::min(this->limit(), other.limit());
+    const std::size_t fewer = std::min(count_up_to(limit), other.count_up_to(limit));
+    std::size_t both = 0;
+    for (const auto& [state, is_once] : once_) {
+      const auto found = other.once_.find(state);
+      both += is_once && found != other.once_.end() && found->second ? 1 : 0;
+    }
+    return static_cast<double>(both) > too_many * static_cast<double>(fewer) ? both : 0;
+  }
+
+ private:
+  void keep(std::uint64_t state) {
+    const auto [place, is_new] = once_.try_emplace(state, true);
+    if (!is_new) place->second = false;
+    if (once_.size() > most_kept) once_.erase(std::prev(once_.end()));
+  }
+  /// All stretches up to this digest are kept.
+  [[nodiscard]] std::uint64_t limit() const {
+    return once_.size() < most_kept ? std::numeric_limits<std::uint64_t>::max()
+                                    : once_.rbegin()->first;
+  }
+  [[nodiscard]] std::size_t count_up_to(std::uint64_t limit) const {
+    return static_cast<std::size_t>(std::distance(once_.begin(), once_.upper_bound(limit)));
+  }
+
+  std::map<std::uint64_t, bool> once_;
+};
+
+void refuse_same_files(const LogsByUse& logs) {
+  std::vector<std::string> paths = logs.fitted;
+  paths.insert(paths.end(), logs.earlier.begin(), logs.earlier.end());
+  const std::size_t used = paths.size();
+  paths.insert(paths.end(), logs.tested.begin(), logs.tested.end());
+  const auto twice = same_file(paths);
+  if (!twice) return;
+  const auto& [first, second] = *twice;
+  const bool is_test = first < used && second >= used;
+  throw InputError({paths[second]}, is_test ? "is fitted, too" : "is given twice",
+                   is_test ? "a test on data that are used for nothing else" : "each log once");
+}
+
+}  // namespace
+
+void refuse_same_data(const LogsByUse& logs, const std::optional<Mapping>& mapping) {
+  if (logs.fitted.size() + logs.earlier.size() + logs.tested.size() < 2) return;
+  refuse_same_files(logs);
+  enum class Use { fitted, earlier, tested };
+  struct Known {
+    std::string path;
+    Use use;
+    Stretches stretches;
+  };
+  std::vector<Known> before;
+  const auto compare = [&](const std::string& path, Use use) {
+    Stretches here(path, mapping);
+    for (const Known& known : before) {
+      if (use == Use::earlier && known.use == Use::fitted) continue;
+      if (here.shared_with(known.stretches) == 0) continue;
+      const bool is_test = use == Use::tested && known.use != Use::tested;
+      throw InputError(
+          {path},
+          fmt::format("holds measurements of {}{}", known.path, is_test ? ", which is fitted" : ""),
+          is_test ? "a test on data that are used for nothing else" : "each measurement once");
+    }
+    before.push_back({path, use, std::move(here)});
+  };
+  for (const std::string& path : logs.fitted) compare(path, Use::fitted);
+  for (const std::string& path : logs.earlier) compare(path, Use::earlier);
+  for (const std::string& path : logs.tested) compare(path, Use::tested);
+}
+
+}  // namespace shapeid::app
