@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "shapeid/diagnosis/effects.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
+
+/// What the recursions over links lose, a few dozen sums and products.
+constexpr double few_roundings = 64.0 * std::numeric_limits<double>::epsilon();
 
 // Of a parameter's usual size: small enough for the third derivative, large against rounding.
 constexpr double part_of_size = 0.01;
@@ -97,7 +101,11 @@ Eigen::VectorXd HypothesisColumns::difference(const AppliedEffect& hypothesis, c
         predict(viewer, scene, viewer.links(scene, model_.Phi), model_, predicted.load);
     return changed.force - changed.J.transpose() * predicted.load.force;
   };
-  return (force(d.plus) - force(d.minus)) / d.step;
+  const Eigen::VectorXd plus = force(d.plus), minus = force(d.minus);
+  // A difference that rounding can make is none: a hypothesis that no row feels has no column, by
+  // whichever path.
+  const double rounding = few_roundings * plus.lpNorm<Eigen::Infinity>();
+  return ((plus - minus).array().abs() > rounding).select((plus - minus) / d.step, 0.0);
 }
 
 Eigen::MatrixXd HypothesisColumns::at(const Recording& recording, std::size_t index,

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "shapeid/diagnosis/consistent.hpp"
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/hypotheses.hpp"
 #include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/diagnosis/rigid_rows.hpp"
 #include "shapeid/diagnosis/shape_masses.hpp"
@@ -87,6 +89,32 @@ RC_GTEST_PROP(EitherPath, TakesTheSameForce, ()) {
                      robot.link_count()) < few_hundred_eps);
     RC_ASSERT(scaled((other.inverse_dynamics(robot, sample, motions, Phi) - Y * Phi).norm(), terms,
                      robot.link_count()) < few_hundred_eps);
+  }
+}
+
+/// The zero of a joint about the vertical changes nothing: neither path makes a column of rounding,
+/// which would look as if it could be told from everything else.
+TEST(EitherPath, WhatNoRowFeelsIsNoColumn) {
+  const Recording log = record({{}, 4.0, 0.0});
+  Robot robot = arm();
+  Joint& first = robot.links[1].joint;
+  first.kind = JointKind::revolute;
+  first.axis = Eigen::Vector3d::UnitZ();
+  first.placement.linear().setIdentity();
+  const RichModel model{stacked_parameters(robot), {}};
+  for (const Path path : {Path::reference, Path::fast}) {
+    const HypothesisColumns columns(
+        robot, {ContactTreatment::ignore, path}, model,
+        {at_start(*find_effect("encoder_offset"), 0), at_start(*find_effect("encoder_offset"), 1)});
+    double felt = 0.0;
+    for (const std::size_t index : log.usable(50)) {
+      const View view = columns.viewer().view(log, index);
+      const Eigen::MatrixXd E =
+          columns.at(log, index, view, predict(columns.viewer(), view, model));
+      EXPECT_TRUE(E.col(0).isZero(0.0)) << E.col(0).transpose();
+      felt += E.col(1).norm();
+    }
+    EXPECT_GT(felt, 0.1);
   }
 }
 
