@@ -105,8 +105,8 @@ class Stretches {
     }
   }
 
-  /// How many stand in both, if that is more than a tenth of one of them; else zero.
-  [[nodiscard]] std::size_t shared_with(const Stretches& other) const {
+  /// Whether more than a tenth of one log's stand in both.
+  [[nodiscard]] bool are_shared_with(const Stretches& other) const {
     const std::uint64_t limit = std::min(this->limit(), other.limit());
     const std::size_t fewer = std::min(count_up_to(limit), other.count_up_to(limit));
     std::size_t both = 0;
@@ -114,7 +114,7 @@ class Stretches {
       const auto found = other.once_.find(state);
       both += is_once && found != other.once_.end() && found->second ? 1 : 0;
     }
-    return static_cast<double>(both) > too_many * static_cast<double>(fewer) ? both : 0;
+    return static_cast<double>(both) > too_many * static_cast<double>(fewer);
   }
 
  private:
@@ -164,7 +164,7 @@ void refuse_same_data(const LogsByUse& logs, const std::optional<Mapping>& mappi
     Stretches here(path, mapping);
     for (const Known& known : before) {
       if (use == Use::earlier && known.use == Use::fitted) continue;
-      if (here.shared_with(known.stretches) == 0) continue;
+      if (!here.are_shared_with(known.stretches)) continue;
       const bool is_test = use == Use::tested && known.use != Use::tested;
       throw InputError(
           {path},
