@@ -73,31 +73,34 @@ struct KktPoint {
 /// Its eigenvalues are +-sqrt(1 + sigma^2), so it is never singular, and B^T B is never formed.
 KktPoint solve_kkt(const ScaledProblem& s, const Places& passive) {
   const Eigen::Index k = s.b.size(), p = static_cast<Eigen::Index>(passive.size());
-  Matrix K = Matrix::Identity(k + p, k + p);
-  K.topRightCorner(k, p) = s.B(Eigen::all, passive);
+  const Matrix B = s.B(Eigen::all, passive);
+  Eigen::MatrixXd K = Eigen::MatrixXd::Identity(k + p, k + p);
+  K.topRightCorner(k, p) = B.cast<double>();
   K.bottomLeftCorner(p, k) = K.topRightCorner(k, p).transpose();
   K.bottomRightCorner(p, p) *= -1;
-  Vector rhs = Vector::Zero(k + p);
-  rhs.head(k) = s.b;
 
   // Factors in double, residuals in long double: each round gains the digits that the condition
   // leaves (six or more), so a handful reaches the last one. It ends when it no longer gains.
   constexpr int most_rounds = 8;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(K.cast<double>());
-  Vector z = Vector::Zero(k + p);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(K);
+  KktPoint at{Vector::Zero(k), Vector::Zero(p)};
+  Vector rest(k + p);
   Real last = std::numeric_limits<Real>::infinity();
   for (int round = 0; round < most_rounds; ++round) {
-    const Vector correction = factors.solve((rhs - K * z).cast<double>()).cast<Real>();
+    rest.head(k) = s.b - at.r - B * at.x;
+    rest.tail(p) = at.x - B.transpose() * at.r;
+    const Vector correction = factors.solve(rest.cast<double>()).cast<Real>();
     const Real size = correction.norm();
     if (!std::isfinite(size)) {
       throw Refusal("not-finite", "the mass problem's numbers are none, or too large to be solved");
     }
     if (!(size < last / 2)) break;
-    z += correction;
+    at.r += correction.head(k);
+    at.x += correction.tail(p);
     last = size;
-    if (size <= eps * z.norm()) break;
+    if (size <= eps * std::hypot(at.r.norm(), at.x.norm())) break;
   }
-  return {z.head(k), z.tail(p)};
+  return at;
 }
 
 /// Shapes that are not held at zero, and their (scaled) masses.
