@@ -124,7 +124,8 @@ constexpr int logs = 600;
 // the one that three blocks determine seems twice as sure as it is, or more.
 TEST(Chance, StandardErrorsAreThoseOfNoiseAlsoOfWhatFewBlocksDetermine) {
   std::mt19937_64 random(20240611);
-  Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(columns), said = squares, between = squares;
+  const auto zero = Eigen::ArrayXd::Zero(columns);
+  Eigen::ArrayXd squares = zero, said = zero, between = zero;
   for (int k = 0; k < logs; ++k) {
     const Fit fit = fits_of(of_noise(random)).fit({term({0, 1, 2, 3})});
     squares += fit.value.array().square() / logs;
