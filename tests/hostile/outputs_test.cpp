@@ -48,7 +48,7 @@ CommandRun run_in_shell(const std::string& before, const std::string& arguments,
 /// A report that was for some eyes only stays so when it is made again.
 TEST(HostileOutputs, PermissionsStayWhereAFileIsReplaced) {
   const std::string path = scratch_file("private.json", "{}\n");
-  for (const mode_t mode : {0600, 0640, 0664}) {
+  for (const mode_t mode : {0600U, 0640U, 0664U}) {
     ASSERT_EQ(::chmod(path.c_str(), mode), 0);
     write_file(path, "{\"again\": 1}\n");
     struct stat now {};
