@@ -63,7 +63,8 @@ json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
     entry["heldout_gain"] = f->gain;
     entry["gain_over_its_error"] = f->t;
     entry["since_reference"] = a.since_reference;
-    entry["may_act_in_both"] = f->may_act_in_both;
+    entry["may_act_in_both"] = a.since_reference && f->may_be_of_other_time;
+    entry["may_have_come_since"] = !a.since_reference && f->may_be_of_other_time;
     entry["ambiguous_with"] = f->ambiguous_with;
     entry["hangs_on_given_inertias"] = f->hangs_on_given;
     if (f->rival) entry["or_without_name"] = law_text(*f->rival, robot);
@@ -280,10 +281,10 @@ std::map<std::string, JointFriction> joint_friction(const DiagnosisRun& run, con
 }  // namespace
 
 std::string since_text(const diagnosis::Found& found) {
-  if (!found.effect.since_reference) return "";
-  return found.may_act_in_both ? "came since the reference log or acts in both: these two logs do "
-                                 "not tell"
-                               : "came since the reference log";
+  if (found.may_be_of_other_time) {
+    return "came since the reference log or acts in both: these two logs do not tell";
+  }
+  return found.effect.since_reference ? "came since the reference log" : "";
 }
 
 std::string doubt(const DiagnosisRun& run, const diagnosis::Found& f, const Robot& robot) {

@@ -8,6 +8,15 @@
 namespace shapeid::diagnosis {
 namespace {
 
+constexpr double pi = 3.14159265358979323846;
+
+double range_of(const Recording& log, int joint) {
+  const auto [least, most] = std::minmax_element(
+      log.samples().begin(), log.samples().end(),
+      [&](const Sample& a, const Sample& b) { return a.q[joint] < b.q[joint]; });
+  return most->q[joint] - least->q[joint];
+}
+
 /// A payload's term on the link's own columns.
 Candidate payload_candidate(const Robot& robot, const Effect& effect, int link,
                             std::size_t from_block, double onset) {
@@ -65,6 +74,23 @@ void add_groups(std::vector<Candidate>& list) {
   }
 }
 
+/// Numbers of its shape that the model has found of another effect at the same place: how fast a
+/// joint must go until its dry friction is whole is one number, whichever law it is of. Where a law
+/// begins to be sought from, it would be told by that alone from one that has its best number.
+void take_shape_of_neighbours(AppliedEffect& hypothesis, const RichModel& model) {
+  for (const AppliedEffect& found : model.effects) {
+    if (found.effect->site != hypothesis.effect->site || found.site != hypothesis.site) continue;
+    for (std::size_t i = 0; i < hypothesis.effect->shape.size(); ++i) {
+      const ShapeNumber& own = hypothesis.effect->shape[i];
+      for (std::size_t k = 0; k < found.effect->shape.size(); ++k) {
+        if (found.effect->shape[k].name != own.name) continue;
+        hypothesis.shape[static_cast<Eigen::Index>(i)] =
+            std::clamp(found.shape[static_cast<Eigen::Index>(k)], own.lower, own.upper);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichModel& model,
@@ -75,7 +101,10 @@ std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichMod
                                     [&](const AppliedEffect& a) { return same_place(a, h); });
     if (found != model.effects.end()) {
       h = *found;
-    } else if (h.effect->id == "cogging") {
+      continue;
+    }
+    take_shape_of_neighbours(h, model);
+    if (is_ripple(h)) {
       const ShapeNumber& N = h.effect->shape.front();
       h.shape[0] =
           strongest_ripple(robot, log, left, h.site, h.site, RippleOf::torque, N.lower, N.upper);
@@ -87,14 +116,16 @@ std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichMod
   return list;
 }
 
+bool is_ripple(const AppliedEffect& effect) { return effect.effect->id == "cogging"; }
+
 double periods_told_apart(const Recording& log, const AppliedEffect& effect) {
-  if (effect.effect->id != "cogging") return 1.0;
-  const auto [least, most] = std::minmax_element(
-      log.samples().begin(), log.samples().end(),
-      [&](const Sample& a, const Sample& b) { return a.q[effect.site] < b.q[effect.site]; });
+  if (!is_ripple(effect)) return 1.0;
   const ShapeNumber& N = effect.effect->shape.front();
-  constexpr double pi = 3.14159265358979323846;
-  return std::max(1.0, (N.upper - N.lower) * (most->q[effect.site] - least->q[effect.site]) / pi);
+  return std::max(1.0, (N.upper - N.lower) * range_of(log, effect.site) / pi);
+}
+
+bool is_long_ripple(const Recording& log, const AppliedEffect& effect) {
+  return is_ripple(effect) && effect.shape[0] * range_of(log, effect.site) < 4.0 * pi;
 }
 
 Term term_of_masses(const std::vector<int>& links) {

@@ -9,8 +9,9 @@
 
 namespace shapeid::diagnosis {
 
-/// All hypotheses; those of the model with their numbers, ripple where the residual (`left`, of the
-/// model on the log) has most of it, payloads only if the model has them.
+/// All hypotheses; those of the model with their numbers, others with what numbers of their shape
+/// the model has found at their place, ripple where the residual (`left`, of the model on the log)
+/// has most of it, payloads only if the model has them.
 [[nodiscard]] std::vector<AppliedEffect> screened_hypotheses(const Robot& robot,
                                                              const RichModel& model,
                                                              const Recording& log,
@@ -21,8 +22,11 @@ namespace shapeid::diagnosis {
 /// The columns of one of the tally's hypotheses.
 [[nodiscard]] Term term_of(const Robot& robot, const Tally& tally, std::size_t hypothesis);
 
+[[nodiscard]] bool is_ripple(const AppliedEffect& effect);
 /// How many periods of a ripple at its joint the log tells apart; 1 for what is no ripple.
 [[nodiscard]] double periods_told_apart(const Recording& log, const AppliedEffect& effect);
+/// Whether it is a ripple of which the joint goes through less than two periods.
+[[nodiscard]] bool is_long_ripple(const Recording& log, const AppliedEffect& effect);
 
 struct CandidateRule {
   std::vector<int> free_links;   ///< a load that is always there cannot be told from these

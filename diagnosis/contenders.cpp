@@ -74,13 +74,12 @@ bool Contenders::same_place(std::size_t k, std::size_t other) const {
   return diagnosis::same_place(candidates_[k].effect, candidates_[other].effect);
 }
 
-std::optional<std::size_t> Contenders::acting_in_both(std::size_t k) const {
-  const AppliedEffect& came = candidates_[k].effect;
-  if (!came.since_reference) return std::nullopt;
+std::optional<std::size_t> Contenders::of_other_time(std::size_t k) const {
+  const AppliedEffect& own = candidates_[k].effect;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const AppliedEffect& other = candidates_[i].effect;
-    if (candidates_[i].members.empty() && !other.since_reference && other.effect == came.effect &&
-        other.site == came.site) {
+    if (candidates_[i].members.empty() && other.since_reference != own.since_reference &&
+        other.effect == own.effect && other.site == own.site) {
       return i;
     }
   }

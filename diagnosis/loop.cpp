@@ -148,6 +148,7 @@ class Loop {
     }
     try_large_transformations();
     leave_out_remainders();
+    seek_long_ripples();
     try_noise_for_weight();
   }
 
@@ -157,6 +158,27 @@ class Loop {
     const auto start = std::chrono::steady_clock::now();
     while (const std::optional<AppliedEffect> left_out = leave_out_remainder(state_)) {
       remainders_.push_back(*left_out);
+      screen();
+      refit(state_);
+      prune_transformations();
+    }
+    result_.refit_seconds += seconds_since(start);
+  }
+
+  /// Where the residual has most of a ripple says little of its period if the joint goes through
+  /// hardly more than one: the others are offset and slope, which masses have, too. Once all else
+  /// is found it is sought from half to twice of what it is.
+  void seek_long_ripples() {
+    const auto start = std::chrono::steady_clock::now();
+    bool moved = false;
+    for (std::size_t i = 0; i < result_.found.size(); ++i) {
+      const AppliedEffect before = result_.found[i].effect;
+      if (!is_long_ripple(state_.log, before)) continue;
+      refit_from_afar(state_, i);
+      const double factor = result_.found[i].effect.shape[0] / before.shape[0];
+      moved = moved || std::abs(factor - 1.0) > before.effect->shape[0].nearby;
+    }
+    if (moved) {
       screen();
       refit(state_);
       prune_transformations();

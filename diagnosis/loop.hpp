@@ -65,8 +65,8 @@ struct Found {
   bool pulls = false;
   /// Verdict::hangs_on_given
   bool hangs_on_given = false;
-  /// Verdict::may_act_in_both
-  bool may_act_in_both = false;
+  /// Verdict::may_be_of_other_time
+  bool may_be_of_other_time = false;
   /// Free parameters take it over; without it links of their size would be no bodies.
   bool needed = false;
   /// Else it only describes: it predicts, and says nothing about the cause.

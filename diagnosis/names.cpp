@@ -16,8 +16,6 @@ namespace {
 // Standard errors by which a ripple must predict better than the best over another joint.
 constexpr double better_t = 2.0;
 
-bool is_ripple(const AppliedEffect& a) { return a.effect->id == "cogging"; }
-
 /// The squared error that comes back without it, in those of what is left: `share` is of the error
 /// without it.
 double worth(double share) {

@@ -76,8 +76,8 @@ struct Verdict {
   /// The data cannot tell it from masses and what else was accepted: it is worth that gain because
   /// masses that stay near the given ones cannot say the same.
   bool hangs_on_given = false;
-  /// It came since the reference log, or acts in both: the data cannot tell.
-  bool may_act_in_both = false;
+  /// Whether it came since the reference log or acts in both: the data cannot tell.
+  bool may_be_of_other_time = false;
   /// Candidates that in its place do as well, as far as the data can tell.
   std::vector<std::size_t> ambiguous;
 };

@@ -52,14 +52,14 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
   const Eigen::VectorXd& without = around.error();
   const Gain gain = credibility_.gain_by(k, without, error);
   Verdict verdict{k, gain.share, gain.t, true, contenders_.is_contained(k, others), false, {}};
-  const std::optional<std::size_t> in_both = contenders_.acting_in_both(k);
-  if (in_both && !contenders_.is_among(*in_both, others)) {
-    const Eigen::VectorXd instead = around.with(contenders_[*in_both].term);
-    verdict.may_act_in_both =
+  const std::optional<std::size_t> other_time = contenders_.of_other_time(k);
+  if (other_time && !contenders_.is_among(*other_time, others)) {
+    const Eigen::VectorXd instead = around.with(contenders_[*other_time].term);
+    verdict.may_be_of_other_time =
         gains_something(gain_of(without, instead)) && as_good_as(error, instead);
   }
   for (const std::size_t rival : contenders_.shortlist(others, rule_.rivals).listed) {
-    if (rival == k || rival == in_both || contenders_.same_place(k, rival) ||
+    if (rival == k || rival == other_time || contenders_.same_place(k, rival) ||
         !contenders_[rival].members.empty()) {
       continue;
     }

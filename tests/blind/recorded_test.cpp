@@ -134,10 +134,12 @@ TEST(Blind, ASpringThatWeightNearlyIs) {
 }
 
 /// Friction that grows with the load, eight times the size, turns round within 0.02 rad/s. At
-/// dccfcfd a wider one was found, and Stribeck's at the same joint made it narrow.
+/// dccfcfd a wider one was found, and Stribeck's at the same joint made it narrow. (The slide's
+/// own, Stribeck's of twice the size, may be any of the three: its load hardly varies.)
 TEST(Blind, ANarrowFrictionIsNotAWideOneAndAnother) {
   const Judgement judged = judgement_of_drawn_arm(9557, 44);
-  EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
+  EXPECT_EQ(name_of(judged.outcome), "ambiguous") << judged.said;
+  EXPECT_TRUE(judged.said.ends_with("load_friction@joint2")) << judged.said;
 }
 
 /// A delay of 10 ms, which shows as a lag of one drive, or of all, beside Stribeck's friction of
@@ -156,12 +158,29 @@ TEST(Blind, WhatNoisyAccelerationsLeaveIsNoCause) {
   EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
 }
 
+/// Friction that grows with the load, on a vertical slide whose load varies by a twentieth: nearly
+/// Coulomb's. At 7f97294 its width was the one that it is first looked at with, three times that
+/// found for Coulomb's, and by that alone the two were told apart.
+TEST(Blind, AFrictionOfNearlyConstantLoadMayBeCoulombs) {
+  const Judgement judged = judgement_of_drawn_arm(9573, 54);
+  EXPECT_EQ(name_of(judged.outcome), "ambiguous") << judged.said;
+}
+
 /// A ripple of which the joint's range has less than half a period: at dccfcfd one of 18 rad/m was
 /// found for 14, and a spring was the rest.
 TEST(Blind, APartOfARippleIsNotAnotherAndASpring) {
   const Judgement judged = judgement_of_drawn_arm(9559, 2);
   EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
   EXPECT_EQ(judged.said, "cogging@joint1");
+}
+
+/// A ripple of eight times the size of which the joint's range has a whole period. At 7f97294 one
+/// of 10 rad/m was found for 14, by the residual's own spectrum, and what was left followed the
+/// angle, so that its name did not stand.
+TEST(Blind, ARippleOfAsLongAPeriodAsTheRange) {
+  const Judgement judged = judgement_of_drawn_arm(9573, 142);
+  EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
+  EXPECT_EQ(judged.said.substr(0, 14), "cogging@joint4");
 }
 
 /// A trot's torque, 1.8 ms late: at 1822adc flags of contacts moved along with the motion, the rows

@@ -253,7 +253,7 @@ TEST(Loop, ADelayThatCameSinceIsFoundAsThat) {
     const LoopResult result = close_loop(arm(), log, came ? &without : &with, arm_settings());
     ASSERT_EQ(found_ids(result), Ids{"torque_delay@all"});
     EXPECT_EQ(result.found[0].effect.since_reference, came);
-    EXPECT_FALSE(result.found[0].may_act_in_both);
+    EXPECT_FALSE(result.found[0].may_be_of_other_time);
     EXPECT_NEAR(result.found[0].effect.value[0], 0.012, 0.001);
   }
 }

@@ -140,10 +140,10 @@ TEST(Verdicts, NameALoadThatContainsAFindingIfItIsABody) {
   }
 }
 
-/// What came since the reference log may as well have been there if both look alike; then it is no
-/// other cause. (A delay of the detectable size that was in both logs was said to have come since:
-/// blind trial 4 of seed 9542.)
-TEST(Verdicts, SayWhetherWhatCameSinceMayActInBoth) {
+/// What came since the reference log may as well have been there if both look alike, and the other
+/// way round; then it is no other cause. (A delay of the detectable size that was in both logs was
+/// said to have come since: blind trial 4 of seed 9542.)
+TEST(Verdicts, SayWhetherTheLogsTellWhatCameSince) {
   for (const double apart : {0.0, 2.0}) {
     for (const bool transforms : {false, true}) {
       Planted log(40);
@@ -161,12 +161,16 @@ TEST(Verdicts, SayWhetherWhatCameSinceMayActInBoth) {
       log.plant(came, number(Planted::size_of(25.0)));
       log.add_noise();
       const Verdict verdict = verdicts(log, {came})[0];
-      EXPECT_EQ(verdict.may_act_in_both, apart == 0.0);
+      EXPECT_EQ(verdict.may_be_of_other_time, apart == 0.0);
       EXPECT_EQ(verdict.ambiguous, Chosen{});
-      // Of what is in both there is nothing to say; nor where it grew, and is named twice.
-      EXPECT_FALSE(verdicts(log, {always})[0].may_act_in_both);
+      if (apart == 0.0) {
+        const Verdict other = verdicts(log, {always})[0];
+        EXPECT_TRUE(other.may_be_of_other_time);
+        EXPECT_EQ(other.ambiguous, Chosen{});
+      }
+      // Where it grew it is named twice, and there is nothing to say.
       if (transforms) continue;
-      for (const Verdict& v : verdicts(log, {came, always})) EXPECT_FALSE(v.may_act_in_both);
+      for (const Verdict& v : verdicts(log, {came, always})) EXPECT_FALSE(v.may_be_of_other_time);
     }
   }
 }
