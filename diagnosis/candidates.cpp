@@ -1,6 +1,7 @@
 #include "shapeid/diagnosis/candidates.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/load_places.hpp"
@@ -60,6 +61,7 @@ void add_groups(std::vector<Candidate>& list) {
       for (std::size_t k = 0; k < singles; ++k) {
         const AppliedEffect& single = list[k].effect;
         if (single.effect != &effect || single.since_reference != since) continue;
+        if (list[k].only_rival) continue;
         if (group.members.empty()) group = {single, {}, {}};
         group.members.push_back(k);
         const Term& term = list[k].term;
@@ -74,10 +76,11 @@ void add_groups(std::vector<Candidate>& list) {
   }
 }
 
-/// Numbers of its shape that the model has found of another effect at the same place: how fast a
-/// joint must go until its dry friction is whole is one number, whichever law it is of. Where a law
-/// begins to be sought from, it would be told by that alone from one that has its best number.
-void take_shape_of_neighbours(AppliedEffect& hypothesis, const RichModel& model) {
+/// The hypothesis with those numbers of its shape that the model has found of another effect at the
+/// same place, if there are any.
+std::optional<AppliedEffect> with_shape_of_neighbours(AppliedEffect hypothesis,
+                                                      const RichModel& model) {
+  bool has_any = false;
   for (const AppliedEffect& found : model.effects) {
     if (found.effect->site != hypothesis.effect->site || found.site != hypothesis.site) continue;
     for (std::size_t i = 0; i < hypothesis.effect->shape.size(); ++i) {
@@ -86,16 +89,18 @@ void take_shape_of_neighbours(AppliedEffect& hypothesis, const RichModel& model)
         if (found.effect->shape[k].name != own.name) continue;
         hypothesis.shape[static_cast<Eigen::Index>(i)] =
             std::clamp(found.shape[static_cast<Eigen::Index>(k)], own.lower, own.upper);
+        has_any = true;
       }
     }
   }
+  return has_any ? std::optional(hypothesis) : std::nullopt;
 }
 
 }  // namespace
 
 std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichModel& model,
                                                const Recording& log, const Series& left) {
-  std::vector<AppliedEffect> list = all_hypotheses(robot);
+  std::vector<AppliedEffect> list = all_hypotheses(robot), again;
   for (AppliedEffect& h : list) {
     const auto found = std::find_if(model.effects.begin(), model.effects.end(),
                                     [&](const AppliedEffect& a) { return same_place(a, h); });
@@ -103,13 +108,16 @@ std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichMod
       h = *found;
       continue;
     }
-    take_shape_of_neighbours(h, model);
+    // How fast a joint must go until its dry friction is whole may be one number, whichever law it
+    // is of: looked at with the usual one alone, a law would be told by that from another.
+    if (const auto other = with_shape_of_neighbours(h, model)) again.push_back(*other);
     if (is_ripple(h)) {
       const ShapeNumber& N = h.effect->shape.front();
       h.shape[0] =
           strongest_ripple(robot, log, left, h.site, h.site, RippleOf::torque, N.lower, N.upper);
     }
   }
+  list.insert(list.end(), again.begin(), again.end());
   for (const AppliedEffect& a : model.effects) {
     if (a.effect->is_payload || (a.since_reference && !has_place_of(list, a))) list.push_back(a);
   }
@@ -158,6 +166,10 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
     const AppliedEffect& h = tally.hypotheses[k];
     if (!rule.transformations && h.effect->transform.any()) continue;
     Candidate c{h, term_of(robot, tally, k), {}, rule.choices(h)};
+    // Sought is a law with its usual shape.
+    c.only_rival = std::any_of(tally.hypotheses.begin(),
+                               tally.hypotheses.begin() + static_cast<std::ptrdiff_t>(k),
+                               [&](const AppliedEffect& other) { return same_place(other, h); });
     if (h.is_of_the_log_alone()) c.term.from_block = fits.first_block();
     if (!h.since_reference && !rule.excluded(h)) list.push_back(c);
     if (!rule.has_reference || h.effect->built_in) continue;

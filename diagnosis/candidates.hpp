@@ -9,9 +9,9 @@
 
 namespace shapeid::diagnosis {
 
-/// All hypotheses; those of the model with their numbers, others with what numbers of their shape
-/// the model has found at their place, ripple where the residual (`left`, of the model on the log)
-/// has most of it, payloads only if the model has them.
+/// All hypotheses; those of the model with their numbers, others once more with what numbers of
+/// their shape the model has found at their place, ripple where the residual (`left`, of the model
+/// on the log) has most of it, payloads only if the model has them.
 [[nodiscard]] std::vector<AppliedEffect> screened_hypotheses(const Robot& robot,
                                                              const RichModel& model,
                                                              const Recording& log,

@@ -14,7 +14,7 @@ constexpr std::ptrdiff_t most_of_one_place = 2;
 double Contenders::parameters() const {
   double sum = 0.0;
   for (const Candidate& c : candidates_) {
-    if (c.members.empty()) sum += static_cast<double>(c.term.columns.size());
+    if (c.members.empty() && !c.only_rival) sum += static_cast<double>(c.term.columns.size());
   }
   return sum;
 }
@@ -23,7 +23,8 @@ Chosen Contenders::usual() const {
   Chosen list;
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     const Candidate& c = candidates_[k];
-    if (c.members.empty() && c.effect.effect->is_usual && !c.effect.since_reference) {
+    if (c.members.empty() && !c.only_rival && c.effect.effect->is_usual &&
+        !c.effect.since_reference) {
       list.push_back(k);
     }
   }
@@ -99,12 +100,25 @@ std::size_t Contenders::cost(const Chosen& chosen) const {
 
 Shortlist Contenders::shortlist(const Chosen& chosen, int length, const Chosen& excluded) const {
   Chosen open;
-  std::vector<Term> open_terms;
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
-    if (is_taken(k, chosen) || is_among(k, excluded)) continue;
-    open.push_back(k);
-    open_terms.push_back(candidates_[k].term);
+    if (!is_taken(k, chosen) && !is_among(k, excluded) && !candidates_[k].only_rival) {
+      open.push_back(k);
+    }
   }
+  return most_promising(open, chosen, length);
+}
+
+Chosen Contenders::rivals(const Chosen& chosen, int length) const {
+  Chosen open;
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    if (!is_taken(k, chosen)) open.push_back(k);
+  }
+  return most_promising(open, chosen, length).listed;
+}
+
+Shortlist Contenders::most_promising(const Chosen& open, const Chosen& chosen, int length) const {
+  std::vector<Term> open_terms;
+  for (const std::size_t k : open) open_terms.push_back(candidates_[k].term);
   const auto promises = fits_.promises(terms(chosen), open_terms);
   std::vector<std::size_t> order(open.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

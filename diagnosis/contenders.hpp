@@ -62,11 +62,15 @@ class Contenders {
     return {chosen.size(), cost(chosen)};
   }
 
-  /// The most promising beside what is chosen, without `excluded`.
+  /// The most promising beside what is chosen, without `excluded` and what is only a rival.
   [[nodiscard]] Shortlist shortlist(const Chosen& chosen, int length,
                                     const Chosen& excluded = {}) const;
+  /// Likewise, with those.
+  [[nodiscard]] Chosen rivals(const Chosen& chosen, int length) const;
 
  private:
+  [[nodiscard]] Shortlist most_promising(const Chosen& open, const Chosen& chosen,
+                                         int length) const;
   [[nodiscard]] bool any_single(std::size_t k,
                                 const std::function<bool(std::size_t)>& condition) const;
 

@@ -20,6 +20,8 @@ struct Candidate {
   /// Among how many independent ones it was chosen before (periods of a ripple): as many chances.
   double choices = 1.0;
   Box room = {};  ///< of a load: in which it has its mass
+  /// It is not sought, but may be what another cannot be told from.
+  bool only_rival = false;
 };
 
 /// The rule of acceptance. The best hypothesis is accepted if the sum over held-out blocks of its

@@ -58,7 +58,7 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
     verdict.may_be_of_other_time =
         gains_something(gain_of(without, instead)) && as_good_as(error, instead);
   }
-  for (const std::size_t rival : contenders_.shortlist(others, rule_.rivals).listed) {
+  for (const std::size_t rival : contenders_.rivals(others, rule_.rivals)) {
     if (rival == k || rival == other_time || contenders_.same_place(k, rival) ||
         !contenders_[rival].members.empty()) {
       continue;
@@ -135,7 +135,7 @@ bool Verdicts::does_without(std::size_t k, std::size_t rival, const Chosen& othe
 void Verdicts::name_common_causes(const Chosen& accepted, const Eigen::VectorXd& error,
                                   std::vector<Verdict>& verdicts) const {
   if (accepted.size() < 2) return;
-  for (const std::size_t rival : contenders_.shortlist({}, rule_.rivals).listed) {
+  for (const std::size_t rival : contenders_.rivals({}, rule_.rivals)) {
     if (contenders_.is_taken(rival, accepted) || !contenders_[rival].members.empty()) continue;
     const Chosen beside = not_superfluous_beside(rival, accepted);
     if (beside.size() + 1 >= accepted.size()) continue;

@@ -3,41 +3,52 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
 #include <vector>
 
+#include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
 
-/// Within how much speed friction turns round is the joint's, whichever law it follows: a law that
-/// is looked at with another width would be told by that from one whose width was sought.
-TEST(Candidates, LawsOfAJointHaveTheWidthThatWasFoundThere) {
+std::vector<AppliedEffect> hypotheses_beside(const std::vector<AppliedEffect>& effects) {
   const Robot robot = test::arm();
   const Recording log = test::record({});
+  const RichModel model{stacked_parameters(robot), effects};
+  return screened_hypotheses(robot, model, log,
+                             series(robot, ContactTreatment::ignore, model, log, 1));
+}
+
+/// Within how much speed friction turns round may be one number of the joint, whichever law it
+/// follows: a law that is looked at with another width alone would be told by that from one whose
+/// width was sought. It need not be one (two may act there), so the usual width is looked at, too.
+TEST(Candidates, LawsOfAJointHaveAlsoTheWidthThatWasFoundThere) {
   AppliedEffect coulomb = test::effect("coulomb_friction", 1, {0.2});
   coulomb.shape[0] = 0.017;
   AppliedEffect stribeck = test::effect("stribeck_friction", 2, {0.3});
   stribeck.shape = Eigen::Vector2d(0.09, 0.11);
-  const RichModel model{stacked_parameters(robot), {coulomb, stribeck}};
-  const Series left = series(robot, ContactTreatment::ignore, model, log, 1);
-  int looked_at = 0;
-  for (const AppliedEffect& h : screened_hypotheses(robot, model, log, left)) {
-    if (same_place(h, stribeck)) {
-      EXPECT_EQ(h.shape, stribeck.shape);
-      continue;
-    }
-    for (std::size_t i = 0; i < h.effect->shape.size(); ++i) {
-      const ShapeNumber& number = h.effect->shape[i];
-      if (number.name == "N") continue;  // where the residual has most of a ripple
-      const double width = h.site == 1 ? 0.017 : h.site == 2 ? 0.11 : number.start;
-      EXPECT_EQ(h.shape[static_cast<Eigen::Index>(i)],
-                number.name == "width" ? width : number.start)
-          << h.effect->id << " at " << h.site;
-      ++looked_at;
-    }
+  const auto list = hypotheses_beside({coulomb, stribeck});
+  const auto times = [&](const std::string& id, int site, double width) {
+    return std::ranges::count_if(list, [&](const AppliedEffect& h) {
+      return h.effect->id == id && h.site == site && h.shape[h.shape.size() - 1] == width;
+    });
+  };
+  for (const std::string id : {"coulomb_friction", "load_friction", "stribeck_friction"}) {
+    const double usual = find_effect(id)->shape.back().start;
+    EXPECT_EQ(times(id, 0, usual), 1) << id;
+    EXPECT_EQ(times(id, 1, 0.017), 1) << id;
+    EXPECT_EQ(times(id, 1, usual), id == "coulomb_friction" ? 0 : 1) << id;
+    EXPECT_EQ(times(id, 2, 0.11), 1) << id;
+    EXPECT_EQ(times(id, 2, usual), id == "stribeck_friction" ? 0 : 1) << id;
   }
-  EXPECT_EQ(looked_at, 10) << "three laws with a width, one of them with another number, less one";
+  // Nothing else is there twice; and a width alone is shared, not Stribeck's speed.
+  EXPECT_EQ(list.size(), hypotheses_beside({}).size() + 4);
+  for (const AppliedEffect& h : list) {
+    if (h.effect->id != "stribeck_friction" || h.site == 2) continue;
+    EXPECT_EQ(h.shape[0], find_effect("stribeck_friction")->shape[0].start);
+  }
 }
 
 }  // namespace
