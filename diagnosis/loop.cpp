@@ -167,21 +167,15 @@ class Loop {
 
   /// Where the residual has most of a ripple says little of its period if the joint goes through
   /// hardly more than one: the others are offset and slope, which masses have, too. Once all else
-  /// is found it is sought from half to twice of what it is.
+  /// is found it is sought from half to twice of what it is, and taken if that predicts better.
   void seek_long_ripples() {
     const auto start = std::chrono::steady_clock::now();
-    bool moved = false;
     for (std::size_t i = 0; i < result_.found.size(); ++i) {
-      const AppliedEffect before = result_.found[i].effect;
-      if (!is_long_ripple(state_.log, before)) continue;
+      if (!is_long_ripple(state_.log, result_.found[i].effect)) continue;
+      const LoopResult before = result_;
+      const Eigen::VectorXd error = state_.held_out_of_model();
       refit_from_afar(state_, i);
-      const double factor = result_.found[i].effect.shape[0] / before.shape[0];
-      moved = moved || std::abs(factor - 1.0) > before.effect->shape[0].nearby;
-    }
-    if (moved) {
-      screen();
-      refit(state_);
-      prune_transformations();
+      if (!(gain_of(error, state_.held_out_of_model()).t > keep_t)) result_ = before;
     }
     result_.refit_seconds += seconds_since(start);
   }
