@@ -166,8 +166,8 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
     const AppliedEffect& h = tally.hypotheses[k];
     if (!rule.transformations && h.effect->transform.any()) continue;
     Candidate c{h, term_of(robot, tally, k), {}, rule.choices(h)};
-    // Sought is a law with its usual shape.
-    c.only_rival = std::any_of(tally.hypotheses.begin(),
+    c.only_rival = !rule.several_shapes &&
+                   std::any_of(tally.hypotheses.begin(),
                                tally.hypotheses.begin() + static_cast<std::ptrdiff_t>(k),
                                [&](const AppliedEffect& other) { return same_place(other, h); });
     if (h.is_of_the_log_alone()) c.term.from_block = fits.first_block();

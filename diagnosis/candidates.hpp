@@ -32,6 +32,8 @@ struct CandidateRule {
   std::vector<int> free_links;   ///< a load that is always there cannot be told from these
   bool has_reference = false;    ///< what came since the reference log is a hypothesis of its own
   bool transformations = false;  ///< whether effects that are no columns are tried
+  /// Whether what is there with several shapes is sought with each, not with the first alone.
+  bool several_shapes = false;
   std::function<bool(const AppliedEffect&)> excluded;
   std::function<double(const AppliedEffect&)> choices;  ///< Candidate::choices
 };

@@ -66,6 +66,7 @@ class Search {
     const BlockFits fits = state_.tallied(hypotheses());
     CandidateRule rule;
     rule.free_links = state_.settings.shapes.free_links;
+    rule.several_shapes = true;  // one for each time
     rule.has_reference = false;  // flags are the sensor's: nothing that came since
     rule.excluded = [](const AppliedEffect&) { return false; };
     rule.choices = [this](const AppliedEffect& h) { return periods_told_apart(state_.log, h); };
