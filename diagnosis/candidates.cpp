@@ -76,6 +76,15 @@ void add_groups(std::vector<Candidate>& list) {
   }
 }
 
+/// The number of that name in the effect's shape.
+std::optional<double> shape_number(const AppliedEffect& effect, const std::string& name) {
+  const std::vector<ShapeNumber>& all = effect.effect->shape;
+  const auto own =
+      std::find_if(all.begin(), all.end(), [&](const ShapeNumber& n) { return n.name == name; });
+  if (own == all.end()) return std::nullopt;
+  return effect.shape[own - all.begin()];
+}
+
 /// The hypothesis with those numbers of its shape that the model has found of another effect at the
 /// same place, if there are any.
 std::optional<AppliedEffect> with_shape_of_neighbours(AppliedEffect hypothesis,
@@ -85,12 +94,10 @@ std::optional<AppliedEffect> with_shape_of_neighbours(AppliedEffect hypothesis,
     if (found.effect->site != hypothesis.effect->site || found.site != hypothesis.site) continue;
     for (std::size_t i = 0; i < hypothesis.effect->shape.size(); ++i) {
       const ShapeNumber& own = hypothesis.effect->shape[i];
-      for (std::size_t k = 0; k < found.effect->shape.size(); ++k) {
-        if (found.effect->shape[k].name != own.name) continue;
-        hypothesis.shape[static_cast<Eigen::Index>(i)] =
-            std::clamp(found.shape[static_cast<Eigen::Index>(k)], own.lower, own.upper);
-        has_any = true;
-      }
+      const std::optional<double> number = shape_number(found, own.name);
+      if (!number) continue;
+      hypothesis.shape[static_cast<Eigen::Index>(i)] = std::clamp(*number, own.lower, own.upper);
+      has_any = true;
     }
   }
   return has_any ? std::optional(hypothesis) : std::nullopt;

@@ -10,17 +10,33 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "shapeid/tests/support/files.hpp"
 
 namespace shapeid::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether a file is there and was written after the command and all files of the bundled robots.
+bool is_of_this_command(const fs::path& file) {
+  std::error_code missing;
+  const fs::file_time_type written = fs::last_write_time(file, missing);
+  if (missing || written <= fs::last_write_time(SHAPEID_BUILD_DIR "/shapeid")) return false;
+  return std::none_of(
+      fs::directory_iterator(robots), fs::directory_iterator(),
+      [&](const fs::directory_entry& of_robot) { return written <= of_robot.last_write_time(); });
+}
+
+}  // namespace
 
 const std::string& scratch() {
   static const std::string folder = [] {
-    const auto path = std::filesystem::path(SHAPEID_BUILD_DIR) / "scratch" /
-                      fmt::format("test_app.{}", ::getpid());
-    std::filesystem::remove_all(path);
-    std::filesystem::create_directories(path);
+    const auto path =
+        fs::path(SHAPEID_BUILD_DIR) / "scratch" / fmt::format("test_app.{}", ::getpid());
+    fs::remove_all(path);
+    fs::create_directories(path);
     return path.string();
   }();
   return folder;
@@ -54,6 +70,20 @@ nlohmann::json diagnosed(const std::string& arguments) {
   const CommandRun run = shapeid("diagnose --json " + arguments);
   EXPECT_EQ(run.status, 0) << run.err;
   return run.status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
+}
+
+std::string simulated_log(const std::string& name, const std::string& arguments) {
+  const fs::path folder = fs::path(SHAPEID_BUILD_DIR) / "scratch" / "simulated";
+  fs::create_directories(folder);
+  const fs::path kept = folder / (arguments + name.substr(name.find('.')));
+  // Two that ask at once both simulate: the command writes beside and renames.
+  if (!is_of_this_command(kept)) {
+    const CommandRun run = shapeid(fmt::format("simulate {} --out '{}'", arguments, kept.string()));
+    EXPECT_EQ(run.status, 0) << run.err;
+  }
+  std::string path = scratch() + "/" + name;
+  fs::copy_file(kept, path, fs::copy_options::overwrite_existing);
+  return path;
 }
 
 void expect_one_line(const CommandRun& run, int status, const std::string& words) {

@@ -42,6 +42,12 @@ struct CommandRun {
 /// Writes a file into scratch() and returns its path.
 std::string scratch_file(const std::string& name, const std::string& text);
 
+/// Writes into scratch() what `shapeid simulate ARGUMENTS` does: the first test program that asks
+/// for it waits for the simulation, all others copy what that one kept beside the build. `name`
+/// says how it is written (NAME.csv, NAME.csv.gz); arguments name no files. Returns the path;
+/// expects that the command succeeds.
+std::string simulated_log(const std::string& name, const std::string& arguments);
+
 /// Expects that the command said what is wrong in one line that holds `words`.
 void expect_one_line(const CommandRun& run, int status, const std::string& words);
 

@@ -24,7 +24,7 @@ void add_torque(const std::string& from, const std::string& to, const std::strin
 }
 
 TEST(Diagnose, FindsAKneesFrictionAndItsFilesAreOfUse) {
-  ASSERT_EQ(shapeid("simulate --seconds 10 --out clean.csv.gz").status, 0);
+  simulated_log("clean.csv.gz", "--seconds 10");
   add_torque("clean.csv.gz", "rough.csv.gz", "FR_knee", "dq.FR_knee",
              [](double dq) { return 0.4 * dq; });
   const CommandRun run =
@@ -79,7 +79,7 @@ TEST(Diagnose, DrawsJointsOfAnyName) {
   const std::string name = "left'hip'; system('touch drawn_by_name'); x='\"y\"";
   const std::string in_xml = "left'hip'; system('touch drawn_by_name'); x='&quot;y&quot;";
   const std::string in_csv = "left'hip'; system('touch drawn_by_name'); x='\"\"y\"\"";
-  ASSERT_EQ(shapeid("simulate --seconds 10 --out named.csv").status, 0);
+  simulated_log("named.csv", "--seconds 10");
   const auto renamed = [](std::string text, const std::string& to) {
     const std::string from = "FR_hip";
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
@@ -113,8 +113,8 @@ TEST(Diagnose, DrawsJointsOfAnyName) {
 }
 
 TEST(Diagnose, NeedsUsableSamplesToTestOn) {
-  ASSERT_EQ(shapeid("simulate --seconds 8 --out long.csv").status, 0);
-  ASSERT_EQ(shapeid("simulate --seconds 0.2 --seed 3 --out short.csv").status, 0);
+  simulated_log("long.csv", "--seconds 8");
+  simulated_log("short.csv", "--seconds 0.2 --seed 3");
   const CommandRun run = shapeid(
       fmt::format("diagnose {} --log long.csv --test short.csv --out short", quadruped_files));
   EXPECT_EQ(run.status, 1);
@@ -125,7 +125,7 @@ TEST(Diagnose, NeedsUsableSamplesToTestOn) {
 /// A knee that is pulled by the hip of another leg has no name. As a curve it predicts, here and
 /// where `identify` takes it as known.
 TEST(Diagnose, WritesWhatHasNoNameAsCurves) {
-  ASSERT_EQ(shapeid("simulate --seconds 10 --out even.csv.gz").status, 0);
+  simulated_log("even.csv.gz", "--seconds 10");
   add_torque("even.csv.gz", "pulled.csv.gz", "FR_knee", "q.RL_hip",
              [](double q) { return 3.0 * std::sin(5.0 * q); });
   const CommandRun run = shapeid(fmt::format(
@@ -148,8 +148,7 @@ TEST(Diagnose, WritesWhatHasNoNameAsCurves) {
 
 TEST(Diagnose, FitsAndTestsSeveralLogsTogether) {
   for (const char* seed : {"1", "2", "3", "4"}) {
-    const std::string words = fmt::format("simulate --seconds 4 --seed {0} --out run{0}.csv", seed);
-    ASSERT_EQ(shapeid(words).status, 0);
+    simulated_log(fmt::format("run{}.csv", seed), fmt::format("--seconds 4 --seed {}", seed));
   }
   const auto one = diagnosed(quadruped_files + " --log run1.csv --test run3.csv");
   const auto two =
@@ -164,9 +163,7 @@ TEST(Diagnose, FitsAndTestsSeveralLogsTogether) {
 /// What is fitted and what is held out are parts of one log: what is put on at its twelfth second
 /// is there in the stretch from the eighteenth on.
 TEST(Diagnose, ALoadActsFromItsMomentAlsoInWhatIsHeldOut) {
-  ASSERT_EQ(
-      shapeid("simulate --seconds 20 --load 2 0.1 0.02 0.05 --load-from 12 --out load.csv").status,
-      0);
+  simulated_log("load.csv", "--seconds 20 --load 2 0.1 0.02 0.05 --load-from 12");
   const CommandRun run =
       shapeid(fmt::format("diagnose {} --trust --log load.csv --out loaded", quadruped_files));
   ASSERT_EQ(run.status, 0) << run.err;
@@ -193,8 +190,8 @@ TEST(Diagnose, ALoadActsFromItsMomentAlsoInWhatIsHeldOut) {
 }
 
 TEST(Diagnose, TestsOnNothingThatIsFitted) {
-  ASSERT_EQ(shapeid("simulate --seconds 2 --out run.csv").status, 0);
-  ASSERT_EQ(shapeid("simulate --seconds 2 --seed 2 --out other.csv").status, 0);
+  simulated_log("run.csv", "--seconds 2");
+  simulated_log("other.csv", "--seconds 2 --seed 2");
   const auto expect_refused = [](const std::string& logs, const std::string& says) {
     const CommandRun run = shapeid(fmt::format("diagnose {} {}", quadruped_files, logs));
     EXPECT_EQ(run.status, 2) << logs;
@@ -211,8 +208,8 @@ TEST(Diagnose, TestsOnNothingThatIsFitted) {
 
 /// Copies, logs with another clock, and what was cut out of a log are no data of their own.
 TEST(Diagnose, TestsOnNoCopyOfWhatIsFitted) {
-  ASSERT_EQ(shapeid("simulate --seconds 2 --out fitted.csv").status, 0);
-  ASSERT_EQ(shapeid("simulate --seconds 2 --seed 2 --out else.csv").status, 0);
+  simulated_log("fitted.csv", "--seconds 2");
+  simulated_log("else.csv", "--seconds 2 --seed 2");
   std::filesystem::copy_file(scratch() + "/fitted.csv", scratch() + "/copy.csv",
                              std::filesystem::copy_options::overwrite_existing);
   write_changed("fitted.csv", "later.csv", [](NamedRow& row) { row["time"] += 100.0; });
@@ -241,8 +238,8 @@ TEST(Diagnose, TestsOnNoCopyOfWhatIsFitted) {
 }
 
 TEST(Diagnose, LogsOfDifferentRatesAreNotMixed) {
-  ASSERT_EQ(shapeid("simulate --seconds 2 --out run.csv").status, 0);
-  ASSERT_EQ(shapeid("simulate --seconds 2 --rate 250 --out slow.csv").status, 0);
+  simulated_log("run.csv", "--seconds 2");
+  simulated_log("slow.csv", "--seconds 2 --rate 250");
   const CommandRun run =
       shapeid(fmt::format("diagnose {} --log run.csv --also slow.csv", quadruped_files));
   EXPECT_EQ(run.status, 2);
@@ -252,8 +249,8 @@ TEST(Diagnose, LogsOfDifferentRatesAreNotMixed) {
 
 /// What is only tested on, or came before, means the same as what is diagnosed.
 TEST(Diagnose, OtherLogsAreCheckedAsTheLogIs) {
-  ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
-  ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out other.csv").status, 0);
+  simulated_log("run.csv", "--seconds 4");
+  simulated_log("other.csv", "--seconds 4 --seed 2");
   write_changed("other.csv", "turned.csv",
                 [](NamedRow& row) { row.each("tau.", [](double& tau) { tau = -tau; }); });
   for (const char* option : {"test", "reference"}) {
@@ -266,8 +263,8 @@ TEST(Diagnose, OtherLogsAreCheckedAsTheLogIs) {
 }
 
 TEST(Diagnose, LoggedAndDerivedContactsAreNotMixed) {
-  ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
-  ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out flagged.csv").status, 0);
+  simulated_log("run.csv", "--seconds 4");
+  simulated_log("flagged.csv", "--seconds 4 --seed 2");
   write_changed("flagged.csv", "derived.csv", as_it_is, {"contact."});
   const auto refused = [](const std::string& verb, const std::string& option,
                           const std::string& first, const std::string& other) {
@@ -292,9 +289,9 @@ TEST(Diagnose, LoggedAndDerivedContactsAreNotMixed) {
 }
 
 TEST(Diagnose, NotesOfFurtherLogsNameThem) {
-  ASSERT_EQ(shapeid("simulate --seconds 4 --out run.csv").status, 0);
-  ASSERT_EQ(shapeid("simulate --seconds 4 --seed 2 --out fast.csv").status, 0);
-  ASSERT_EQ(shapeid("simulate --seconds 4 --seed 3 --out test.csv").status, 0);
+  simulated_log("run.csv", "--seconds 4");
+  simulated_log("fast.csv", "--seconds 4 --seed 2");
+  simulated_log("test.csv", "--seconds 4 --seed 3");
   write_changed("fast.csv", "slopeless.csv", as_it_is, {"dq."});
   const CommandRun run =
       shapeid(fmt::format("diagnose {} --trust --json --log run.csv --also slopeless.csv "
@@ -318,7 +315,7 @@ TEST(Diagnose, RefusesAPathThatIsNone) {
 
 /// A lag asks for the samples around each one, in the fit as in the residual.
 TEST(Diagnose, MassesAreFoundBesideALagThatIsKnown) {
-  ASSERT_EQ(shapeid("simulate --seconds 4 --out even.csv.gz").status, 0);
+  simulated_log("even.csv.gz", "--seconds 4");
   const auto masses = [&](const std::string& yaml) {
     scratch_file("known.yaml", yaml);
     const CommandRun run = shapeid(
@@ -340,7 +337,7 @@ TEST(Diagnose, ListsTheCatalogue) {
 }
 
 TEST(Diagnose, EffectsThatDoNotExistAreRefusedWithTheirLine) {
-  ASSERT_EQ(shapeid("simulate --seconds 2 --out short.csv.gz").status, 0);
+  simulated_log("short.csv.gz", "--seconds 2");
   const auto refused = [&](const std::string& yaml) {
     scratch_file("effects.yaml", yaml);
     const CommandRun run = shapeid(

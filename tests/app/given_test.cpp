@@ -42,9 +42,7 @@ std::string without_last_row(const std::string& name) {
 
 class Given : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    ASSERT_EQ(shapeid("simulate --seconds 2 --out given.csv").status, 0);
-  }
+  static void SetUpTestSuite() { simulated_log("given.csv", "--seconds 2"); }
 
   /// The log with one number changed.
   static void write_with(const std::string& column, int line, double value) {
@@ -192,7 +190,7 @@ TEST_F(Given, NumbersWithoutALeadingDigitOrWithAPlus) {
 
 /// An option that no log can make right is no log's fault.
 TEST_F(Given, ABatchOfWrongOptionsBlamesNoLog) {
-  ASSERT_EQ(shapeid("simulate --seconds 2 --seed 2 --out other.csv").status, 0);
+  simulated_log("other.csv", "--seconds 2 --seed 2");
   const std::string batch = fmt::format("batch {} --log given.csv other.csv ", quadruped_files);
   expect_refused(batch + "--k1 0 --k2 0", "both 0");
   scratch_file("twice.yaml", "contacts: [{link: FR_foot}, {link: FR_foot, point: [0.01, 0, 0]}]\n");
@@ -275,7 +273,7 @@ TEST_F(Given, RobotYamlThatWasFoundIsSaid) {
           << run.err;
     }
   }
-  ASSERT_EQ(shapeid("simulate --seconds 5 --seed 3 --out longer.csv").status, 0);
+  simulated_log("longer.csv", "--seconds 5 --seed 3");
   const CommandRun diagnosis =
       shapeid(fmt::format("diagnose --trust --robot {}quadruped.urdf --log longer.csv --test "
                           "given.csv --json",
@@ -477,7 +475,7 @@ TEST_F(Given, NotesBeyondAnyRobot) {
 }
 
 TEST_F(Given, SeveralContactsWithOneForce) {
-  ASSERT_EQ(shapeid("simulate --seconds 1 --exact --out forces.csv").status, 0);
+  simulated_log("forces.csv", "--seconds 1 --exact");
   scratch_file("twice.yaml",
                "contacts: [{link: FR_foot}, {link: FL_foot}, {link: RR_foot}, {link: RL_foot}, "
                "{link: FR_foot, point: [0.01, 0, 0]}]\n");
@@ -489,7 +487,7 @@ TEST_F(Given, SeveralContactsWithOneForce) {
 
 /// Units are judged in logs with exact derivatives, too.
 TEST_F(Given, ExactLogsInOtherUnits) {
-  ASSERT_EQ(shapeid("simulate --seconds 2 --exact --out given.csv").status, 0);
+  simulated_log("given.csv", "--seconds 2 --exact");
   change([&](const std::vector<std::string>& columns, LogRow& row) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
       if (columns[c].starts_with("base.accel.")) row.values[c] /= 9.81;

@@ -31,7 +31,7 @@ nlohmann::json identified_with(const std::string& arguments) {
 }
 
 TEST(HoldOut, IsUsedForNothingElse) {
-  ASSERT_EQ(shapeid("simulate --exact --seconds 10 --rate 100 --out clean.csv").status, 0);
+  simulated_log("clean.csv", "--exact --seconds 10 --rate 100");
   scratch_file("box.yaml", "base: [{kind: cuboid, size: [0.5, 0.25, 0.15]}]\n");
   for (int stretch = 1; stretch <= 5; ++stretch) {
     constexpr double length = 2.0, margin = 0.09;

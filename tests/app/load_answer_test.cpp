@@ -89,10 +89,7 @@ void expect_found(const Answer& answer, const std::string& carrier, const Vector
 }
 
 TEST(LoadAnswer, OfABlockOnTheBase) {
-  ASSERT_EQ(shapeid("simulate --exact --seconds 2 --rate 100 --out cube.csv "
-                    "--load 1.3 0.07 -0.03 0.09 0.06")
-                .status,
-            0);
+  simulated_log("cube.csv", "--exact --seconds 2 --rate 100 --load 1.3 0.07 -0.03 0.09 0.06");
   const Answer answer = load(fmt::format("--robot {}quadruped.urdf --exact --log cube.csv "
                                          "--area base -0.1 0.2 -0.12 0.08 0.03 0.16",
                                          robots),
@@ -140,11 +137,7 @@ TEST(LoadAnswer, OfABlockOnATurnedRackOfAThigh) {
 
 /// What the data say of the load is what its own share of the link is held against.
 TEST(LoadAnswer, IsHeldAgainstWhatTheDataSayOfIt) {
-  ASSERT_EQ(
-      shapeid(
-          "simulate --seconds 2 --rate 100 --out noisy_cube.csv --load 1.3 0.07 -0.03 0.09 0.06")
-          .status,
-      0);
+  simulated_log("noisy_cube.csv", "--seconds 2 --rate 100 --load 1.3 0.07 -0.03 0.09 0.06");
   const Answer answer = load(fmt::format("--robot {}quadruped.urdf --log noisy_cube.csv "
                                          "--area base 0.03 0.12 -0.07 0.02 0.05 0.14",
                                          robots),
@@ -174,7 +167,7 @@ TEST(LoadAnswer, OfNothing) {
   const std::string mass = "<mass value=\"5.48\"/>";
   heavier.replace(heavier.find(mass), mass.size(), "<mass value=\"5.98\"/>");
   scratch_file("heavier.urdf", heavier);
-  ASSERT_EQ(shapeid("simulate --exact --seconds 2 --rate 100 --out empty.csv").status, 0);
+  simulated_log("empty.csv", "--exact --seconds 2 --rate 100");
   const Answer answer = load(
       "--robot heavier.urdf --exact --log empty.csv --area base -0.1 0.2 -0.12 0.08 0.03 0.16", 2);
   const json nothing = {{"link", "base"}, {"mass", 0.0}};
@@ -185,7 +178,7 @@ TEST(LoadAnswer, OfNothing) {
 /// A trot's touch-downs, behind 20 Hz, look like 13 g that nobody carries; its error does not say
 /// so.
 TEST(LoadAnswer, SaysWhatAnotherFilterMakesOfIt) {
-  ASSERT_EQ(shapeid("simulate --seconds 5 --seed 3 --out bare.csv").status, 0);
+  simulated_log("bare.csv", "--seconds 5 --seed 3");
   const std::string words = fmt::format(
       "--robot {}quadruped.urdf --log bare.csv --area base -0.25 0.25 -0.15 0.15 0.05 0.2 ",
       robots);
@@ -205,9 +198,7 @@ TEST(LoadAnswer, SaysWhatAnotherFilterMakesOfIt) {
 
 /// Where both agree nothing is said: a load that is there.
 TEST(LoadAnswer, SaysNothingOfFiltersThatAgree) {
-  ASSERT_EQ(shapeid("simulate --seconds 4 --seed 3 --out cube.csv --load 1.3 0.07 -0.03 0.09 0.06")
-                .status,
-            0);
+  simulated_log("cube.csv", "--seconds 4 --seed 3 --load 1.3 0.07 -0.03 0.09 0.06");
   const Answer answer = load(
       fmt::format("--robot {}quadruped.urdf --log cube.csv --cutoff 45 --area base -0.1 0.2 -0.12 "
                   "0.08 0.03 0.16",

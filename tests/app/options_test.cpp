@@ -19,9 +19,7 @@ using nlohmann::json;
 
 class Options : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    ASSERT_EQ(shapeid("simulate --seconds 3 --seed 4 --out trot.csv").status, 0);
-  }
+  static void SetUpTestSuite() { simulated_log("trot.csv", "--seconds 3 --seed 4"); }
 
   static std::vector<json> lines(const std::string& words) {
     const CommandRun run = shapeid(words);

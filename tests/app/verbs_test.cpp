@@ -138,8 +138,7 @@ TEST(Verbs, FromSimulationToAnIdentifiedUrdf) {
 
 // Without --json the same stands in a table, a line a division.
 TEST(Verbs, EveryDivisionOfALoadShowsItsDistanceFromTheFloor) {
-  ASSERT_EQ(shapeid("simulate --seconds 4 --out loaded.csv.gz --load 1.5 0.1 -0.04 0.08").status,
-            0);
+  simulated_log("loaded.csv.gz", "--seconds 4 --load 1.5 0.1 -0.04 0.08");
   const CommandRun found = shapeid(fmt::format(
       "load --robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml --log loaded.csv.gz "
       "--area base -0.2 0.2 -0.1 0.1 0.06 0.1 --divisions 4 --eps 0",
@@ -169,7 +168,7 @@ TEST(Verbs, EveryDivisionOfALoadShowsItsDistanceFromTheFloor) {
 TEST(Verbs, OnlinePrintsALinePerWindow) {
   const std::string files =
       fmt::format("--robot {0}quadruped.urdf --robot-yaml {0}quadruped.robot.yaml", robots);
-  ASSERT_EQ(shapeid("simulate --seconds 2 --out short.csv").status, 0);
+  simulated_log("short.csv", "--seconds 2");
   const CommandRun run = shapeid(fmt::format(
       "identify {} --log short.csv --shapes {}quadruped.shapes.yaml --online", files, robots));
   ASSERT_EQ(run.status, 0) << run.err;

@@ -62,7 +62,7 @@ TEST(BatchThreads, EqualsIdentifyOnOneLogWithGaps) {
   // is a piece's last.
   const json parts = done(batch("--rate 500 --divisions 5 --log " + piece_names()));
   // All of it is fitted if something else is tested on.
-  ASSERT_EQ(shapeid("simulate --seconds 2 --rate 500 --seed 9 --out other.csv").status, 0);
+  simulated_log("other.csv", "--seconds 2 --rate 500 --seed 9");
   const json whole =
       done(fmt::format("identify {0} --json --rate 500 --divisions 5 --log {1} --test other.csv",
                        bundled_robot(), whole_name()));

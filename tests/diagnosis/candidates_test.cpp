@@ -51,5 +51,24 @@ TEST(Candidates, LawsOfAJointHaveAlsoTheWidthThatWasFoundThere) {
   }
 }
 
+/// Of a ripple that a joint goes through less than twice, neighbouring periods look alike.
+TEST(Candidates, ARippleIsLongIfTheJointGoesThroughLessThanTwoPeriods) {
+  const Recording log = test::record({});
+  const auto [least, most] = std::ranges::minmax_element(
+      log.samples(), {}, [](const Sample& sample) { return sample.q[2]; });
+  const double range = most->q[2] - least->q[2];
+  ASSERT_GT(range, 0.5);
+  constexpr double pi = 3.14159265358979323846;
+  AppliedEffect ripple = test::effect("cogging", 2, {0.3, 0.1});
+  const auto periods = [&](double count) {
+    ripple.shape[0] = count * 2.0 * pi / range;
+    return is_long_ripple(log, ripple);
+  };
+  EXPECT_TRUE(periods(0.7));
+  EXPECT_TRUE(periods(1.99));
+  EXPECT_FALSE(periods(2.01));
+  EXPECT_FALSE(is_long_ripple(log, test::effect("coulomb_friction", 2, {0.2})));
+}
+
 }  // namespace
 }  // namespace shapeid::diagnosis

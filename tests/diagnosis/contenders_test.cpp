@@ -151,5 +151,31 @@ TEST(Contenders, WhatTheOthersContainIsHidden) {
   EXPECT_EQ(with_hidden.listed, (Chosen{near, same}));
 }
 
+/// A law with the width of another at its joint is looked at beside what was found, and is nothing
+/// else: not sought, not in the usual fit, and no number that chance could have had more of.
+TEST(Contenders, WhatIsOnlyARivalIsNotSought) {
+  Planted log(15);
+  Effect usual = law("usual");
+  usual.is_usual = true;
+  const Eigen::MatrixXd column = log.normal(1);
+  const std::size_t sought = log.add(usual, column, 0);
+  const std::size_t rival = log.add(usual, column + 0.1 * log.normal(1), 1);
+  const std::size_t other = log.add(law("other"), log.normal(1), 2);
+  log.plant(rival, one_number(Planted::size_of(40.0)));
+  log.add_noise();
+  const BlockFits fits = log.fits();
+  const Contenders contenders(fits, log.masses(), log.candidates());
+  EXPECT_EQ(contenders.shortlist({}, 1).listed, Chosen{rival});
+  EXPECT_EQ(contenders.usual(), (Chosen{sought, rival}));
+  EXPECT_EQ(contenders.parameters(), 3.0);
+  log.candidates()[rival].only_rival = true;
+  EXPECT_EQ(contenders.shortlist({}, 5).listed.front(), sought);
+  EXPECT_EQ(contenders.shortlist({}, 5).listed.size(), 2U);
+  EXPECT_EQ(contenders.rivals({}, 1), Chosen{rival});
+  EXPECT_EQ(contenders.rivals({other}, 5), (Chosen{rival, sought}));
+  EXPECT_EQ(contenders.usual(), Chosen{sought});
+  EXPECT_EQ(contenders.parameters(), 2.0);
+}
+
 }  // namespace
 }  // namespace shapeid::diagnosis

@@ -42,7 +42,7 @@ TEST(HostileCommand, CheckpointsThatAreDamaged) {
   const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/quadruped";
   const std::string track = fmt::format(
       "track --robot {0}.urdf --shapes {0}.shapes.yaml --checkpoint state.json", robots);
-  ASSERT_EQ(shapeid("simulate --seconds 1 --out trot.csv").status, 0);
+  simulated_log("trot.csv", "--seconds 1");
   ASSERT_EQ(shapeid(track + " trot.csv").status, 0);
   const std::string good = text_of(scratch() + "/state.json");
   const auto expect_refused = [&](const std::string& text, const std::string& words) {

@@ -78,7 +78,7 @@ TEST(HostileOutputs, StandardErrorThatIsClosedOrFull) {
 /// Under nohup a program outlives its terminal. (It ends by itself, whatever becomes of the
 /// signals.)
 TEST(HostileOutputs, AnIgnoredHangupStaysIgnored) {
-  ASSERT_EQ(shapeid("simulate --seconds 0.2 --out followed.csv").status, 0);
+  simulated_log("followed.csv", "--seconds 0.2");
   const std::string follows = command("track --whole-body --follow --patience 20 followed.csv " +
                                       quadruped_files + " >/dev/null 2>&1");
   for (const bool ignored : {true, false}) {
@@ -147,7 +147,7 @@ TEST(HostileOutputs, FoldersAreNoFiles) {
 
 // A set of files is written as a whole or not at all.
 TEST(HostileOutputs, AFolderWhereOneOfASetWouldBe) {
-  ASSERT_EQ(shapeid("simulate --exact --seconds 2 --rate 50 --out set.csv").status, 0);
+  simulated_log("set.csv", "--exact --seconds 2 --rate 50");
   scratch_file("box.yaml", "base: [{kind: cuboid, size: [0.5, 0.25, 0.15]}]\n");
   const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/";
   const std::string inputs = fmt::format(

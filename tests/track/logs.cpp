@@ -29,9 +29,7 @@ std::size_t place(const Lines& log, const std::string& column) {
 }  // namespace
 
 Lines simulated(const std::string& name, const std::string& arguments) {
-  const CommandRun run = shapeid(fmt::format("simulate --out {}.csv {}", name, arguments));
-  EXPECT_EQ(run.status, 0) << run.err;
-  return split(text_of(fmt::format("{}/{}.csv", scratch(), name)), '\n');
+  return split(text_of(simulated_log(name + ".csv", arguments)), '\n');
 }
 
 const Lines& trot_log() {

@@ -11,10 +11,10 @@ namespace shapeid::test {
 /// A log as text: the header first, a row a line.
 using Lines = std::vector<std::string>;
 
-/// The bundled quadruped trots with noisy sensors; simulated once a test program.
+/// The bundled quadruped trots with noisy sensors.
 [[nodiscard]] const Lines& trot_log();
 
-/// `shapeid simulate ARGUMENTS`, read back.
+/// What simulated_log() writes, read back.
 [[nodiscard]] Lines simulated(const std::string& name, const std::string& arguments);
 
 [[nodiscard]] std::string joined(const Lines& lines);
