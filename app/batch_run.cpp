@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "shapeid/app/batch.hpp"
-#include "shapeid/app/in_parallel.hpp"
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/merge_order.hpp"
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/app/tell.hpp"
+#include "shapeid/diagnosis/in_parallel.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/reference/triangle.hpp"
 
@@ -128,7 +128,7 @@ class Shares {
       all_[k].log.path = options.logs[k];
       if (is_mine(k)) mine.push_back(k);
     }
-    in_parallel(mine.size(), options.threads, [&](std::size_t i) {
+    diagnosis::in_parallel(mine.size(), options.threads, [&](std::size_t i) {
       all_[mine[i]] = compressed(options.logs[mine[i]], options, robot, model);
     });
   }

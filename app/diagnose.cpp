@@ -1,8 +1,10 @@
 // shapeid diagnose: what the model lacks, and a richer one.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <thread>
 #include <utility>
 
 #include "shapeid/app/diagnosis_report.hpp"
@@ -114,6 +116,10 @@ void add_diagnose(CLI::App& app) {
           "who computes rows and masses")
       ->check(CLI::IsMember({"reference", "fast"}))
       ->default_str("reference");
+  d.threads = std::max(1U, std::thread::hardware_concurrency());
+  verb->add_option("--threads", d.threads, "that go over a log at once; no number depends on it")
+      ->check(above_zero())
+      ->capture_default_str();
   verb->add_flag("--curves", d.curves,
                  "write effects.yaml and predict_torque.hpp with curves for what stays unexplained")
       ->needs(verb->get_option("--out"));

@@ -64,6 +64,7 @@ diagnosis::LoopSettings settings_for(const RobotInputs& inputs, const DiagnoseOp
   settings.weight = weight(inputs);
   settings.rule = options.rule;
   settings.log_starts = log.starts;
+  settings.threads = options.threads;
   settings.size = Eigen::VectorXd::Ones(Eigen::Index{10} * robot.link_count());
   const auto& links = settings.shapes.free_links;
   if (!links.empty()) {

@@ -29,6 +29,7 @@ struct DiagnoseOptions {
   bool curves = false;
   diagnosis::SelectionRule rule;
   diagnosis::Path path = diagnosis::Path::reference;
+  std::size_t threads = 1;  ///< that go over a log at once
 };
 
 /// Residuals on motion that was used for nothing else, per generalised row, rms.

@@ -97,6 +97,7 @@ void check_clocks(const Robot& robot, const Recording& recording, const LoopSett
   Tally all = nothing;
   TallyOptions options;
   options.stride = settings.stride;
+  options.threads = settings.threads;
   options.weight = Eigen::VectorXd::Ones(robot.dof());
   options.log_starts = log_starts;
   constexpr double blocks = 40.0;

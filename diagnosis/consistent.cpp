@@ -260,6 +260,7 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     }
     TallyOptions options;
     options.stride = settings.stride;
+    options.threads = settings.threads;
     options.weight = loop.weight;
     constexpr double blocks = 40.0;
     options.block_seconds = log.duration() / blocks;

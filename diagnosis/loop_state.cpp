@@ -34,6 +34,7 @@ LoopState::LoopState(const Robot& robot_, const Recording& log_, const Recording
                                              : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
   tally_options.stride = settings.stride;
   tally_options.margin = settings.margin;
+  tally_options.threads = settings.threads;
   tally_options.log_starts = settings.log_starts;
   tally_options.block_seconds = settings.block_seconds;
   if (tally_options.block_seconds <= 0.0) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "shapeid/diagnosis/in_parallel.hpp"
 #include "shapeid/diagnosis/row_sums.hpp"
 
 namespace shapeid::diagnosis {
@@ -75,6 +76,97 @@ Lead lead_of_side(const Recording& recording, std::size_t index, Eigen::Index jo
   return {side(index), (side(index + k) - 2.0 * side(index) + side(index - k)) / (h * h)};
 }
 
+/// Samples of which a block may have rows.
+struct Stretch {
+  std::size_t log = 0;
+  std::vector<std::size_t> samples;
+};
+
+std::vector<Stretch> stretches_of(const Recording& recording, const TallyOptions& options) {
+  std::vector<Stretch> list;
+  int number = 0;
+  std::size_t log = 0;
+  for (const std::size_t index : recording.usable(options.stride)) {
+    const double place = recording.recorded(index);
+    const int here = static_cast<int>(place / options.block_seconds);
+    const std::size_t log_before = log;
+    while (log < options.log_starts.size() && index >= options.log_starts[log]) ++log;
+    if (list.empty() || here != number || log != log_before) list.push_back({log, {}});
+    number = here;
+    if (place - here * options.block_seconds > options.block_seconds - options.margin) continue;
+    list.back().samples.push_back(index);
+  }
+  return list;
+}
+
+/// Sums one block after another; all arguments must outlive it. What it computes rows with is not
+/// for several threads at once, so each has its own.
+class BlockSummer {
+ public:
+  BlockSummer(const Tally& tally, const Robot& robot, RowSource source, const RichModel& model,
+              const Recording& recording, const TallyOptions& options)
+      : tally_(tally),
+        robot_(robot),
+        model_(model),
+        recording_(recording),
+        margin_(options.margin),
+        independent_(recording.independent_share(options.stride)),
+        hypotheses_(robot, source, model, tally.hypotheses),
+        contact_free_(robot, options.weight, source.path),
+        sums_(tally.width, robot.dof()),
+        M_(robot.dof(), tally.width) {}
+
+  /// Without samples if no row of any counts.
+  Block sum(const Stretch& stretch) {
+    Block block;
+    block.log = stretch.log;
+    for (const std::size_t index : stretch.samples) add(index, block);
+    if (block.samples > 0) block.sums = sums_.finish();
+    return block;
+  }
+
+ private:
+  void add(std::size_t index, Block& block) {
+    const Viewer& viewer = hypotheses_.viewer();
+    const View view = viewer.view(recording_, index);
+    const auto counted = counted_rows(viewer, recording_, index, view);
+    if (!counted.any()) return;
+    const Prediction predicted = predict(viewer, view, model_);
+    Rows rows{Eigen::MatrixXd(robot_.dof(), tally_.inertial + 1), view.J};
+    rows.E << view.Y, view.carried;
+    viewer.transform(view, rows);
+    M_.leftCols(tally_.inertial) = rows.E.leftCols(tally_.inertial);
+    M_.middleCols(tally_.inertial, hypotheses_.count()) =
+        hypotheses_.at(recording_, index, view, predicted);
+    for (std::size_t k = 0; k < tally_.modulations.size(); ++k) {
+      const Modulation& m = tally_.modulations[k];
+      const Eigen::Index n = tally_.hypotheses[m.hypothesis].value.size();
+      M_.middleCols(tally_.first_modulated[k], m.columns_of(n)) =
+          modulated(m, M_.middleCols(tally_.first[m.hypothesis], n), robot_, recording_, index,
+                    view, predicted.load, margin_);
+    }
+    M_.rightCols<1>() = logged_force(viewer, view) + rows.E.rightCols<1>();
+    for (Eigen::Index row = 0; row < M_.rows(); ++row) {
+      if (!counted[row]) M_.row(row).setZero();
+    }
+    const Eigen::MatrixXd beyond = contact_free_(rows.J, M_);
+    sums_.add(beyond);
+    block.freedom +=
+        independent_ * static_cast<double>(std::min<Eigen::Index>(beyond.rows(), counted.count()));
+    if (block.samples++ == 0) block.from = recording_.elapsed(index);
+  }
+
+  const Tally& tally_;
+  const Robot& robot_;
+  const RichModel& model_;
+  const Recording& recording_;
+  const double margin_, independent_;
+  const HypothesisColumns hypotheses_;
+  ContactFree contact_free_;
+  RowSums sums_;
+  Eigen::MatrixXd M_;
+};
+
 }  // namespace
 
 double light_load(const Recording& recording, Eigen::Index joint) {
@@ -125,63 +217,21 @@ Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypothes
 
 void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const RichModel& model,
                   const Recording& recording, const TallyOptions& options, bool reference) {
-  const HypothesisColumns hypotheses(robot, source, model, tally.hypotheses);
-  const Viewer& viewer = hypotheses.viewer();
-  const Eigen::Index width = tally.width;
-  ContactFree contact_free(robot, options.weight, source.path);
-  RowSums sums(width, robot.dof());
-  Block block;
-  const auto close = [&] {
-    if (block.samples == 0) return;
-    block.sums = sums.finish();
+  const std::vector<Stretch> stretches = stretches_of(recording, options);
+  std::vector<Block> blocks(stretches.size());
+  const std::size_t parts = std::max<std::size_t>(1, std::min(options.threads, blocks.size()));
+  in_parallel(parts, parts, [&](std::size_t part) {
+    BlockSummer summer(tally, robot, source, model, recording, options);
+    for (std::size_t b = part * blocks.size() / parts; b < (part + 1) * blocks.size() / parts;
+         ++b) {
+      blocks[b] = summer.sum(stretches[b]);
+    }
+  });
+  for (Block& block : blocks) {
+    if (block.samples == 0) continue;
     block.reference = reference;
     tally.blocks.push_back(std::move(block));
-    block = {};
-  };
-
-  const double independent = recording.independent_share(options.stride);
-  int number = 0;
-  std::size_t log = 0;
-  Eigen::MatrixXd M(robot.dof(), width);
-  for (const std::size_t index : recording.usable(options.stride)) {
-    const double place = recording.recorded(index);
-    const int here = static_cast<int>(place / options.block_seconds);
-    const std::size_t log_before = log;
-    while (log < options.log_starts.size() && index >= options.log_starts[log]) ++log;
-    if (here != number || log != log_before) close();
-    number = here;
-    if (place - here * options.block_seconds > options.block_seconds - options.margin) continue;
-
-    const View view = viewer.view(recording, index);
-    const auto counted = counted_rows(viewer, recording, index, view);
-    if (!counted.any()) continue;
-    const Prediction predicted = predict(viewer, view, model);
-    Rows rows{Eigen::MatrixXd(robot.dof(), tally.inertial + 1), view.J};
-    rows.E << view.Y, view.carried;
-    viewer.transform(view, rows);
-    M.leftCols(tally.inertial) = rows.E.leftCols(tally.inertial);
-    M.middleCols(tally.inertial, hypotheses.count()) =
-        hypotheses.at(recording, index, view, predicted);
-    for (std::size_t k = 0; k < tally.modulations.size(); ++k) {
-      const Modulation& m = tally.modulations[k];
-      const Eigen::Index n = tally.hypotheses[m.hypothesis].value.size();
-      M.middleCols(tally.first_modulated[k], m.columns_of(n)) =
-          modulated(m, M.middleCols(tally.first[m.hypothesis], n), robot, recording, index, view,
-                    predicted.load, options.margin);
-    }
-    M.rightCols<1>() = logged_force(viewer, view) + rows.E.rightCols<1>();
-    for (Eigen::Index row = 0; row < M.rows(); ++row) {
-      if (!counted[row]) M.row(row).setZero();
-    }
-    const Eigen::MatrixXd beyond = contact_free(rows.J, M);
-    sums.add(beyond);
-    block.freedom +=
-        independent * static_cast<double>(std::min<Eigen::Index>(beyond.rows(), counted.count()));
-    if (block.samples++ > 0) continue;
-    block.from = recording.elapsed(index);
-    block.log = log;
   }
-  close();
 }
 
 }  // namespace shapeid::diagnosis

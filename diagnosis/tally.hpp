@@ -62,6 +62,7 @@ struct TallyOptions {
   Eigen::VectorXd weight;  ///< diagonal of W, generalised order
   double margin = 0.0;     ///< s left out at the end of each block, because filters reach across
   std::vector<std::size_t> log_starts;  ///< samples at which a further log begins; no block has two
+  std::size_t threads = 1;  ///< that sum blocks at once: to the last bit the same for any number
 };
 
 /// One pass over a log. `robot` as given; the model's transformations are applied.

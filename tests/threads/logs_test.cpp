@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "shapeid/app/in_parallel.hpp"
+#include "shapeid/diagnosis/in_parallel.hpp"
 #include "shapeid/models/log_writer.hpp"
 #include "shapeid/models/motion.hpp"
 #include "shapeid/models/robot_yaml.hpp"
@@ -69,7 +69,7 @@ void write_log(const Robot& robot, std::size_t k) {
 
 std::vector<Eigen::MatrixXd> compressed(const Robots& given, std::size_t threads) {
   std::vector<Eigen::MatrixXd> triangles(logs);
-  app::in_parallel(logs, threads, [&](std::size_t k) {
+  diagnosis::in_parallel(logs, threads, [&](std::size_t k) {
     MotionReader reader(log_name(k), given.robot, given.notes, std::nullopt, {});
     reference::IdentifySettings settings;
     settings.row_filter.emplace();

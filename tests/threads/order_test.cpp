@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "shapeid/app/in_parallel.hpp"
 #include "shapeid/app/merge_order.hpp"
+#include "shapeid/diagnosis/in_parallel.hpp"
 
 namespace shapeid::test {
 namespace {
@@ -15,10 +15,10 @@ namespace {
 TEST(InParallel, EveryNumberOnceAndTheFirstExceptionByNumber) {
   for (const std::size_t threads : {1U, 2U, 5U}) {
     std::vector<std::atomic<int>> calls(100);
-    app::in_parallel(calls.size(), threads, [&](std::size_t k) { ++calls[k]; });
+    diagnosis::in_parallel(calls.size(), threads, [&](std::size_t k) { ++calls[k]; });
     for (const auto& count : calls) EXPECT_EQ(count, 1);
     try {
-      app::in_parallel(calls.size(), threads, [&](std::size_t k) {
+      diagnosis::in_parallel(calls.size(), threads, [&](std::size_t k) {
         ++calls[k];
         if (k % 30 == 17) throw std::runtime_error(std::to_string(k));
       });

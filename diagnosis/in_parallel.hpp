@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace shapeid::app {
+namespace shapeid::diagnosis {
 
 /// Calls job(0) to job(count - 1), each once, on that many threads (one: on the caller's). A job
 /// may only touch what belongs to its number. When all have ended, the exception of the smallest
@@ -12,4 +12,4 @@ namespace shapeid::app {
 void in_parallel(std::size_t count, std::size_t threads,
                  const std::function<void(std::size_t)>& job);
 
-}  // namespace shapeid::app
+}  // namespace shapeid::diagnosis

@@ -1,4 +1,4 @@
-#include "shapeid/app/in_parallel.hpp"
+#include "shapeid/diagnosis/in_parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace shapeid::app {
+namespace shapeid::diagnosis {
 
 void in_parallel(std::size_t count, std::size_t threads,
                  const std::function<void(std::size_t)>& job) {
@@ -31,4 +31,4 @@ void in_parallel(std::size_t count, std::size_t threads,
   }
 }
 
-}  // namespace shapeid::app
+}  // namespace shapeid::diagnosis
