@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "shapeid/app/option_checks.hpp"
+#include "shapeid/app/shared_stretches.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 
@@ -83,24 +84,14 @@ void BatchOptions::add_to(CLI::App& verb) {
   add_delivery_options(verb, delivery);
 }
 
-namespace {
-
-/// The same log twice would say that the answer is twice as sure.
-void refuse_repeated(const std::vector<std::string>& logs) {
-  if (const auto twice = same_file(logs)) {
-    throw InputError({logs[twice->second]}, "is given twice", "each log once");
-  }
-}
-
-}  // namespace
-
 void batch(const BatchOptions& options, Peers& peers) {
   // Only number 0 writes, and the others may be on machines that do not have the folder.
   if (peers.rank() == 0) check_delivery(options.delivery);
   for (const std::string& log : options.logs) check_no_stream(log);
-  refuse_repeated(options.logs);
   check_solver(options.settings);
   const RobotInputs robot = read_robot_with_any(options.inputs, options.logs);
+  // The same measurements twice would say that the answer is twice as sure. One process looks.
+  if (peers.rank() == 0) refuse_same_data({options.logs}, robot.mapping, options.threads);
   const BodyModel model = sought_bodies(options.sought, robot);
   BatchOptions with_mass = options;
   with_mass.settings.expected_mass = expected_mass(options.sought, robot, model);

@@ -32,6 +32,7 @@ struct BatchOptions {
 struct BatchLog {
   std::string path;
   std::string refused;  ///< why; empty for a log that was used
+  std::string code;     ///< of a refusal; empty also where the log is bad input
   std::size_t rows = 0, samples = 0, gaps = 0;
   double rate = 0.0;  ///< Hz
   bool contacts_derived = false;

@@ -52,6 +52,7 @@ Eigen::MatrixXd unpacked(const std::string& bytes) {
 
 std::string packed(const BatchLog& log) {
   return json_text({{"refused", log.refused},
+                    {"code", log.code},
                     {"rows", log.rows},
                     {"samples", log.samples},
                     {"gaps", log.gaps},
@@ -66,6 +67,7 @@ BatchLog unpacked_log(const std::string& path, const std::string& bytes) {
   BatchLog log;
   log.path = path;
   log.refused = report.at("refused");
+  log.code = report.at("code");
   log.rows = report.at("rows");
   log.samples = report.at("samples");
   log.gaps = report.at("gaps");
@@ -102,6 +104,7 @@ CompressedLog compressed(const std::string& path, const BatchOptions& options,
     result.log.refused = e.what();
   } catch (const Refusal& e) {
     result.log.refused = e.what();
+    result.log.code = e.code();
   }
   if (!result.log.refused.empty()) result.rows.resize(0, 0);
   return result;
@@ -245,21 +248,28 @@ std::string reasons_text(const std::vector<std::string>& reasons) {
 
 void judge_refused(const std::vector<BatchLog>& logs, bool skip) {
   std::vector<std::string> reasons;
+  std::string code;  // of the first, if good data cannot answer and none are bad
+  bool any_bad = false;
   for (const BatchLog& log : logs) {
     if (log.refused.empty()) continue;
+    if (code.empty()) code = log.code;
+    any_bad = any_bad || log.code.empty();
     // Most reasons name their log themselves.
     const bool names_it = log.refused.starts_with(log.path);
     reasons.push_back(names_it ? log.refused : fmt::format("{}: {}", log.path, log.refused));
   }
   if (reasons.empty()) return;
-  if (reasons.size() == logs.size()) {
-    throw InputError("every log is refused: " + reasons_text(reasons),
-                     "give logs that `inspect` finds nothing wrong with");
-  }
-  if (!skip) {
-    throw InputError(fmt::format("{} of {} logs are refused: {}", reasons.size(), logs.size(),
-                                 reasons_text(reasons)),
-                     "leave them out, or give --skip-refused");
+  const bool all = reasons.size() == logs.size();
+  if (all || !skip) {
+    const std::string said =
+        fmt::format("{}: {}",
+                    all ? "every log is refused"
+                        : fmt::format("{} of {} logs are refused", reasons.size(), logs.size()),
+                    reasons_text(reasons));
+    const std::string right = all ? "give logs that `inspect` finds nothing wrong with"
+                                  : "leave them out, or give --skip-refused";
+    if (any_bad) throw InputError(said, right);
+    throw Refusal(code, fmt::format("{}; {}", said, right));
   }
   for (const BatchLog& log : logs) {
     if (!log.refused.empty()) {

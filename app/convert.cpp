@@ -35,6 +35,10 @@ std::vector<std::string> words_of_standard_input() {
   constexpr int longest = 400;
   std::vector<std::string> words;
   for (std::string word; words.size() < most && std::cin >> std::setw(longest) >> word;) {
+    if (std::ssize(word) == longest) {
+      throw InputError({"standard input"}, "has a number of 400 digits and more",
+                       "no double has more than 17 that count");
+    }
     words.push_back(word);
   }
   if (words.size() == most) {

@@ -29,6 +29,37 @@ void check_other(const std::string& path, const Check& check) {
   }
 }
 
+/// What the logs of a set mean, of each by itself: among others one of another sign or unit would
+/// only make all of them unclear. The one that is refused is named, but for the only one there is.
+void check_meaning_of_each(const Robot& robot, const DiagnoseOptions& options,
+                           const RecordedLog& set, const std::vector<std::string>& paths,
+                           ContactTreatment contacts) {
+  const std::vector<Sample>& all = set.recording.samples();
+  // A log without samples begins nowhere, and leaves open which are the others.
+  const bool is_named = set.starts.size() + 1 == paths.size() &&
+                        (paths.size() > 1 || paths.front() != options.inputs.log);
+  for (std::size_t k = 0; k <= set.starts.size(); ++k) {
+    const auto from = static_cast<std::ptrdiff_t>(k == 0 ? 0 : set.starts[k - 1]);
+    const auto to = static_cast<std::ptrdiff_t>(k < set.starts.size() ? set.starts[k] : all.size());
+    if (from == to) continue;
+    const diagnosis::Recording log({all.begin() + from, all.begin() + to}, set.recording.rate(),
+                                   set.recording.extra());
+    const auto check = [&] { diagnosis::check_meaning(robot, log, contacts); };
+    if (is_named) {
+      check_other(paths[k], check);
+    } else {
+      check();
+    }
+  }
+}
+
+/// The settings for a log of another rate than the one that is diagnosed.
+diagnosis::LoopSettings settings_for(const RecordedLog& log, const DiagnoseOptions& options,
+                                     diagnosis::LoopSettings settings) {
+  settings.stride = stride_of(options.inputs, log.motion.rate);
+  return settings;
+}
+
 }  // namespace
 
 std::vector<std::string> fitted_logs(const DiagnoseOptions& options) {
@@ -48,7 +79,8 @@ DiagnosedLogs read_logs(const RobotInputs& robot, const DiagnoseOptions& options
   const std::vector<std::string> fitted_paths = fitted_logs(options);
   RecordedLog fitted = read_recordings(fitted_paths, robot, options.inputs, fitted_part(options));
   if (split && fitted.recording.samples().empty()) refuse_all_held_out(fitted.motion.samples);
-  diagnosis::check_recording(robot.robot, fitted.recording, fitted.contacts);
+  diagnosis::check_excitation(robot.robot, fitted.recording);
+  check_meaning_of_each(robot.robot, options, fitted, fitted_paths, fitted.contacts);
 
   const std::vector<std::string>& test_paths = split ? fitted_paths : options.test;
   const std::optional<Part> test_part = split ? std::optional(Part::held_out) : std::nullopt;
@@ -65,7 +97,8 @@ DiagnosedLogs read_logs(const RobotInputs& robot, const DiagnoseOptions& options
   if (!options.reference.empty()) {
     earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);
     check_other(options.reference, [&] {
-      diagnosis::check_recording(robot.robot, earlier->recording, earlier->contacts);
+      diagnosis::check_excitation(robot.robot, earlier->recording);
+      diagnosis::check_meaning(robot.robot, earlier->recording, earlier->contacts);
     });
     check_contacts_alike(contacts, {options.reference, earlier->motion.contacts_derived},
                          fitted.contacts);
@@ -82,13 +115,14 @@ void check_logs(const RobotInputs& robot, const DiagnoseOptions& options, const 
   diagnosis::check_clocks(robot.robot, fitted.recording, settings, fitted.starts,
                           fitted_logs(options));
   if (logs.earlier) {
-    diagnosis::check_clocks(robot.robot, logs.earlier->recording, settings, {},
+    diagnosis::check_clocks(robot.robot, logs.earlier->recording,
+                            settings_for(*logs.earlier, options, settings), {},
                             {options.reference});
   }
   if (options.test.empty()) return;
-  check_other(fmt::format("{}", fmt::join(options.test, ", ")),
-              [&] { diagnosis::check_meaning(robot.robot, test.recording, fitted.contacts); });
-  diagnosis::check_clocks(robot.robot, test.recording, settings, test.starts, options.test);
+  check_meaning_of_each(robot.robot, options, test, options.test, fitted.contacts);
+  diagnosis::check_clocks(robot.robot, test.recording, settings_for(test, options, settings),
+                          test.starts, options.test);
 }
 
 std::size_t stride_of(const MotionInputs& inputs, double rate) {

@@ -80,7 +80,10 @@ Table findings_table(const DiagnosisRun& run, const Robot& robot) {
       if (const std::string since = since_text(f); !since.empty()) {
         others += (others.empty() ? "" : "; ") + since;
       }
-      if (!f.name_stands()) others = "a description, not the cause: " + doubt(run, f, robot);
+      if (!f.name_stands()) {
+        others = "a description, not the cause: " + doubt(run, f, robot) +
+                 (others.empty() ? "" : "; ") + others;
+      }
     }
     for (std::size_t p = 0; p < a.effect->parameters.size(); ++p) {
       const auto at = static_cast<Eigen::Index>(p);
@@ -160,7 +163,8 @@ void add_undetermined(Page& page, const DiagnosisRun& run, const Robot& robot) {
         short_number(overall(run.errors.with_curves, robot)), joints_unit(robot),
         short_number(overall(run.errors.found, robot))));
   }
-  if (run.structures.empty()) page.paragraph("The residual follows no signal that was tested.");
+  if (run.structures.empty())
+    page.paragraph("Of what was fitted, the residual follows no signal that was tested.");
   constexpr std::size_t shown = 6;
   for (std::size_t i = 0; i < std::min(shown, run.structures.size()); ++i) {
     const diagnosis::Structure& s = run.structures[i];
@@ -204,8 +208,8 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
       "Predicted minus logged torque, root mean square, {} (base rows: N and N m). "
       "Usual fit: least squares of masses and, at every joint, viscous and Coulomb friction, an "
       "offset and a rotor, nothing selected. Unfiltered: the found model against the torque as "
-      "logged.",
-      joints_unit(robot)));
+      "logged. {}",
+      joints_unit(robot), beyond_contacts(run, robot)));
   page.table(errors_table(run, robot));
   page.paragraph(noise_floor_words(filtered));
   if (const std::string picture = errors_picture(run, robot); !picture.empty()) {

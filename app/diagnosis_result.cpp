@@ -226,9 +226,11 @@ std::string errors_text(const DiagnosisRun& run, const Robot& robot) {
   const auto all = [&](const Eigen::VectorXd& rms, int digits) {
     return number_or_dash(overall(rms, robot), digits);
   };
-  return text + fmt::format("  {:<20}{:>10}{:>10}{:>10}{:>10}{:>14}{:>12}  {}\n", "all joints",
-                            all(e.zero, 4), all(e.given, 4), all(e.usual, 4), all(e.found, 4),
-                            all(e.noise_floor, 3), all(e.unfiltered_found, 4), joints_unit(robot));
+  text += fmt::format("  {:<20}{:>10}{:>10}{:>10}{:>10}{:>14}{:>12}  {}\n", "all joints",
+                      all(e.zero, 4), all(e.given, 4), all(e.usual, 4), all(e.found, 4),
+                      all(e.noise_floor, 3), all(e.unfiltered_found, 4), joints_unit(robot));
+  const std::string contacts = beyond_contacts(run, robot);
+  return contacts.empty() ? text : text + fmt::format("  {}\n", contacts);
 }
 
 std::string curves_text(const DiagnosisRun& run, const Robot& robot) {
@@ -243,7 +245,7 @@ std::string curves_text(const DiagnosisRun& run, const Robot& robot) {
 }
 
 std::string structures_text(const DiagnosisRun& run) {
-  if (run.structures.empty()) return "\nthe residual follows no signal that was tested\n";
+  if (run.structures.empty()) return "\nof what was fitted, the residual follows no signal that was tested\n";
   std::string text =
       "\nunexplained: the residual still follows (share of its variance on blocks left out)\n";
   constexpr std::size_t shown = 12;
@@ -279,6 +281,11 @@ std::map<std::string, JointFriction> joint_friction(const DiagnosisRun& run, con
 }
 
 }  // namespace
+
+std::string beyond_contacts(const DiagnosisRun& run, const Robot& robot) {
+  if (run.settings.rows.contacts != ContactTreatment::project || robot.contacts.empty()) return "";
+  return "What contact forces could explain is taken out of all torques and errors.";
+}
 
 std::string since_text(const diagnosis::Found& found) {
   if (found.may_be_of_other_time) {

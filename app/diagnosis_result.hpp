@@ -24,8 +24,11 @@ namespace shapeid::app {
 /// Why an effect of Consistent::dropped is not in the model: half a sentence.
 [[nodiscard]] std::string why_left_out(const diagnosis::AppliedEffect& dropped);
 
-/// Whether it came since the reference log; empty if it did not.
+/// That it came since the reference log, or may have; empty if neither.
 [[nodiscard]] std::string since_text(const diagnosis::Found& found);
+
+/// Where contact forces are projected away, a sentence that says so; else empty.
+[[nodiscard]] std::string beyond_contacts(const DiagnosisRun& run, const Robot& robot);
 
 /// What is said of Found::hangs_on_given.
 inline constexpr const char* hangs_on_given =

@@ -48,7 +48,7 @@ class MemoryFile {
 };
 
 InputError missing() {
-  return {"gnuplot is missing", "install Debian's gnuplot-nox, or ask for no pictures"};
+  return {"gnuplot is missing", "install Debian's gnuplot-nox, or leave --out away"};
 }
 
 }  // namespace
@@ -75,8 +75,9 @@ void check_gnuplot() {
 std::string gnuplot(const std::string& script) {
   const MemoryFile file(script);
   std::string output;
-  // A user's own settings would change the pictures.
-  const std::string command = fmt::format("gnuplot -d /dev/fd/{} 2>/dev/null", file.descriptor());
+  // A user's own settings would change the pictures, or ask for what is not installed.
+  const std::string command =
+      fmt::format("GNUTERM=svg gnuplot -d /dev/fd/{} 2>/dev/null", file.descriptor());
   int status = -1;
   if (std::FILE* pipe = ::popen(command.c_str(), "r")) {
     std::array<char, 4096> buffer{};
@@ -89,7 +90,10 @@ std::string gnuplot(const std::string& script) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == not_found) {
     throw missing();
   }
-  if (status != 0) throw Defect("gnuplot refused to draw what it was given");
+  if (status != 0) {
+    throw InputError("gnuplot does not draw what it is given",
+                     "install Debian's gnuplot-nox, or leave --out away");
+  }
   // gnuplot's own declaration and document type have no place inside an HTML page.
   const auto start = output.find("<svg");
   return without_titles(start == std::string::npos ? output : output.substr(start));

@@ -135,9 +135,8 @@ class EffectsRun {
 /// else.
 void note_worse_prediction(const Robot& robot, Result& result) {
   if (result.heldout.samples == 0) return;
-  const int n = robot.joint_count();
-  const double given = result.heldout.given.tail(n).norm();
-  const double found = result.heldout.found.tail(n).norm();
+  const double given = overall(result.heldout.given, robot);
+  const double found = overall(result.heldout.found, robot);
   const std::string before = fmt::format("{:.3g}", given), now = fmt::format("{:.3g}", found);
   if (!(found > given) || now == before) return;
   result.notes.push_back(fmt::format(
@@ -224,6 +223,9 @@ void deliver(const Delivery& delivery, nlohmann::json document, const std::strin
              const Result& result, const Judgement& judged, const RobotInputs& robot,
              const MotionInputs& inputs) {
   const std::vector<std::string>& reasons = judged.certified.reasons;
+  if (!reasons.empty()) {
+    throw std::logic_error("the exact checker rejects this answer: " + reasons.front());
+  }
   document["certificate"] = {
       {"accepted", reasons.empty()}, {"gap", judged.certified.proof.gap}, {"reasons", reasons}};
   const std::string json = json_text(document, 2) + "\n";
@@ -239,9 +241,6 @@ void deliver(const Delivery& delivery, nlohmann::json document, const std::strin
   if (!delivery.folder.empty()) {
     OutputFolder(delivery.folder).write(files);
     tell(fmt::format("{}", certified_text(judged.certified)));
-  }
-  if (!reasons.empty()) {
-    throw std::logic_error("the exact checker rejects this answer: " + reasons.front());
   }
 }
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstddef>
@@ -72,12 +75,25 @@ std::vector<std::string> with_leading_digits(int argc, char** argv) {
   return words;
 }
 
+/// Files that are opened must not get the numbers of standard ones that the caller has closed.
+/// Writing to a standard output that was closed stays an error.
+void fill_closed_descriptors() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(number, F_GETFD) != -1) continue;
+    // The lowest number that is free is this one.
+    static_cast<void>(::open("/dev/null", number == STDERR_FILENO ? O_WRONLY : O_RDONLY));
+  }
+}
+
 }  // namespace
 
 int run_command(CLI::App& app, int argc, char** argv) {
-  // A reader that has gone is an error of writing, said in a line, not a silent end.
+  fill_closed_descriptors();
+  // A reader that has gone, or a file that may not grow, is an error of writing, said in a line,
+  // not a silent end.
   std::signal(SIGPIPE, SIG_IGN);
-  for (const int end : {SIGINT, SIGTERM, SIGHUP}) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int end : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
     // What was ignored stays so: under nohup a program outlives its terminal.
     if (std::signal(end, stop) == SIG_IGN) std::signal(end, SIG_IGN);
   }

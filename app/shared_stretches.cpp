@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "shapeid/app/option_checks.hpp"
+#include "shapeid/diagnosis/in_parallel.hpp"
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::app {
@@ -25,7 +26,7 @@ constexpr std::size_t length = 10;
 /// Of one log's stretches.
 constexpr double too_many = 0.1;
 /// Digests that are kept of a log: the smallest, which are the same ones in a copy.
-constexpr std::size_t most_kept = 1U << 16U;
+constexpr std::size_t most_kept = 1U << 12U;
 
 /// The next state of splitmix64 (Steele, Lea, Flood 2014).
 std::uint64_t mixed(std::uint64_t state) {
@@ -150,32 +151,41 @@ void refuse_same_files(const LogsByUse& logs) {
 
 }  // namespace
 
-void refuse_same_data(const LogsByUse& logs, const std::optional<Mapping>& mapping) {
+void refuse_same_data(const LogsByUse& logs, const std::optional<Mapping>& mapping,
+                      std::size_t threads) {
   if (logs.fitted.size() + logs.earlier.size() + logs.tested.size() < 2) return;
   refuse_same_files(logs);
   enum class Use { fitted, earlier, tested };
   struct Known {
     std::string path;
     Use use;
-    Stretches stretches;
+    std::optional<Stretches> stretches = {};
   };
-  std::vector<Known> before;
-  const auto compare = [&](const std::string& path, Use use) {
-    Stretches here(path, mapping);
-    for (const Known& known : before) {
-      if (use == Use::earlier && known.use == Use::fitted) continue;
-      if (!here.are_shared_with(known.stretches)) continue;
-      const bool is_test = use == Use::tested && known.use != Use::tested;
+  std::vector<Known> all;
+  for (const std::string& path : logs.fitted) all.push_back({path, Use::fitted});
+  for (const std::string& path : logs.earlier) all.push_back({path, Use::earlier});
+  for (const std::string& path : logs.tested) all.push_back({path, Use::tested});
+  diagnosis::in_parallel(all.size(), threads, [&](std::size_t k) {
+    try {
+      all[k].stretches.emplace(all[k].path, mapping);
+    } catch (const InputError&) {
+      all[k].stretches.reset();
+    }
+  });
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Known& here = all[k];
+    for (std::size_t i = 0; i < k; ++i) {
+      const Known& known = all[i];
+      if (here.use == Use::earlier && known.use == Use::fitted) continue;
+      if (!here.stretches || !known.stretches) continue;
+      if (!here.stretches->are_shared_with(*known.stretches)) continue;
+      const bool is_test = here.use == Use::tested && known.use != Use::tested;
       throw InputError(
-          {path},
+          {here.path},
           fmt::format("holds measurements of {}{}", known.path, is_test ? ", which is fitted" : ""),
           is_test ? "a test on data that are used for nothing else" : "each measurement once");
     }
-    before.push_back({path, use, std::move(here)});
-  };
-  for (const std::string& path : logs.fitted) compare(path, Use::fitted);
-  for (const std::string& path : logs.earlier) compare(path, Use::earlier);
-  for (const std::string& path : logs.tested) compare(path, Use::tested);
+  }
 }
 
 }  // namespace shapeid::app

@@ -1,6 +1,7 @@
 // Measurements that stand in two logs: copies, cuttings, logs with another clock.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,9 @@ struct LogsByUse {
 /// Throws InputError if a log is given twice, or holds a stretch of another one: a tested log of
 /// any other, a fitted one of another fitted one. By joint angles and torques alone, whatever the
 /// times: a stretch that was cut out begins at zero as a rule. `mapping`: the logs' own, if there
-/// is one. Reads every log once, if there are several, in memory that does not grow with it.
-void refuse_same_data(const LogsByUse& logs, const std::optional<Mapping>& mapping);
+/// is one. Reads every log once, if there are several, in memory that does not grow with it, so
+/// many at once as there are threads. What cannot be read is left to who reads it next.
+void refuse_same_data(const LogsByUse& logs, const std::optional<Mapping>& mapping,
+                      std::size_t threads = 1);
 
 }  // namespace shapeid::app

@@ -86,7 +86,12 @@ std::vector<double> logarithmic_ticks(const Span& span, double pixels) {
   };
   std::vector<double> ticks = ticks_of(round_numbers.size(), 1);
   for (int every = 1; !fit(ticks); ++every) ticks = ticks_of(1, every);
-  return ticks;
+  if (ticks.size() > 1) return ticks;
+  // Less than a decade, with no two of them: as on any other axis.
+  const double step = step_across(span, pixels);
+  std::vector<double> even;
+  for (double k = std::ceil(span.low / step); k * step <= span.high; ++k) even.push_back(k * step);
+  return fit(even) && even.size() > ticks.size() ? even : ticks;
 }
 
 }  // namespace shapeid::app

@@ -20,13 +20,6 @@
 namespace shapeid::diagnosis {
 namespace {
 
-void check_excitation(const Robot& robot, const Recording& recording) {
-  MotionExtent extent;
-  for (const Sample& s : recording.samples()) extent.add(s);
-  if (extent.some_joint_moved(robot)) return;
-  throw Refusal("not-excited", "no joint moves; log a motion that moves and loads every joint");
-}
-
 /// Where motion is fast, torque need not run against the model of a base that hangs.
 void check_base(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
   if (robot.root != Root::fixed) return;
@@ -74,10 +67,12 @@ void check_clock(Tally tally, const RichModel& given, const LoopSettings& settin
 
 }  // namespace
 
-void check_recording(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
+void check_excitation(const Robot& robot, const Recording& recording) {
   if (recording.samples().empty()) throw Refusal("no-data", "the log has no usable sample");
-  check_excitation(robot, recording);
-  check_meaning(robot, recording, contacts);
+  MotionExtent extent;
+  for (const Sample& s : recording.samples()) extent.add(s);
+  if (extent.some_joint_moved(robot)) return;
+  throw Refusal("not-excited", "no joint moves; log a motion that moves and loads every joint");
 }
 
 void check_meaning(const Robot& robot, const Recording& recording, ContactTreatment contacts) {

@@ -9,12 +9,12 @@
 
 namespace shapeid::diagnosis {
 
-/// Throws Refusal:
-///  * "not-excited": no joint moves;
-///  and what check_meaning() refuses.
-void check_recording(const Robot& robot, const Recording& recording, ContactTreatment contacts);
+/// Of logs that are fitted, together. Throws Refusal:
+///  * "no-data": there is no usable sample;
+///  * "not-excited": no joint moves.
+void check_excitation(const Robot& robot, const Recording& recording);
 
-/// What holds of a log that is only tested on, too. Throws Refusal:
+/// Of each log, also of one that is only tested on. Throws Refusal:
 ///  * "imu-axes" and "contact-labels", by feet that stand (reference/standing_feet.hpp);
 ///  * "torque-scale", "torque-sign" and "torque-order", by what the given links predict
 ///    (torque_columns.hpp);

@@ -269,7 +269,9 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       RichModel earlier = result.model;
       std::erase_if(earlier.effects,
                     [](const AppliedEffect& a) { return a.is_of_the_log_alone(); });
-      add_to_tally(tally, robot, settings.rows, earlier, *reference, options, true);
+      TallyOptions of_reference = options;
+      of_reference.stride = log.stride_for(*reference, settings.stride);
+      add_to_tally(tally, robot, settings.rows, earlier, *reference, of_reference, true);
     }
     add_to_tally(tally, robot, settings.rows, result.model, log, options, false);
     const BodySums sums(shapes, std::move(tally), since);

@@ -75,12 +75,15 @@ bool Contenders::same_place(std::size_t k, std::size_t other) const {
   return diagnosis::same_place(candidates_[k].effect, candidates_[other].effect);
 }
 
+bool Contenders::same_law(std::size_t k, std::size_t other) const {
+  const AppliedEffect &a = candidates_[k].effect, &b = candidates_[other].effect;
+  return a.effect == b.effect && a.site == b.site;
+}
+
 std::optional<std::size_t> Contenders::of_other_time(std::size_t k) const {
-  const AppliedEffect& own = candidates_[k].effect;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    const AppliedEffect& other = candidates_[i].effect;
-    if (candidates_[i].members.empty() && other.since_reference != own.since_reference &&
-        other.effect == own.effect && other.site == own.site) {
+    if (candidates_[i].members.empty() && same_law(k, i) &&
+        candidates_[i].effect.since_reference != candidates_[k].effect.since_reference) {
       return i;
     }
   }

@@ -50,6 +50,8 @@ class Contenders {
   /// Likewise, or another onset of one of these.
   [[nodiscard]] bool is_taken(std::size_t k, const Chosen& chosen) const;
   [[nodiscard]] bool same_place(std::size_t k, std::size_t other) const;
+  /// The same effect at the same site, whenever it came.
+  [[nodiscard]] bool same_law(std::size_t k, std::size_t other) const;
   /// Of what came since the reference log the same that acts in both logs, of what acts in both the
   /// same that came since, if that is a candidate.
   [[nodiscard]] std::optional<std::size_t> of_other_time(std::size_t k) const;

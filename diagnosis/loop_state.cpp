@@ -51,6 +51,7 @@ BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
   if (reference) {
     TallyOptions options = tally_options;
     options.log_starts.clear();
+    options.stride = log.stride_for(*reference, settings.stride);
     add_to_tally(tally, robot, settings.rows, earlier_model(), *reference, options, true);
     // The change of what was not there yet is none.
     for (std::size_t k = 0; k < hypotheses.size(); ++k) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -66,6 +67,12 @@ class Recording {
   /// The stride of about so many samples, evenly: for coarse questions.
   [[nodiscard]] std::size_t stride_of(std::size_t count) const {
     return std::max<std::size_t>(1, samples_.size() / count);
+  }
+
+  /// The stride of another log whose samples are as far apart in time as with `stride` in this one.
+  [[nodiscard]] std::size_t stride_for(const Recording& other, std::size_t stride) const {
+    const double samples = static_cast<double>(stride) * other.rate_ / rate_;
+    return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(samples)));
   }
 
   /// Whether so many samples go before, and follow, without a gap.

@@ -60,7 +60,8 @@ void take_selection(const BlockFits& fits, const Term& fixed, const std::vector<
   state.set_masses(selection.fit);
   step_transformations(fits.tally(), fixed, selection.fit, state);
   state.collect_effects();
-  result.hypotheses = list.size();
+  result.hypotheses = static_cast<std::size_t>(
+      std::count_if(list.begin(), list.end(), [](const Candidate& c) { return !c.only_rival; }));
   result.last_ranking = ranked(list, selection.last_ranking);
   result.hidden.clear();
   for (const std::size_t k : selection.hidden) {

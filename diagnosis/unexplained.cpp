@@ -97,8 +97,9 @@ Waves waves_at(double u, std::size_t values) {
 }
 
 /// The curve of y over x; empty if it does not hold on other blocks. It is judged as a smooth
-/// function of the rank of x with four numbers, because every number costs held-out error, and
-/// filtered samples are few independent ones; it is shown as means of ten bins. What it takes away
+/// function of the rank of x with four numbers at most, because every number costs held-out error,
+/// and filtered samples are few independent ones; it is shown as means of ten bins, or of fewer
+/// where x has few values. What it takes away
 /// must be more than chance would of as much noise: blocks are few, and at times agree by chance.
 ///
 /// Folds are whole stretches of time. A curve over time itself cannot be judged so: on a stretch at

@@ -59,10 +59,8 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
         gains_something(gain_of(without, instead)) && as_good_as(error, instead);
   }
   for (const std::size_t rival : contenders_.rivals(others, rule_.rivals)) {
-    if (rival == k || rival == other_time || contenders_.same_place(k, rival) ||
-        !contenders_[rival].members.empty()) {
-      continue;
-    }
+    // The same law with another width, or from the reference log on, is no other cause.
+    if (contenders_.same_law(k, rival) || !contenders_[rival].members.empty()) continue;
     const Eigen::VectorXd instead = around.with(contenders_[rival].term);
     if (!gains_something(gain_of(without, instead))) continue;
     if (!as_good_as(error, instead) && !costs_its_numbers(rival, k, error, instead)) continue;

@@ -44,7 +44,8 @@ typedef struct shapeid_settings {
   shapeid_contacts contacts; /**< project */
   /** Diagonal of W, 1 / sigma^2 of each equation: base force (3), base moment (3) (floating root
    * only), then a number for each joint; positive, and within twelve decades of each other
-   * (docs/derivations/projection.md). NULL (default): ones. Read by shapeid_create() alone. */
+   * (docs/derivations/projection.md). NULL (default): ones, whatever robot.yaml says of noise. Read by
+   * shapeid_create() alone. */
   const double* weight;
   size_t weight_count;   /**< numbers there: 6 + joints, or joints for a fixed root; 0 for NULL */
   size_t window;         /**< samples a window: 10 */

@@ -68,9 +68,12 @@ Eigen::Index Butterworth::samples_to_decay(double fraction) const {
     const std::complex<double> root = std::sqrt(std::complex(s.a1 * s.a1 / 4.0 - s.a2));
     slowest = std::max(slowest, std::abs(std::abs(s.a1) / 2.0 + root));
   }
+  // Far below the rate a pole rounds to one: nothing decays, and no log is as long as that.
+  constexpr double longest = 1e12;
+  if (!(slowest < 1.0)) return static_cast<Eigen::Index>(longest);
   // All poles at zero: forgotten at once.
   const double samples = std::ceil(std::log(fraction) / std::log(slowest));
-  return std::max(Eigen::Index{1}, static_cast<Eigen::Index>(samples));
+  return static_cast<Eigen::Index>(std::clamp(samples, 1.0, longest));
 }
 
 double noise_left_over_taken(double cutoff, double rate) {

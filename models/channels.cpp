@@ -74,9 +74,11 @@ class Finder {
     asked_.insert(ours);
     const ColumnRule* const r = rule(ours);
     if (r == nullptr) {
+      use_once(ours, ours);
       return {ours, ours, column(ours, "add it, or name its source in a mapping file")};
     }
     Channel channel{ours, r->from, column(r->from, ""), r->sign * r->scale, r->offset};
+    use_once(r->from, ours);
     if (!r->hold.empty()) {
       channel.hold_group =
           groups_.try_emplace(r->hold, static_cast<int>(groups_.size())).first->second;
@@ -114,6 +116,16 @@ class Finder {
   }
 
  private:
+  /// A signal is one quantity; contacts of one foot may share a flag.
+  void use_once(const std::string& from, const std::string& ours) {
+    if (ours.starts_with("contact.")) return;
+    const auto [first, is_new] = makes_.try_emplace(from, ours);
+    if (is_new || first->second == ours) return;
+    throw InputError({path_, header_line, from},
+                     fmt::format("is to be {} and {}", first->second, ours),
+                     "a column of its own for each, in the log or in the mapping");
+  }
+
   [[nodiscard]] const ColumnRule* rule(const std::string& ours) const {
     if (!mapping_) return nullptr;
     const auto found = mapping_->columns.find(ours);
@@ -124,6 +136,7 @@ class Finder {
   const std::optional<Mapping>& mapping_;
   std::map<std::string, std::size_t> columns_;
   std::set<std::string> used_, asked_;
+  std::map<std::string, std::string> makes_;  ///< of each column that is used what it is
   std::map<std::string, int> groups_;
 };
 

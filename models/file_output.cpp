@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -117,9 +118,18 @@ void OutputPlace::check_writable() const {
   discard();
 }
 
+void OutputPlace::keep_private() const {
+  struct stat before {};
+  if (writable_ == path_ || ::stat(final_.c_str(), &before) != 0) return;
+  const int file = ::open(writable_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  if (file < 0) return;  // which is said when it is opened to be written
+  static_cast<void>(::fchmod(file, (before.st_mode & 0777U) | S_IWUSR));
+  ::close(file);
+}
+
 std::string OutputPlace::folder() const {
   const fs::path parent = fs::path(final_).parent_path();
-  return parent.empty() ? "." : parent.string();
+  return behind_links(parent.empty() ? "." : parent.string());
 }
 
 void OutputPlace::finish() const {
@@ -153,6 +163,7 @@ void write_files(const std::vector<FileText>& files) {
   try {
     for (const FileText& file : files) {
       const OutputPlace& place = places.emplace_back(file.path);
+      place.keep_private();
       std::ofstream out(place.writable(), std::ios::binary);
       out << file.text;
       out.close();

@@ -17,6 +17,9 @@ class OutputPlace {
 
   /// The file to write to: beside the final one, unless that is no regular file.
   [[nodiscard]] const std::string& writable() const { return writable_; }
+  /// Before it is opened: while it is written nobody else may read it than may read what it
+  /// replaces.
+  void keep_private() const;
   /// Before anything is written: throws InputError if nothing could be. Leaves nothing behind.
   void check_writable() const;
   /// The folder that the file is in at last.

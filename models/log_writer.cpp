@@ -34,6 +34,7 @@ struct LogWriter::State {
   State(const std::string& p, std::vector<std::string> names)
       : place(p), columns(std::move(names)) {
     check_names(columns, p);
+    place.keep_private();
     const bool zipped = p.ends_with(".gz");
     file = gzopen(place.writable().c_str(), zipped ? "wb" : "wbT");  // T: transparent, no gzip
     if (file == nullptr) fail("cannot be written");

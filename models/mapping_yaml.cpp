@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <set>
 
 #include "shapeid/models/log.hpp"
+#include "shapeid/models/number.hpp"
 #include "shapeid/models/yaml_input.hpp"
 
 namespace shapeid {
@@ -23,7 +27,17 @@ std::map<std::string, double> read_numbers(const YamlInput& file, const YAML::No
 std::string read_hold(const YamlInput& file, const YAML::Node& node, const ColumnRule& rule) {
   const std::string word = file.text(node, "hold");
   if (word == "true") return rule.from;
-  return word == "false" ? "" : word;
+  if (word == "false") return "";
+  // YAML has had many spellings of these; as a name none of them is meant.
+  static const std::set<std::string> spellings = {"true", "false", "yes", "no", "on", "off"};
+  std::string lower = word;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (spellings.contains(lower) || parse_number(word)) {
+    file.refuse(node, fmt::format("hold is {}", word),
+                "write true, false, or a name that columns which are read at once share");
+  }
+  return word;
 }
 
 ColumnRule read_rule(const YamlInput& file, const YAML::Node& node, const std::string& ours) {

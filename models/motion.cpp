@@ -62,6 +62,11 @@ struct MotionReader::State {
     report.floating = plan.floating();
     report.forces_logged = plan.force >= 0;
     report.extra = plan.extra;
+    if (report.contacts_derived) {
+      report.notes.emplace_back(
+          "no contact.* columns: which feet touch is derived from joint torques and the given "
+          "masses (--contact-threshold)");
+    }
     if (plan.dq < 0) {
       report.notes.emplace_back("no dq.* columns: units of q and time are not checked by slopes");
     }

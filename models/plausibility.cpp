@@ -58,7 +58,7 @@ void Plausibility::Range::add(double value, int at) {
 
 void Plausibility::Slope::add(double t, double position, double velocity, double longest_step) {
   if (std::isnan(position) || std::isnan(velocity)) return;
-  const bool follows = in_span > 0 && t - time <= longest_step;
+  const bool follows = in_span > 0 && t > time && t - time <= longest_step;
   if (follows) integral += 0.5 * (velocity + dq) * (t - time);
   if (follows && in_span == span) {
     const double change = position - start;

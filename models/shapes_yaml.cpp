@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <variant>
 
 #include "shapeid/models/mesh_file.hpp"
 #include "shapeid/models/shape_size.hpp"
@@ -35,6 +37,17 @@ Shape read_polyhedron(const YamlInput& in, const YAML::Node& node, const Eigen::
     in.refuse(node["hull"], "hull is " + hull, "true or false");
   if (hull == "true") return make_convex_hull(mesh.vertices, pose);
   return make_mesh(std::move(mesh.vertices), std::move(mesh.faces), pose);
+}
+
+/// Whether its volume is what is left of terms so much larger that the rounding of its vertices,
+/// where they lie, shows in it: no certificate could hold.
+bool is_too_thin(const Shape& shape) {
+  const auto* const solid = std::get_if<Polyhedron>(&shape);
+  if (solid == nullptr) return false;
+  double farthest = 0.0;
+  for (const Eigen::Vector3d& v : solid->vertices) farthest = std::max(farthest, v.norm());
+  constexpr double least_share = 1e-8;
+  return !(volume(shape) > least_share * farthest * farthest * farthest);
 }
 
 Shape read_kind(const YamlInput& in, const YAML::Node& node, const std::string& kind,
@@ -75,6 +88,10 @@ Shape read_shape(const YamlInput& in, const YAML::Node& node, const Eigen::Isome
     Shape shape = read_kind(in, node, in.text(node["kind"], "kind"), pose);
     if (const Violation why = why_no_size(shape)) {
       in.refuse(node, "the shape " + *why, "lengths are in metres");
+    }
+    if (is_too_thin(shape)) {
+      in.refuse(node, "the solid is too thin for its place: rounding would change its volume",
+                "a thicker solid, or one that is nearer to its link's origin");
     }
     return shape;
   } catch (const std::invalid_argument& error) {

@@ -25,6 +25,9 @@ namespace shapeid {
 /// is longer than `most` bytes is cut. Messages quote files, and a file may hold anything.
 [[nodiscard]] std::string one_line(const std::string& text, std::size_t most);
 
+/// rad, of an angle in a file: a turn and its rounding. What is more was meant in degrees.
+inline constexpr double largest_angle = 6.3;
+
 /// R = Rz(yaw) Ry(pitch) Rx(roll), angles in rad: URDF's fixed-axis roll, pitch, yaw.
 [[nodiscard]] Eigen::Matrix3d rotation_from_rpy(const Eigen::Vector3d& rpy);
 

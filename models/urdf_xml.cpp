@@ -48,6 +48,19 @@ void refuse_declarations(const XMLNode& node, const std::string& file) {
 
 }  // namespace
 
+/// What a macro would put in its place is missing in the robot.
+void refuse_macros(const XMLElement& element, const std::string& file) {
+  for (const XMLElement* c = element.FirstChildElement(); c != nullptr;
+       c = c->NextSiblingElement()) {
+    if (std::string_view(c->Name()).starts_with("xacro:")) {
+      throw InputError({file, c->GetLineNum(), {}},
+                       fmt::format("<{}> is of xacro, which is not expanded here", c->Name()),
+                       "expand the file first: xacro FILE > robot.urdf");
+    }
+    refuse_macros(*c, file);
+  }
+}
+
 const XMLElement& parse_robot(const std::string& text, const std::string& file,
                               tinyxml2::XMLDocument& document) {
   if (text.size() > largest_file) {
@@ -78,6 +91,7 @@ const XMLElement& parse_robot(const std::string& text, const std::string& file,
                        "one file holds one robot");
     }
   }
+  refuse_macros(*root, file);
   return *root;
 }
 
@@ -186,7 +200,13 @@ Eigen::Isometry3d Reader::origin(const XMLElement& element) const {
   const XMLElement* found = child(element, "origin");
   if (found == nullptr) return pose;
   pose.translation() = three(*found, "xyz", Eigen::Vector3d::Zero());
-  pose.linear() = rotation_from_rpy(three(*found, "rpy", Eigen::Vector3d::Zero()));
+  const Eigen::Vector3d rpy = three(*found, "rpy", Eigen::Vector3d::Zero());
+  if (rpy.cwiseAbs().maxCoeff() > largest_angle) {
+    throw InputError(at(found->GetLineNum()),
+                     fmt::format("rpy of <origin> turns by {:g}", rpy.cwiseAbs().maxCoeff()),
+                     "radians, a turn at most");
+  }
+  pose.linear() = rotation_from_rpy(rpy);
   return pose;
 }
 

@@ -148,7 +148,14 @@ Eigen::Isometry3d YamlInput::pose(const YAML::Node& node, const std::string& wha
   check_keys(node, what, {}, {"xyz", "rpy"});
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
   if (node["xyz"]) result.translation() = place(node["xyz"], what + " xyz");
-  if (node["rpy"]) result.linear() = rotation_from_rpy(three(node["rpy"], what + " rpy"));
+  if (node["rpy"]) {
+    const Eigen::Vector3d rpy = three(node["rpy"], what + " rpy");
+    if (rpy.cwiseAbs().maxCoeff() > largest_angle) {
+      refuse(node["rpy"], fmt::format("{} rpy turns by {:g}", what, rpy.cwiseAbs().maxCoeff()),
+             "radians, a turn at most");
+    }
+    result.linear() = rotation_from_rpy(rpy);
+  }
   return result;
 }
 

@@ -123,7 +123,8 @@ void StandingFeet::judge_labels() const {
   if (!(standing > alike * flying)) return;
   throw Refusal("contact-labels",
                 fmt::format("feet declared to stand move against each other at {:.2g} m/s, feet "
-                            "declared in the air at {:.2g} m/s: the labels do not fit the motion",
+                            "declared in the air at {:.2g} m/s: the contacts, as they are logged "
+                            "or were derived from the given masses, do not fit the motion",
                             standing, flying));
 }
 

@@ -33,13 +33,6 @@ void expect_refused(const std::string& arguments, const std::string& says, int s
   EXPECT_TRUE(run.out.empty()) << run.out;
 }
 
-/// Of a file in scratch(): so a log is none of the same bytes.
-std::string without_last_row(const std::string& name) {
-  std::string text = read_small_file(scratch() + "/" + name, 1 << 26);
-  text.pop_back();
-  return text.substr(0, text.rfind('\n') + 1);
-}
-
 class Given : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { simulated_log("given.csv", "--seconds 2"); }
@@ -53,9 +46,10 @@ class Given : public ::testing::Test {
     });
   }
   static void change(
-      const std::function<void(const std::vector<std::string>&, LogRow&)>& change_row) {
-    LogReader log(scratch() + "/given.csv");
-    LogWriter out(scratch() + "/changed.csv", log.columns());
+      const std::function<void(const std::vector<std::string>&, LogRow&)>& change_row,
+      const std::string& from = "given.csv", const std::string& to = "changed.csv") {
+    LogReader log(scratch() + "/" + from);
+    LogWriter out(scratch() + "/" + to, log.columns());
     while (std::optional<LogRow> row = log.next()) {
       change_row(log.columns(), *row);
       out.write(row->values);
@@ -382,24 +376,25 @@ TEST_F(Given, ReadingsThatNoRobotHas) {
 }
 
 TEST_F(Given, LogsThatAskForNoMass) {
-  const auto scale = [](const std::string& prefix, double factor) {
-    change([&](const std::vector<std::string>& columns, LogRow& row) {
+  const auto scaled_by = [](const std::string& prefix, double factor) {
+    return [=](const std::vector<std::string>& columns, LogRow& row) {
       for (std::size_t c = 0; c < columns.size(); ++c) {
         if (columns[c].starts_with(prefix)) row.values[c] *= factor;
       }
-    });
+    };
   };
   const auto identified =
       fmt::format("identify {} --log changed.csv --divisions 0", quadruped_files);
-  scale("base.accel.", -1.0);
+  change(scaled_by("base.accel.", -1.0));
   expect_refused(identified, "asks for no mass", 1);
-  scale("tau.", -1.0);
+  change(scaled_by("tau.", -1.0));
   expect_refused(identified, "asks for no mass", 1);
-  scratch_file("likewise.csv", without_last_row("changed.csv"));
+  simulated_log("other.csv", "--seconds 2 --seed 2");
+  change(scaled_by("tau.", -1.0), "other.csv", "likewise.csv");
   expect_refused(
       fmt::format("batch {} --log changed.csv likewise.csv --divisions 0", quadruped_files),
       "asks for no mass", 1);
-  scale("tau.", 0.0);
+  change(scaled_by("tau.", 0.0));
   expect_refused(identified, "never changes while the joints move");
 }
 
@@ -558,7 +553,7 @@ TEST_F(Given, TrackingBeginsWithDrivesThatAreOff) {
 /// A name is any bytes; JSON is not.
 TEST_F(Given, LogsWithNamesThatAreNoText) {
   const std::string name = "given\xfe.csv";
-  scratch_file(name, without_last_row("given.csv"));
+  scratch_file(name, read_small_file(simulated_log("other.csv", "--seconds 2 --seed 2"), 1 << 26));
   EXPECT_EQ(shapeid("inspect --json '" + name + "'").status, 0);
   EXPECT_EQ(
       shapeid(fmt::format("identify {} --log '{}' --divisions 0 --json", quadruped_files, name))

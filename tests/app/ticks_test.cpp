@@ -73,6 +73,11 @@ TEST(Ticks, OfALogarithmicAxis) {
   const auto few = app::logarithmic_ticks({3e-17, 4.0}, 600.0);
   ASSERT_GT(few.size(), 2U);
   EXPECT_GE(few[1] / few[0], 99.0);
+  // Where no 1, 2 or 5 lies, or one alone, even steps.
+  EXPECT_GE(app::logarithmic_ticks({2.1, 4.6}, 600.0).size(), 3U);
+  const auto beside_five = app::logarithmic_ticks({4.0, 9.0}, 600.0);
+  ASSERT_GE(beside_five.size(), 3U);
+  EXPECT_DOUBLE_EQ(beside_five[0], 4.0);
 }
 
 }  // namespace

@@ -98,6 +98,34 @@ TEST(BatchThreads, BlocksAreOfTheLogsThatAreUsed) {
   EXPECT_EQ(found.at("log"), "2 logs");
 }
 
+/// Good data that cannot answer end as they do in every verb.
+TEST(BatchThreads, ALogThatCannotAnswerIsRefusedByItsCode) {
+  Lines brief = trot_log();
+  brief.resize(40);
+  change(brief, "tau.FR_knee", 0, brief.size(), [](double tau) { return tau + 0.01; });
+  scratch_file("brief.csv", joined(brief));
+  (void)piece_names();
+  const CommandRun run = shapeid(batch("--divisions 0 --log piece0.csv piece1.csv brief.csv"));
+  EXPECT_EQ(run.out, "");
+  expect_one_line(run, 1, "refused (no-data): 1 of 3 logs are refused: brief.csv: ");
+  expect_one_line(shapeid(batch("--divisions 0 --log brief.csv")), 1,
+                  "refused (no-data): every log is refused: brief.csv: ");
+  // Beside one that is bad input, that is what is said.
+  expect_one_line(shapeid(batch("--divisions 0 --log brief.csv absent.csv")), 2,
+                  "every log is refused: ");
+}
+
+/// However they are written.
+TEST(BatchThreads, TheSameMeasurementsTwiceAreRefused) {
+  scratch_file("first.csv", joined(trot_log()));
+  Lines again = trot_log();
+  change(again, "time", 0, again.size(), [](double t) { return t + 100.0; });
+  again.resize(1200);
+  scratch_file("again.csv", joined(again));
+  expect_one_line(shapeid(batch("--divisions 0 --log first.csv again.csv")), 2,
+                  "again.csv: holds measurements of first.csv; each measurement once");
+}
+
 TEST(BatchThreads, ABadLogIsNamed) {
   scratch_file("degrees.csv", "time,base.gyro.x\n0,not a number\n");
   for (const std::string bad : {"degrees.csv", "absent.csv"}) {

@@ -140,7 +140,6 @@ TEST(UnexplainedResidual, IsOfWhatCounts) {
   EXPECT_TRUE(left.found().empty());
 }
 
-/// Nothing is said of a joint that counts in fewer samples than ten a bin.
 /// A gripper that closes for a seventh of every second has nothing to do with a drift. (Equal
 /// values in the order of time did follow it, by three standard errors.)
 TEST(UnexplainedResidual, EqualValuesDoNotFollowTime) {
@@ -186,6 +185,7 @@ TEST(UnexplainedResidual, OfRoundingSaysNothing) {
   EXPECT_TRUE(left.found().empty());
 }
 
+/// Nothing is said of a joint that counts in fewer samples than ten a bin.
 TEST(UnexplainedResidual, OfAFewSamplesSaysNothing) {
   Left left(40.0, 5);
   for (std::size_t i = 0; i < left.log.samples().size(); ++i) {

@@ -38,6 +38,35 @@ TEST(HostileCommand, VectorsOfAFolderThatMeansHarm) {
   expect_one_line(shapeid("vectors --check cat --vectors bad"), 2, "bad/");
 }
 
+/// What is opened must not become standard input, output or error because these were closed.
+TEST(HostileCommand, StandardDescriptorsThatAreClosed) {
+  const std::string check = command("vectors --kind moments --check 'cat'");
+  const CommandRun open = program(in_bash(check + " >/dev/null"));
+  EXPECT_EQ(open.status, 1) << open.err;
+  for (const std::string closed : {"<&-", "2>&-", "<&- 2>&-"}) {
+    EXPECT_EQ(program(in_bash(fmt::format("{} {} >/dev/null", check, closed))).status, 1) << closed;
+  }
+  const CommandRun mute =
+      program(in_bash(command("simulate --seconds 0.2 --out quiet.csv") + " >&-"));
+  EXPECT_EQ(mute.status, 2);
+  EXPECT_NE(mute.err.find("standard output"), std::string::npos) << mute.err;
+}
+
+TEST(HostileCommand, AFileThatMayNotGrow) {
+  const CommandRun run = program(
+      in_bash(fmt::format("ulimit -f 4; {}", command("simulate --seconds 0.5 --out large.csv"))));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("large.csv: cannot be written"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch() + "/large.csv"));
+}
+
+TEST(HostileCommand, ANameThatLeavesNoRoomForAnother) {
+  const std::string name = std::string(248, 'r') + ".urdf";
+  std::filesystem::copy_file(robots + "quadruped.urdf", scratch() + "/" + name);
+  simulated_log("trot.csv", "--seconds 1");
+  EXPECT_EQ(shapeid(fmt::format("inspect trot.csv --robot {}", name)).status, 0);
+}
+
 TEST(HostileCommand, CheckpointsThatAreDamaged) {
   const std::string robots = SHAPEID_SOURCE_DIR "/models/robots/quadruped";
   const std::string track = fmt::format(

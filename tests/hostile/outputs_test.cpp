@@ -57,6 +57,34 @@ TEST(HostileOutputs, PermissionsStayWhereAFileIsReplaced) {
   }
 }
 
+/// And while it is made: a log takes as long as its robot moves.
+TEST(HostileOutputs, PermissionsHoldWhileAFileIsReplaced) {
+  const std::string path = scratch_file("private.csv", "time\n");
+  for (const mode_t mode : {0600U, 0400U, 0640U}) {
+    ASSERT_EQ(::chmod(path.c_str(), mode), 0);
+    LogWriter out(path, {"time"});
+    out.write({1.0});
+    struct stat now {};
+    ASSERT_EQ(::stat(fmt::format("{}.part{}", path, ::getpid()).c_str(), &now), 0);
+    EXPECT_EQ(now.st_mode & 0777U, mode | 0200U);
+    out.close();
+    ASSERT_EQ(::stat(path.c_str(), &now), 0);
+    EXPECT_EQ(now.st_mode & 0777U, mode);
+  }
+}
+
+/// A folder that is locked twice waits for itself.
+TEST(HostileOutputs, FilesOfOneFolderHaveOneFolder) {
+  const std::string there = scratch_file("there.json", "{}\n");
+  fs::create_directory_symlink(scratch(), scratch() + "/by_link");
+  const std::string folder = fs::canonical(scratch()).string();
+  EXPECT_EQ(OutputPlace(there).folder(), folder);
+  EXPECT_EQ(OutputPlace(scratch() + "/by_link/there.json").folder(), folder);
+  EXPECT_EQ(OutputPlace(scratch() + "/by_link/not_there.json").folder(), folder);
+  EXPECT_EQ(OutputPlace(scratch() + "/by_link/./not_there.json").folder(), folder);
+  EXPECT_EQ(OutputPlace("no_file_has_this_name").folder(), fs::current_path().string());
+}
+
 TEST(HostileOutputs, StandardOutputThatIsFull) {
   expect_one_line(run_in_shell("", ten_numbers, ">/dev/full"), 2, "standard output");
   expect_one_line(run_in_shell("", ten_numbers, ">&-"), 2, "standard output");

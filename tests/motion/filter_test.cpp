@@ -122,6 +122,10 @@ RC_GTEST_PROP(Butterworth, DecaysAsItsSlowestPole, ()) {
 
 TEST(Butterworth, APoleNearZeroIsForgottenAtOnce) {
   EXPECT_EQ(Butterworth(1, 125.0, 500.0).samples_to_decay(1e-3), 1);
+  // So far below the rate that the poles round to one, nothing is forgotten.
+  for (const double cutoff : {1e-8, 1e-20, 1e-300}) {
+    EXPECT_GT(Butterworth(2, cutoff, 500.0).samples_to_decay(1e-3), 1000000) << cutoff;
+  }
 }
 
 /// The textbook: extend by reflection, forward over all, backward over all.

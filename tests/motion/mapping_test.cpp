@@ -141,6 +141,15 @@ TEST(Mapping, SaysWhatIsWrongWithBrokenFiles) {
       {"columns:\n  q: {from: a, sign: 2}\n",
        "m.yaml:2: sign is 2; write 1 or -1, and factors as scale"},
       {"columns:\n  q: {from: [a]}\n", "m.yaml:2: from is not a word; write one word"},
+      {"columns:\n  q: {from: a, hold: no}\n",
+       "m.yaml:2: hold is no; write true, false, or a name that columns which are read at once "
+       "share"},
+      {"columns:\n  q: {from: a, hold: False}\n",
+       "m.yaml:2: hold is False; write true, false, or a name that columns which are read at once "
+       "share"},
+      {"columns:\n  q: {from: a, hold: 0}\n",
+       "m.yaml:2: hold is 0; write true, false, or a name that columns which are read at once "
+       "share"},
       {"keep_rows: {new: yes}\n",
        "m.yaml:1: new is not a number (\"yes\"); write a finite decimal number"},
       {"torque: {factor: {j0: 1}}\n", "m.yaml:1: torque does not give its kind; it needs kind"},

@@ -132,6 +132,7 @@ TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
        ":1: imu xyz is not a finite number (\"nan\"); write a finite decimal number"},
       {"imu: {rpy: [0, 0, 90deg]}\n",
        ":1: imu rpy is not a number (\"90deg\"); write a finite decimal number"},
+      {"imu: {rpy: [0, 0, 90]}\n", ":1: imu rpy turns by 90; radians, a turn at most"},
       {"imu: {position: [1, 2, 3]}\n", ":1: imu has no key position; it has xyz, rpy"},
       {"contacts: leg\n", ":1: contacts is not a list; write - {link: NAME}"},
       {"contacts:\n  - leg\n", ":2: a contact is not a map; write lines of key: value"},

@@ -188,6 +188,10 @@ TEST(ShapesYaml, RefusalsSayLineWrongAndRight) {
       {"leg:\n  - {kind: polyhedron, vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}\n",
        "shapes.yaml:2: the points span no solid: they lie in a plane, or on a line; give a solid "
        "with a positive volume"},
+      {"leg:\n  - {kind: polyhedron, vertices: [[-0.3, 1e-4, -1e-4], [0.01, -0.3, 0], [0, 0, 0], "
+       "[0, -1e-4, 0]]}\n",
+       "shapes.yaml:2: the solid is too thin for its place: rounding would change its volume; a "
+       "thicker solid, or one that is nearer to its link's origin"},
       {"leg:\n  - {kind: polyhedron, vertices: [[0, 0, 0]], mesh: a.stl}\n",
        "shapes.yaml:2: a polyhedron has both vertices and a mesh; give one of them"},
       {"leg:\n  - {kind: polyhedron, vertices: 3}\n",

@@ -121,6 +121,12 @@ const std::vector<Broken>& cases() {
       {"MassInXacro", inertial("${mass}"),
        "r.urdf:4: value of <mass> is a xacro expression (\"${mass}\"); expand the file first; "
        "write a finite decimal number"},
+      {"MacroNotExpanded", inertial("1", "<xacro:arm prefix=\"left\"/>\n"),
+       "r.urdf:4: <xacro:arm> is of xacro, which is not expanded here; expand the file first: "
+       "xacro "
+       "FILE > robot.urdf"},
+      {"RpyInDegrees", inertial("1", "<origin rpy=\"0 -90 0\"/>\n"),
+       "r.urdf:4: rpy of <origin> turns by 90; radians, a turn at most"},
       {"MassBeyondReason", inertial("1e12"),
        "r.urdf:4: value of <mass> is 1e+12; SI units; nothing here exceeds 1e+09"},
       {"TwoNumbersForXyz", inertial("1", "<origin xyz=\"0 1\"/>\n"),
