@@ -116,7 +116,9 @@ void add_diagnose(CLI::App& app) {
           "who computes rows and masses")
       ->check(CLI::IsMember({"reference", "fast"}))
       ->default_str("reference");
-  d.threads = std::max(1U, std::thread::hardware_concurrency());
+  // Each has sums of its own: of a quadruped's hypotheses some tens of megabytes.
+  constexpr unsigned most_threads = 8;
+  d.threads = std::clamp(std::thread::hardware_concurrency(), 1U, most_threads);
   verb->add_option("--threads", d.threads, "that go over a log at once; no number depends on it")
       ->check(above_zero())
       ->capture_default_str();

@@ -245,7 +245,9 @@ std::string curves_text(const DiagnosisRun& run, const Robot& robot) {
 }
 
 std::string structures_text(const DiagnosisRun& run) {
-  if (run.structures.empty()) return "\nof what was fitted, the residual follows no signal that was tested\n";
+  if (run.structures.empty())
+    return "\nof what was fitted, of what was fitted, the residual follows no signal that was "
+           "tested\n";
   std::string text =
       "\nunexplained: the residual still follows (share of its variance on blocks left out)\n";
   constexpr std::size_t shown = 12;

@@ -177,7 +177,7 @@ void Plausibility::judge() {
   if (options_.refuse_readings) judge_size();
   for (int j = 0; j < robot_.joint_count(); ++j) {
     judge_slope(j);
-    judge_position(j);
+    robot_.joint(j).kind == JointKind::prismatic ? judge_length(j) : judge_angle(j);
   }
   if (options_.expect_gravity) judge_gravity();
   if (options_.refuse_frozen) judge_frozen();
@@ -187,12 +187,43 @@ void Plausibility::judge() {
   slopes_.assign(slopes_.size(), {});
 }
 
-void Plausibility::judge_position(int j) const {
+void Plausibility::judge_length(int j) const {
+  const Joint& joint = robot_.joint(j);
+  const Range& q = range(plan_.q + j);
+  const double room = joint.upper - joint.lower;
+  if (q.least > q.most || !std::isfinite(room) || !(room > 0.0)) return;
+  // Stops are given roughly; ten times their distance beyond them is nowhere on the robot.
+  constexpr double far = 10.0, roughly = 0.1;
+  if (!(std::max(q.most - joint.upper, joint.lower - q.least) > far * room)) return;
+  const auto fits = [&](double unit) {
+    return q.most * unit <= joint.upper + roughly * room &&
+           q.least * unit >= joint.lower - roughly * room;
+  };
+  if (!fits(1e-3)) return;
+  throw InputError(
+      place(plan_.q + j, q.line),
+      fmt::format("{:g} lies outside the limits {:g} to {:g} m: the unit looks like millimetres{}",
+                  q.most > -q.least ? q.most : q.least, joint.lower, joint.upper,
+                  fits(1e-2) ? " or centimetres" : ""),
+      "give metres, or map with scale: 0.001 (0.01)");
+}
+
+void Plausibility::judge_angle(int j) const {
   const Joint& joint = robot_.joint(j);
   const Range& q = range(plan_.q + j);
   if (joint.kind != JointKind::revolute || q.least > q.most) return;
   const double past = std::max(q.most - joint.upper, joint.lower - q.least);
   const double most = std::max(-q.least, q.most);  // magnitude
+  constexpr double turn = 2.0 * std::numbers::pi;
+  for (const double offset : {turn, -turn}) {
+    const bool fits = q.most + offset <= joint.upper && q.least + offset >= joint.lower;
+    if (!(past > past_limit && fits)) continue;
+    throw InputError(
+        place(plan_.q + j, q.line),
+        fmt::format("{:g} lies outside the limits {:g} to {:g} rad: it looks a whole turn off",
+                    most == q.most ? q.most : q.least, joint.lower, joint.upper),
+        fmt::format("map with offset: {:.17g}", offset));
+  }
   const bool fits_as_degrees =
       q.most * degree <= joint.upper + degree && q.least * degree >= joint.lower - degree;
   if (past > past_limit && fits_as_degrees) {

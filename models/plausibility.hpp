@@ -77,7 +77,8 @@ class Plausibility {
   void add_gravity(const MeasuredRow& row);
   void add_step(int joint, const MeasuredRow& row);
   void judge_size() const;
-  void judge_position(int joint) const;
+  void judge_angle(int joint) const;
+  void judge_length(int joint) const;
   void judge_slope(int joint) const;
   void judge_gravity() const;
   [[nodiscard]] bool moves(int j) const;

@@ -96,6 +96,30 @@ TEST(Plausibility, UnitsAndSignsThatCannotBeAreNamed) {
   }
 }
 
+TEST(Plausibility, LengthsAndTurnsThatCannotBeAreNamed) {
+  Robot slides = chain(3, Root::fixed);
+  slides.links[1].joint.kind = JointKind::prismatic;
+  slides.links[1].joint.lower = -0.6;
+  slides.links[1].joint.upper = 0.6;
+  EXPECT_EQ(reception([](Sample&) {}, slides), "accepted");
+  const auto in_units = [&](double unit) {
+    return reception([=](Sample& s) { s.q[0] *= unit, s.dq[0] *= unit; }, slides);
+  };
+  EXPECT_NE(in_units(1e3).find("column q.j0: 568.359 lies outside the limits -0.6 to 0.6 m: the "
+                               "unit looks like millimetres; give metres"),
+            std::string::npos)
+      << in_units(1e3);
+  EXPECT_NE(in_units(1e2).find("millimetres or centimetres"), std::string::npos) << in_units(1e2);
+  EXPECT_EQ(in_units(3.0), "accepted");  // stops are given roughly
+
+  constexpr double turn = 2.0 * std::numbers::pi;
+  for (const double off : {turn, -turn}) {
+    const std::string message = reception([=](Sample& s) { s.q[1] += off; }, chain(3, Root::fixed));
+    EXPECT_NE(message.find("it looks a whole turn off"), std::string::npos) << message;
+    EXPECT_NE(message.find(fmt::format("offset: {:.17g}", -off)), std::string::npos) << message;
+  }
+}
+
 TEST(Plausibility, GravityIsLookedForWhereSomethingCarriesTheRobot) {
   struct Case {
     std::function<void(Sample&)> spoil;
