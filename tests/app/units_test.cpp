@@ -92,22 +92,27 @@ TEST(Units, OfFrictionWhereAJointSlides) {
   EXPECT_NE(page.find("velocity (m/s)"), std::string::npos);
 }
 
-/// The arm as the cuboid that has its moments about the joint, and as one whose millimetres were
-/// taken for metres: nothing near the arm's mass has its moments then.
+CommandRun identified_as(const std::string& cuboid) {
+  scratch_file("sized.shapes.yaml", "arm: [{kind: cuboid, " + cuboid + "}]\n");
+  return shapeid(
+      "identify --robot post.urdf --log post.csv --exact --shapes sized.shapes.yaml "
+      "--divisions 0");
+}
+
+/// The arm as the cuboid that has its moments about the joint, as one five times as large, and as
+/// one whose millimetres were taken for metres: nothing near the arm's mass has its moments then.
 TEST(Units, ShapesOfTheWrongSizeAreSaidByWhatTheyPredict) {
   lift_and_arm();
   for (const bool wrong : {false, true}) {
-    const std::string box =
-        wrong ? "size: [316.2278, 141.4214, 141.4214], pose: {xyz: [400, 0, 0]}"
-              : "size: [0.3162278, 0.1414214, 0.1414214], pose: {xyz: [0.4, 0, 0]}";
-    scratch_file("sized.shapes.yaml", "arm: [{kind: cuboid, " + box + "}]\n");
-    const CommandRun run = shapeid(
-        "identify --robot post.urdf --log post.csv --exact --shapes sized.shapes.yaml "
-        "--divisions 0");
+    const CommandRun run =
+        identified_as(wrong ? "size: [1.581139, 0.707107, 0.707107], pose: {xyz: [2, 0, 0]}"
+                            : "size: [0.3162278, 0.1414214, 0.1414214], pose: {xyz: [0.4, 0, 0]}");
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.out.find("predicted worse than by the given model") != std::string::npos, wrong)
         << run.out;
   }
+  expect_one_line(identified_as("size: [316.2278, 141.4214, 141.4214], pose: {xyz: [400, 0, 0]}"),
+                  1, "lengths of shapes or contacts are no metres");
 }
 
 }  // namespace
