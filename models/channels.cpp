@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -12,6 +11,7 @@
 #include <string_view>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/lower_case.hpp"
 
 namespace shapeid {
 namespace {
@@ -28,9 +28,7 @@ std::vector<std::string> with_axes(const std::string& quantity) {
 
 /// "i3_A", "motor_current_knee", "tau_motor": what is called so is not a joint torque.
 bool sounds_like_current_or_motor(const std::string& name) {
-  std::string lower = name;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(name);
   constexpr std::array<std::string_view, 3> words = {"current", "amp", "motor"};
   constexpr std::array<std::string_view, 2> units = {"_a", "_ma"};
   return std::any_of(words.begin(), words.end(),

@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
 #include "shapeid/models/log.hpp"
+#include "shapeid/models/lower_case.hpp"
 #include "shapeid/models/number.hpp"
 #include "shapeid/models/yaml_input.hpp"
 
@@ -30,10 +29,7 @@ std::string read_hold(const YamlInput& file, const YAML::Node& node, const Colum
   if (word == "false") return "";
   // YAML has had many spellings of these; as a name none of them is meant.
   static const std::set<std::string> spellings = {"true", "false", "yes", "no", "on", "off"};
-  std::string lower = word;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (spellings.contains(lower) || parse_number(word)) {
+  if (spellings.contains(lower_case(word)) || parse_number(word)) {
     file.refuse(node, fmt::format("hold is {}", word),
                 "write true, false, or a name that columns which are read at once share");
   }

@@ -177,7 +177,11 @@ void Plausibility::judge() {
   if (options_.refuse_readings) judge_size();
   for (int j = 0; j < robot_.joint_count(); ++j) {
     judge_slope(j);
-    robot_.joint(j).kind == JointKind::prismatic ? judge_length(j) : judge_angle(j);
+    if (robot_.joint(j).kind == JointKind::prismatic) {
+      judge_length(j);
+    } else {
+      judge_angle(j);
+    }
   }
   if (options_.expect_gravity) judge_gravity();
   if (options_.refuse_frozen) judge_frozen();
@@ -199,13 +203,16 @@ void Plausibility::judge_length(int j) const {
     return q.most * unit <= joint.upper + roughly * room &&
            q.least * unit >= joint.lower - roughly * room;
   };
-  if (!fits(1e-3)) return;
+  const bool as_millimetres = fits(1e-3), as_centimetres = fits(1e-2);
+  if (!as_millimetres && !as_centimetres) return;
   throw InputError(
       place(plan_.q + j, q.line),
-      fmt::format("{:g} lies outside the limits {:g} to {:g} m: the unit looks like millimetres{}",
+      fmt::format("{:g} lies outside the limits {:g} to {:g} m: the unit looks like {}",
                   q.most > -q.least ? q.most : q.least, joint.lower, joint.upper,
-                  fits(1e-2) ? " or centimetres" : ""),
-      "give metres, or map with scale: 0.001 (0.01)");
+                  !as_centimetres  ? "millimetres"
+                  : as_millimetres ? "millimetres or centimetres"
+                                   : "centimetres"),
+      "give metres, or map with scale: 0.001 or 0.01");
 }
 
 void Plausibility::judge_angle(int j) const {

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <initializer_list>
 #include <string>
 #include <string_view>
+
+#include "shapeid/models/lower_case.hpp"
 
 namespace shapeid::urdf {
 
@@ -25,12 +26,6 @@ constexpr ReadNames of_inertia = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
 
 bool is_among(ReadNames names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 /// Whether one letter more, less or changed, or two neighbours exchanged, make one of the other.

@@ -46,8 +46,6 @@ void refuse_declarations(const XMLNode& node, const std::string& file) {
   }
 }
 
-}  // namespace
-
 /// What a macro would put in its place is missing in the robot.
 void refuse_macros(const XMLElement& element, const std::string& file) {
   for (const XMLElement* c = element.FirstChildElement(); c != nullptr;
@@ -60,6 +58,8 @@ void refuse_macros(const XMLElement& element, const std::string& file) {
     refuse_macros(*c, file);
   }
 }
+
+}  // namespace
 
 const XMLElement& parse_robot(const std::string& text, const std::string& file,
                               tinyxml2::XMLDocument& document) {

@@ -45,6 +45,14 @@ TEST(Convert, ReadsStandardInput) {
   EXPECT_NE(wrong.err.find("\"x\""), std::string::npos) << wrong.err;
 }
 
+/// A word that is longer than any number is not cut into two.
+TEST(Convert, RefusesWordsThatAreTooLong) {
+  const std::string zeros(500, '0');
+  expect_one_line(shapeid("convert --from pinocchio --to drake",
+                          scratch_file("long.txt", "2 0.5 -1 1.5 4 0.125 5 -0.375 0." + zeros)),
+                  2, "has a number of 400 digits and more");
+}
+
 /// Numbers without an end, and one that has none, are not waited for.
 TEST(Convert, DoesNotReadOnForEver) {
   for (const std::string endless : {"yes 1", "yes 1 | tr -d '\\n'"}) {

@@ -128,9 +128,11 @@ TEST(Contenders, MomentsOfOneLoadDoNotCrowdOutWhatIsSomethingElse) {
   // With one moment taken no other is looked at.
   EXPECT_TRUE(contenders.is_taken(onsets[0], {onsets[2]}));
   EXPECT_EQ(contenders.shortlist({onsets[2]}, 4).listed, (Chosen{other, elsewhere}));
-  // What came since a reference log is another place.
+  // What came since a reference log is another place, and the same law.
   log.candidates()[onsets[0]].effect.since_reference = true;
   EXPECT_FALSE(contenders.is_taken(onsets[0], {onsets[2]}));
+  EXPECT_TRUE(contenders.same_law(onsets[0], onsets[2]));
+  EXPECT_FALSE(contenders.same_law(onsets[2], elsewhere));
 }
 
 TEST(Contenders, WhatTheOthersContainIsHidden) {

@@ -60,6 +60,16 @@ TEST(Recording, ACubicIsItselfBetweenItsSamples) {
   }
 }
 
+/// Of a log of another rate as many samples a second.
+TEST(Recording, AStrideOfAnotherRateIsAsFarInTime) {
+  const std::vector<Sample> samples = of_cubics().samples();
+  const Recording fast(samples, 1000.0), slow(samples, 100.0);
+  EXPECT_EQ(fast.stride_for(slow, 10), 1U);
+  EXPECT_EQ(fast.stride_for(slow, 3), 1U);
+  EXPECT_EQ(slow.stride_for(fast, 2), 20U);
+  EXPECT_EQ(slow.stride_for(slow, 7), 7U);
+}
+
 /// The largest shift and the cubic's two samples are within the log at every one that is usable.
 TEST(Recording, UsableSamplesCanBeShiftedAsFarAsAnythingIs) {
   const Recording log = of_cubics();

@@ -111,6 +111,16 @@ TEST(Plausibility, LengthsAndTurnsThatCannotBeAreNamed) {
       << in_units(1e3);
   EXPECT_NE(in_units(1e2).find("millimetres or centimetres"), std::string::npos) << in_units(1e2);
   EXPECT_EQ(in_units(3.0), "accepted");  // stops are given roughly
+  // Where the stops are on one side of zero, one unit alone fits.
+  slides.links[1].joint.lower = -0.1;
+  slides.links[1].joint.upper = 6.0;
+  const std::string high =
+      reception([](Sample& s) { s.q[0] = 300.0 + 100.0 * s.q[0], s.dq[0] *= 100.0; }, slides);
+  EXPECT_NE(high.find("looks like millimetres or centimetres"), std::string::npos) << high;
+  slides.links[1].joint.lower = 2.0;
+  const std::string far =
+      reception([](Sample& s) { s.q[0] = 300.0 + 50.0 * s.q[0], s.dq[0] *= 50.0; }, slides);
+  EXPECT_NE(far.find("looks like centimetres; give"), std::string::npos) << far;
 
   constexpr double turn = 2.0 * std::numbers::pi;
   for (const double off : {turn, -turn}) {

@@ -123,8 +123,7 @@ const std::vector<Broken>& cases() {
        "write a finite decimal number"},
       {"MacroNotExpanded", inertial("1", "<xacro:arm prefix=\"left\"/>\n"),
        "r.urdf:4: <xacro:arm> is of xacro, which is not expanded here; expand the file first: "
-       "xacro "
-       "FILE > robot.urdf"},
+       "xacro FILE > robot.urdf"},
       {"RpyInDegrees", inertial("1", "<origin rpy=\"0 -90 0\"/>\n"),
        "r.urdf:4: rpy of <origin> turns by 90; radians, a turn at most"},
       {"MassBeyondReason", inertial("1e12"),
