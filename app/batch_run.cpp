@@ -95,7 +95,7 @@ CompressedLog compressed(const std::string& path, const BatchOptions& options,
     result.log.rate = report.rate;
     result.log.contacts_derived = report.contacts_derived;
     result.log.notes = report.notes;
-    if (rows.blocks.empty()) throw Refusal("no-data", "the log has no usable sample");
+    refuse_without_samples(report);
     result.rows = merged(rows.blocks);
     if (!result.rows.allFinite()) {
       throw Refusal("not-finite", "the log's numbers are too large for the sums of their squares");

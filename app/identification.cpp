@@ -205,8 +205,9 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
         watch);
   } catch (const Refusal& refusal) {
     // A stretch of the log alone is fitted: that it holds nothing is no fault of the samples.
-    const std::size_t all = (effects ? effects->log().motion : log.report()).samples;
-    if (refusal.code() == "no-data" && options.test_log.empty()) refuse_all_held_out(all);
+    const MotionReport& read = effects ? effects->log().motion : log.report();
+    if (refusal.code() == "no-data") refuse_without_samples(read);
+    if (refusal.code() == "no-data" && options.test_log.empty()) refuse_all_held_out(read.samples);
     throw;
   }
   result.motion = effects ? effects->log().motion : log.report();

@@ -306,6 +306,24 @@ Part part_of(double time_since_start, const MotionInputs& inputs) {
   return Part::neither;
 }
 
+void refuse_without_samples(const MotionReport& log) {
+  if (log.samples > 0) return;
+  std::string why = "the log has no usable sample";
+  if (log.dropped_at_contacts > 0) {
+    why += fmt::format(
+        ": {} samples left out near changes of contact, or because no flag says whether a contact "
+        "touches",
+        log.dropped_at_contacts);
+  } else if (log.dropped_at_ends > 0) {
+    why += fmt::format(": {} samples lost to the filter at the ends of {} stretches without gaps",
+                       log.dropped_at_ends, log.gaps + 1);
+  } else if (log.dropped_rows > 0) {
+    why += fmt::format(": the mapping's keep_rows leaves out {} of {} rows", log.dropped_rows,
+                       log.rows);
+  }
+  throw Refusal("no-data", why);
+}
+
 void refuse_all_held_out(std::size_t samples) {
   if (samples == 0) return;
   throw Refusal("no-data",

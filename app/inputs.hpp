@@ -110,6 +110,9 @@ enum class Part { fitted, held_out, neither };
 /// Of the time (s) since the log began, for the stretch and the filter of these inputs.
 [[nodiscard]] Part part_of(double time_since_start, const MotionInputs& inputs);
 
+/// Throws Refusal, which says where they went, if a log that was read has no sample.
+void refuse_without_samples(const MotionReport& log);
+
 /// Throws Refusal if a log has samples, none of which is in a stretch to be fitted.
 void refuse_all_held_out(std::size_t samples);
 

@@ -8,6 +8,7 @@
 
 #include "shapeid/models/butterworth.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/text.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -17,7 +18,11 @@ constexpr std::size_t most_samples = 1000000;
 
 diagnosis::Recording recording_of(std::vector<Sample> samples, const MotionReport& motion,
                                   const MotionInputs& inputs, double begins) {
-  diagnosis::Recording recording(std::move(samples), motion.rate, motion.extra);
+  // A name in a log may hold anything that a terminal would act on.
+  constexpr std::size_t longest_name = 200;
+  std::vector<std::string> extra;
+  for (const std::string& name : motion.extra) extra.push_back(one_line(name, longest_name));
+  diagnosis::Recording recording(std::move(samples), motion.rate, extra);
   recording.set_origin(begins);
   if (!inputs.exact && inputs.cutoff > 0.0) {
     recording.set_independent_rate(2.0 * band_of_two_passes * inputs.cutoff);
@@ -44,6 +49,7 @@ RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
     if (!wanted || part_of(sample->time - *start, inputs) == *wanted) samples.push_back(*sample);
   }
   const MotionReport& report = log.report();
+  refuse_without_samples(report);
   const double begins = start.value_or(0.0);
   return {recording_of(std::move(samples), report, inputs, begins),
           report,

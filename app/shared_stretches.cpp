@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -16,25 +13,15 @@
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/diagnosis/in_parallel.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/stretches.hpp"
 
 namespace shapeid::app {
 namespace {
 
-/// Rows that are compared together. Single rows of one joint and coarse sensors coincide in any two
-/// logs, so many that follow each other do not.
-constexpr std::size_t length = 10;
 /// Of one log's stretches.
 constexpr double too_many = 0.1;
 /// Digests that are kept of a log: the smallest, which are the same ones in a copy.
 constexpr std::size_t most_kept = 1U << 12U;
-
-/// The next state of splitmix64 (Steele, Lea, Flood 2014).
-std::uint64_t mixed(std::uint64_t state) {
-  state += 0x9E3779B97F4A7C15;
-  state = (state ^ (state >> 30U)) * 0xBF58476D1CE4E5B9;
-  state = (state ^ (state >> 27U)) * 0x94D049BB133111EB;
-  return state ^ (state >> 31U);
-}
 
 /// Columns of what was measured at the joints, in the order of our names for them.
 std::vector<std::size_t> measured_columns(const LogReader& log,
@@ -75,15 +62,9 @@ class Kept {
 };
 
 std::uint64_t digest(const LogRow& row, const std::vector<std::size_t>& columns) {
-  std::uint64_t state = 0;
-  for (const std::size_t place : columns) {
-    const double value = row.values[place];
-    // An empty field is one NaN, and a zero has no sign.
-    const std::uint64_t bits =
-        std::isnan(value) ? 1 : (value == 0.0 ? 0 : std::bit_cast<std::uint64_t>(value));
-    state = mixed(state ^ bits);
-  }
-  return state;
+  RowDigest digest;
+  for (const std::size_t place : columns) digest.add(row.values[place]);
+  return digest.value();
 }
 
 /// The smallest digests of a log's stretches, and whether it has a stretch once only: a robot that
@@ -94,15 +75,11 @@ class Stretches {
     LogReader log(path);
     const std::vector<std::size_t> columns = measured_columns(log, mapping);
     const Kept is_kept(log, mapping);
-    std::array<std::uint64_t, length> last{};
-    std::size_t rows = 0;
+    Stretch stretch;
     while (const std::optional<LogRow> row = log.next()) {
       if (!is_kept(*row)) continue;
-      last[rows % length] = digest(*row, columns);
-      if (++rows < length) continue;
-      std::uint64_t state = 0;
-      for (std::size_t k = 0; k < length; ++k) state = mixed(state ^ last[(rows + k) % length]);
-      keep(state);
+      stretch.add(digest(*row, columns));
+      if (const std::optional<std::uint64_t> state = stretch.digest()) keep(*state);
     }
   }
 

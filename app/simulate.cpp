@@ -1,5 +1,7 @@
 // shapeid simulate: a trotting quadruped, with or without a block on its back, writes a log.
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -10,6 +12,7 @@
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/recording.hpp"
+#include "shapeid/app/tell.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/urdf.hpp"
@@ -24,6 +27,14 @@ struct SimulateArguments {
   std::vector<double> load;
   bool exact = false, json = false;
 };
+
+/// By whatever name: what else is said would stand in the log.
+bool is_standard_output(const std::string& path) {
+  struct stat named {};
+  struct stat open {};
+  return ::stat(path.c_str(), &named) == 0 && ::fstat(STDOUT_FILENO, &open) == 0 &&
+         named.st_dev == open.st_dev && named.st_ino == open.st_ino;
+}
 
 void simulate_log(SimulateArguments& options) {
   std::error_code unknown;  // what cannot be looked at is said when it is opened
@@ -64,13 +75,17 @@ void simulate_log(SimulateArguments& options) {
   options.sensors.seed = options.simulation.seed;
   const SimulationReport report =
       record(robot, notes, options.simulation, options.sensors, options.out);
+  std::string text = fmt::format("wrote {}: {} samples, walked {:.2f} m\n", options.out,
+                                 report.samples, report.distance);
   if (options.json) {
     const nlohmann::json document = {
         {"log", options.out}, {"samples", report.samples}, {"distance", report.distance}};
-    fmt::print("{}\n", json_text(document, -1));
+    text = json_text(document, -1) + "\n";
+  }
+  if (is_standard_output(options.out)) {
+    tell(text);
   } else {
-    fmt::print("wrote {}: {} samples, walked {:.2f} m\n", options.out, report.samples,
-               report.distance);
+    fmt::print("{}", text);
   }
 }
 

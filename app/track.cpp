@@ -15,6 +15,7 @@
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
+#include "shapeid/models/strict_json.hpp"
 #include "shapeid/reference/identify.hpp"
 
 namespace shapeid::app {
@@ -63,12 +64,13 @@ void flush() {
 class Source {
  public:
   Source(const TrackArguments& options, const std::optional<Checkpoint>& checkpoint)
-      : lines_(options.inputs.log, options.follow) {
+      : path_(options.inputs.log), lines_(path_, options.follow) {
     next_ = lines_.next();
     if (checkpoint) {
       go_on(checkpoint->position);
     } else if (next_) {
-      position_ = {next_->text, next_->next_byte, next_->number};
+      position_.header = next_->text;
+      use(*next_);
       next_ = lines_.next();
     } else {
       throw InputError({options.inputs.log}, "is empty", "begin with a row of column names");
@@ -79,8 +81,9 @@ class Source {
   std::optional<Line> next() {
     while (next_) {
       Line line = *std::exchange(next_, std::nullopt);
-      position_.line = line.number += first_line_;
-      position_.next_byte = first_byte_ + line.next_byte;
+      line.number += first_line_;
+      line.next_byte += first_byte_;
+      use(line);
       if (!line.text.empty()) return line;
       next_ = lines_.next();
     }
@@ -91,8 +94,15 @@ class Source {
   [[nodiscard]] std::size_t unfinished() const { return lines_.unfinished(); }
 
  private:
+  void use(const Line& line) {
+    position_.row_byte = std::exchange(position_.next_byte, line.next_byte);
+    position_.line = line.number;
+    position_.row_digest = digest(line.text);
+  }
+
   /// A file goes on behind the last line used. A stream may begin anew, with the header, and is
-  /// then passed over up to there; or it simply goes on.
+  /// then passed over up to there; or it simply goes on. Where the last line used stands again, it
+  /// must be the same.
   void go_on(const LogPosition& stopped) {
     position_ = stopped;
     if (!lines_.is_stream()) {
@@ -100,16 +110,28 @@ class Source {
         throw InputError("the log's header is not the one that the checkpoint read",
                          "resume with the same log");
       }
-      lines_.skip_to(stopped.next_byte, stopped.line);
+      lines_.skip_to(stopped.line, stopped.row_byte, stopped.next_byte);
       next_ = lines_.next();
+      pass_last_line();
     } else if (next_ && next_->text == stopped.header) {
-      while (next_ && next_->number <= stopped.line) next_ = lines_.next();
+      while (next_ && next_->number < stopped.line) next_ = lines_.next();
+      pass_last_line();
     } else {
       first_line_ = stopped.line;
       first_byte_ = stopped.next_byte;
     }
   }
 
+  void pass_last_line() {
+    if (!next_) return;
+    if (digest(next_->text) != position_.row_digest) {
+      throw InputError({path_, position_.line}, "is not the line that the checkpoint read",
+                       "resume with the same log");
+    }
+    next_ = lines_.next();
+  }
+
+  std::string path_;
   LineFollower lines_;
   std::optional<Line> next_;
   LogPosition position_;

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* format = "shapeid-checkpoint-5";
+constexpr const char* format = "shapeid-checkpoint-6";
 constexpr const char* any_format = "shapeid-checkpoint-";
 constexpr const char* what_is_right = "give a checkpoint that --checkpoint wrote";
 
@@ -139,7 +139,9 @@ void write_checkpoint(const std::string& path, TrackRun& run, const LogPosition&
                       const std::string& setup) {
   const json log = {{"header", text_of(position.header)},
                     {"next_byte", position.next_byte},
-                    {"line", position.line}};
+                    {"line", position.line},
+                    {"row_byte", position.row_byte},
+                    {"row_digest", position.row_digest}};
   const json state = StateWriter::encode(run);
   const json document = {{"format", format},
                          {"software", fmt::format("shapeid {}", version)},
@@ -172,7 +174,9 @@ Checkpoint read_checkpoint(const std::string& path) {
     }
     checkpoint.position = {bytes_of(log.at("header").get<std::string>()),
                            StateReader::whole<std::uint64_t>(log.at("next_byte")),
-                           StateReader::whole<int>(log.at("line"))};
+                           StateReader::whole<int>(log.at("line")),
+                           StateReader::whole<std::uint64_t>(log.at("row_byte")),
+                           log.at("row_digest").get<std::string>()};
     return checkpoint;
   } catch (const json::exception& e) {
     throw not_whole(path, e);

@@ -14,6 +14,8 @@ struct LogPosition {
   std::string header;           ///< its first line
   std::uint64_t next_byte = 0;  ///< of the first line that is not used yet
   int line = 0;                 ///< number of the last line used
+  std::uint64_t row_byte = 0;   ///< where the last line used begins
+  std::string row_digest = {};  ///< of its text
 };
 
 /// Names everything besides the log that an answer depends on: robot, shapes, options. A run may

@@ -135,19 +135,18 @@ void LineFollower::refuse_replaced() const {
                    "follow a log that stays where it is");
 }
 
-void LineFollower::skip_to(std::uint64_t next_byte, int line_number) {
+void LineFollower::skip_to(int number, std::uint64_t begin, std::uint64_t end) {
   const off_t size = ::lseek(file_, 0, SEEK_END);
-  if (size < 0 || std::cmp_less(size, next_byte)) {
-    throw InputError({path_},
-                     fmt::format("has {} bytes, and the checkpoint read {}", size, next_byte),
+  if (size < 0 || std::cmp_less(size, end)) {
+    throw InputError({path_}, fmt::format("has {} bytes, and the checkpoint read {}", size, end),
                      "resume with the same log");
   }
-  ::lseek(file_, static_cast<off_t>(next_byte), SEEK_SET);
+  ::lseek(file_, static_cast<off_t>(begin), SEEK_SET);
   block_.clear();
   line_.clear();
   in_block_ = 0;
-  byte_ = next_byte;
-  number_ = line_number;
+  byte_ = begin;
+  number_ = number - 1;
 }
 
 }  // namespace shapeid::app

@@ -34,8 +34,9 @@ class LineFollower {
   /// The next line; empty when no more will come.
   [[nodiscard]] std::optional<Line> next();
 
-  /// Goes on behind a line that was read before. Throws InputError if the file is shorter.
-  void skip_to(std::uint64_t next_byte, int line_number);
+  /// The next line is this one of the file, which was read before; its end is the next one's
+  /// beginning. Throws InputError if the file is shorter.
+  void skip_to(int number, std::uint64_t begin, std::uint64_t end);
 
   /// Bytes at the end that are no line yet.
   [[nodiscard]] std::size_t unfinished() const { return line_.size(); }

@@ -133,10 +133,12 @@ void LogTable::split(const std::string& text, int line) {
 LogRow LogTable::row(const std::string& text, int line) {
   split(text, line);
   if (fields_.size() != columns_.size()) {
+    const bool is_comment = columns_.front().starts_with('#');
     throw InputError(
         {path_, line},
         fmt::format("has {} fields where the header has {}", fields_.size(), columns_.size()),
-        "give one number a column, decimals with a point");
+        is_comment ? "begin with a row of column names, not with a comment"
+                   : "give one number a column, decimals with a point");
   }
   LogRow row{line, std::vector<double>(fields_.size())};
   for (std::size_t i = 0; i < fields_.size(); ++i) {

@@ -8,12 +8,14 @@
 
 #include "shapeid/models/channels.hpp"
 #include "shapeid/models/contact_margin.hpp"
+#include "shapeid/models/equal_signals.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/plausibility.hpp"
 #include "shapeid/models/resampler.hpp"
 #include "shapeid/models/row_steps.hpp"
 #include "shapeid/models/sample_builder.hpp"
 #include "shapeid/models/segment_samples.hpp"
+#include "shapeid/models/stretches.hpp"
 
 namespace shapeid {
 namespace {
@@ -39,6 +41,8 @@ struct MotionReader::State {
         imu(notes.imu),
         options(o),
         source(path, r, mapping),
+        equal(source.plan(), r.joint_count()),
+        repeated(source.plan(), r.joint_count()),
         margin(o.at_contact_change,
                o.exact_derivatives ? 0.0 : o.contact_margin.value_or(margin_periods / o.cutoff)) {
     const ChannelPlan& plan = source.plan();
@@ -84,6 +88,8 @@ struct MotionReader::State {
   MeasuredRows source;
   std::deque<MeasuredRow> head;
   std::optional<Plausibility> plausibility;
+  EqualSignals equal;
+  RepeatedStretches repeated;
   std::optional<Resampler> grid;
   std::optional<SegmentSamples> segments;
   ContactMargin margin;
@@ -117,8 +123,11 @@ struct MotionReader::State {
   /// Sets up all that stands between measured rows and samples.
   void prepare(double row_step) {
     if (head.size() < 2) {
-      throw InputError({source.path()}, fmt::format("has {} rows of measurements", head.size()),
-                       "a motion takes at least some tenths of a second");
+      std::string wrong = fmt::format("has {} rows of measurements", head.size());
+      if (source.filtered() > 0) {
+        wrong += fmt::format(", and {} that the mapping's keep_rows leaves out", source.filtered());
+      }
+      throw InputError({source.path()}, wrong, "a motion takes at least some tenths of a second");
     }
     check_clock(source.path(), source.plan().time.from, row_step);
     judge_head(row_step);
@@ -149,6 +158,8 @@ struct MotionReader::State {
   bool advance() {
     if (ended) return false;
     const std::optional<MeasuredRow> row = next_row();
+    if (row) equal.add(*row);
+    if (row) repeated.add(*row);
     if (options.exact_derivatives) {
       if (row) take_exact(*row);
     } else {
@@ -178,6 +189,21 @@ struct MotionReader::State {
     margin.push(std::move(sample));
   }
 
+  /// What is not refused: two drives that share a load equally, and a simulation that goes round
+  /// and round, read like this, too.
+  void note_copies() {
+    for (const auto& [one, other] : equal.found()) {
+      report.notes.push_back(fmt::format(
+          "columns {} and {} say the same in every row: is one a copy of the other?", one, other));
+    }
+    constexpr double too_many = 0.1, percent = 100.0;
+    if (!(repeated.share() > too_many)) return;
+    report.notes.push_back(fmt::format(
+        "{:.0f} percent of the motion stand in the log a second time: standard errors are too "
+        "small, and what is held out may be a copy of what is fitted",
+        percent * repeated.share()));
+  }
+
   void end_log() {
     ended = true;
     if (plausibility) plausibility->judge();
@@ -185,6 +211,7 @@ struct MotionReader::State {
     report.rows = source.rows();
     report.dropped_rows = source.filtered();
     report.dropped_at_contacts = margin.dropped();
+    note_copies();
     if (!segments) return;
     report.gaps = std::max<std::size_t>(segments->segments(), 1) - 1;
     report.dropped_at_ends = segments->lost();

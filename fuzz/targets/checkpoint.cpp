@@ -71,7 +71,7 @@ json good_checkpoint(Followed& followed) {
       std::filesystem::temp_directory_path() / fmt::format("shapeid-checkpoint-{}", ::getpid());
   app::TrackRun run = followed.new_run();
   followed.feed(run, 300);
-  app::write_checkpoint(path.string(), run, {header, 12345, 301}, setup);
+  app::write_checkpoint(path.string(), run, {header, 12345, 301, 12300, digest("row")}, setup);
   std::ifstream in(path);
   json document = json::parse(in);
   std::filesystem::remove(path);

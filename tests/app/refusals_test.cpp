@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/tests/app/changed_log.hpp"
 #include "shapeid/tests/app/command.hpp"
 
 namespace shapeid::test {
@@ -108,6 +109,24 @@ TEST(Refusals, DataThatCannotAnswerAreRefusedWithTheirReason) {
       fmt::format("identify --robot {} --log {} --free arm --online --window 100000", robot, log));
   EXPECT_EQ(online.status, 1) << online.err;
   EXPECT_NE(online.err.find("too-short"), std::string::npos) << online.err;
+}
+
+/// Where the samples went that are not there.
+TEST(Refusals, ALogOfWhichNothingIsLeftSaysWhy) {
+  simulated_log("run.csv", "--seconds 2");
+  const auto unknown = [](NamedRow& row) {
+    row.each("contact.", [](double& flag) { flag = -1.0; });
+  };
+  write_changed("run.csv", "unknown.csv", unknown);
+  const std::string says = "samples left out near changes of contact, or because no flag";
+  for (const std::string verb :
+       {"identify", "load --area base -0.2 0.2 -0.1 0.1 0.05 0.09", "diagnose"}) {
+    expect_one_line(shapeid(fmt::format("{} {} --log unknown.csv", verb, quadruped_files)), 1,
+                    says);
+  }
+  // Shorter than a filter of 0.5 Hz reaches.
+  expect_one_line(shapeid(fmt::format("identify {} --log run.csv --cutoff 0.5", quadruped_files)),
+                  1, "samples lost to the filter at the ends");
 }
 
 // A block of 80 kg, a hand's breadth in front of the middle of a robot of 13 kg.

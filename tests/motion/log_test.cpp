@@ -73,6 +73,9 @@ TEST(LogReader, SaysWhatIsWrongWithBrokenFiles) {
       {"a,b\n1,5,2\n",
        "x.csv:2: has 3 fields where the header has 2; give one number a column, decimals with a "
        "point"},
+      {"# of today\na,b\n1,2\n",
+       "x.csv:2: has 2 fields where the header has 1; begin with a row of column names, not with a "
+       "comment"},
       {"a,b\n1,\"2,5\"\n",
        "x.csv:2, column b: is not a number (\"2,5\": decimals take a point, not a comma); " +
            right},

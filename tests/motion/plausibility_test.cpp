@@ -259,5 +259,26 @@ TEST(Plausibility, AStepOfAMicrosecondIsRefused) {
   EXPECT_NO_THROW(check_clock("x.csv", "time", std::nextafter(microsecond, 1.0)));
 }
 
+/// As a stream has it whose clock is set by another one: an integral over the step back would have
+/// the other sign.
+TEST(Plausibility, AClockThatIsSetBackIsNoMotion) {
+  const Robot robot = chain(1, Root::fixed);
+  const LogTable table("x.csv", "time,q.j0,dq.j0,tau.j0", 1);
+  const ChannelPlan plan = plan_channels(table, robot, {});
+  Plausibility plausibility("x.csv", robot, plan, {.longest_step = 0.1});
+  for (int k = 0; k < 4000; ++k) {
+    const double step = 0.002, back = 0.07;
+    MeasuredRow row;
+    row.line = k + 2;
+    row.time = step * k - back * (k / 17);  // a row more than a span of the test takes
+    row.values.resize(static_cast<Eigen::Index>(plan.channels.size()));
+    row.values[plan.q] = std::sin(3.0 * step * k);
+    row.values[plan.dq] = 3.0 * std::cos(3.0 * step * k);
+    row.values[plan.tau] = std::sin(5.0 * step * k);
+    plausibility.add(row);
+  }
+  EXPECT_NO_THROW(plausibility.judge());
+}
+
 }  // namespace
 }  // namespace shapeid

@@ -232,6 +232,16 @@ TEST(TrackResume, RefusesWhatDoesNotBelongTogether) {
                  "other options");
   scratch_file("short.csv", joined({trot_log()[0], trot_log()[1]}));
   expect_refused("--checkpoint state.json --resume short.csv", "bytes");
+  // The same columns of another run.
+  Lines other = trot_log();
+  for (std::size_t i = 1; i < other.size(); ++i)
+    other[i].back() = other[i].back() == '1' ? '0' : '1';
+  scratch_file("other.csv", joined(other));
+  const std::string says = fmt::format("other.csv:{}: is not the line", other.size());
+  expect_refused("--checkpoint state.json --resume other.csv", says);
+  scratch_file("shorter.csv", joined(trot_log()).substr(0, joined(trot_log()).size() - 3));
+  expect_refused("--checkpoint state.json --resume shorter.csv", "bytes");
+  EXPECT_EQ(shapeid(track("--checkpoint state.json --resume -"), "other.csv").status, 2);
   scratch_file("broken.json", text_of(scratch() + "/state.json").substr(0, 5000));
   expect_refused("--checkpoint broken.json --resume whole.csv", "is not JSON");
   scratch_file("other.json", "{\"format\": \"shapeid-checkpoint-0\"}");

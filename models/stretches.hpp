@@ -1,0 +1,57 @@
+// Digests of rows that follow each other, by which measurements are known again.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "shapeid/models/channels.hpp"
+
+namespace shapeid {
+
+/// Of numbers in their order, bit by bit; a missing one is one NaN, and a zero has no sign.
+class RowDigest {
+ public:
+  void add(double value);
+  [[nodiscard]] std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0;
+};
+
+/// Single rows of one joint and coarse sensors coincide in any two logs, so many that follow each
+/// other do not.
+class Stretch {
+ public:
+  static constexpr std::size_t length = 10;
+
+  /// The next row's digest.
+  void add(std::uint64_t row);
+  /// Of the last rows; empty before there are enough.
+  [[nodiscard]] std::optional<std::uint64_t> digest() const;
+  /// No two of the last rows are the same: a robot that rests may read the same at any time.
+  [[nodiscard]] bool moves() const;
+
+ private:
+  std::array<std::uint64_t, length> rows_{};
+  std::size_t count_ = 0;
+};
+
+/// Stretches of joint angles and torques that stand in one log several times.
+class RepeatedStretches {
+ public:
+  RepeatedStretches(const ChannelPlan& plan, int joints) : plan_(plan), joints_(joints) {}
+  void add(const MeasuredRow& row);
+  /// Of the stretches in which the joints move, that of those that were there before; 0 to 1.
+  [[nodiscard]] double share() const;
+
+ private:
+  const ChannelPlan& plan_;
+  int joints_;
+  Stretch stretch_;
+  std::map<std::uint64_t, std::size_t> times_;  ///< of the smallest digests, a sample of all
+};
+
+}  // namespace shapeid
