@@ -15,8 +15,8 @@ constexpr double shortest = 1e-150;
 }  // namespace
 
 // Every column adds one reflection as it enters and fewer than most_columns short ones as it
-// leaves. With room for three times the columns a set is rebuilt seldom, and a new column never
-// passes through many more reflections than a rebuilt set would have.
+// leaves. With room for three times the columns beside their own a set is rebuilt seldom, and a new
+// column never passes through many more reflections than a rebuilt set would have.
 ColumnQr::ColumnQr(Eigen::Index rows, Eigen::Index most_columns)
     : rows_(rows),
       T_(Eigen::MatrixXd::Zero(most_columns, most_columns)),

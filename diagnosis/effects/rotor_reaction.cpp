@@ -33,7 +33,9 @@ Effect rotor_reaction() {
   Effect e;
   e.id = "rotor_reaction";
   e.title = "the spinning rotor turns the link that carries the drive, and gyroscopics";
-  e.equation = "tau += d/dt of k (dq_j z_j . (omega of the parent)), k = gear times rotor inertia";
+  e.equation =
+      "tau += J_w(parent)^T k (ddq_j z_j + omega(parent) x z_j dq_j), and at j itself "
+      "k z_j . alpha(parent); k = gear times rotor inertia";
   e.site = SiteKind::joint;
   e.parameters = {{"k", "kg m^2", true, 0.002}};
   e.confused_with = {"rotor_inertia", "inertia of the parent link"};
