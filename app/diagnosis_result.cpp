@@ -123,7 +123,8 @@ json links_json(const DiagnosisRun& run, const Robot& robot) {
     if (run.causes_alone) {
       entry["beside_causes_alone"] = numbers(run.causes_alone->model.Phi.segment<10>(at));
       entry["hangs_on_descriptions"] =
-          diagnosis::hangs_on_descriptions(run.consistent, *run.causes_alone, free_links[i]);
+          diagnosis::hangs_on_descriptions(run.consistent, *run.causes_alone, free_links[i])
+              .has_value();
     }
     links.push_back(entry);
   }

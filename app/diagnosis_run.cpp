@@ -11,6 +11,7 @@
 
 #include "shapeid/app/diagnosis_logs.hpp"
 #include "shapeid/app/motion_noise.hpp"
+#include "shapeid/app/result.hpp"
 #include "shapeid/diagnosis/contact_reach.hpp"
 #include "shapeid/diagnosis/contacts_in_loop.hpp"
 #include "shapeid/diagnosis/names.hpp"
@@ -166,16 +167,16 @@ void note_rests(const Robot& robot, DiagnosisRun& run) {
 
 void note_unsettled_links(const Robot& robot, DiagnosisRun& run) {
   for (const int link : run.settings.shapes.free_links) {
-    if (!run.causes_alone ||
-        !diagnosis::hangs_on_descriptions(run.consistent, *run.causes_alone, link)) {
-      continue;
-    }
-    const Eigen::Index mass = Eigen::Index{10} * link;
-    run.notes.push_back(
-        fmt::format("the inertia of {} is not identified: it hangs on effects that are no causes "
-                    "(mass {:.3g} kg beside them, {:.3g} kg without)",
-                    robot.links[static_cast<std::size_t>(link)].name,
-                    run.consistent.model.Phi[mass], run.causes_alone->model.Phi[mass]));
+    if (!run.causes_alone) continue;
+    const auto moved = diagnosis::hangs_on_descriptions(run.consistent, *run.causes_alone, link);
+    if (!moved) continue;
+    const Eigen::Index at = Eigen::Index{10} * link + *moved;
+    run.notes.push_back(fmt::format(
+        "the inertia of {} is not identified: it hangs on effects that are no causes ({} is {:.4g} "
+        "{} beside them, {:.4g} without)",
+        robot.links[static_cast<std::size_t>(link)].name,
+        parameter_names[static_cast<std::size_t>(*moved)], run.consistent.model.Phi[at],
+        parameter_units[static_cast<std::size_t>(*moved)], run.causes_alone->model.Phi[at]));
   }
 }
 
@@ -200,6 +201,22 @@ void note_far_masses(const Robot& robot, DiagnosisRun& run) {
   }
 }
 
+/// What gains so much by an impossible value stands for something that is not looked for.
+void note_incredible(DiagnosisRun& run) {
+  constexpr double much = 0.1, sure = 5.0;
+  const diagnosis::Ranked* best = nullptr;
+  for (const diagnosis::Ranked& r : run.loop.last_ranking) {
+    if (r.credible || !(r.gain > much && r.t > sure)) continue;
+    if (best == nullptr || r.gain > best->gain) best = &r;
+  }
+  if (best == nullptr) return;
+  run.notes.push_back(
+      fmt::format("{} would take away {:.0f} % of the held-out error that is left ({:.1f} standard "
+                  "errors), but by a value beyond what is believed of it: look for what it stands "
+                  "for before believing the rest",
+                  best->id, 100.0 * best->gain, best->t));
+}
+
 void note_worse_joints(const Robot& robot, DiagnosisRun& run) {
   const int base = robot.base_dof();
   for (int j = 0; j < robot.joint_count(); ++j) {
@@ -219,9 +236,10 @@ void note_moments(const Robot& robot, const DiagnoseOptions& options, DiagnosisR
   for (const diagnosis::AppliedEffect& a : run.consistent.model.effects) {
     if (!a.begins()) continue;
     run.notes.push_back(fmt::format(
-        "{} came {:.3g} s after the log began, and is tested as if it came that long after the "
+        "{} came {:.3g} s after the {}log began{}, and is tested as if it came that long after the "
         "test's beginning: hold stretches of the log out instead (without --test)",
-        hypothesis_id(robot, a), a.shape[0]));
+        hypothesis_id(robot, a), a.shape[0], options.also.empty() ? "" : "first ",
+        options.also.empty() ? "" : " (the others follow it, a second apart)"));
   }
 }
 
@@ -399,6 +417,7 @@ void Diagnosis::add_notes() {
   note_unsettled_links(robot, run_);
   note_mass_beside_forces(robot, run_);
   note_far_masses(robot, run_);
+  note_incredible(run_);
   note_moments(robot, options_, run_);
 }
 

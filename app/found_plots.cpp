@@ -8,12 +8,15 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "shapeid/app/gnuplot.hpp"
 #include "shapeid/app/plot_script.hpp"
 #include "shapeid/app/result.hpp"
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/slowness.hpp"
 
 namespace shapeid::app {
 
@@ -94,6 +97,40 @@ std::string inertia_picture(const DiagnosisRun& run, const Robot& robot, int lin
   return gnuplot(script + "unset multiplot\n");
 }
 
+namespace {
+
+/// Of a signal by its name; none of a log's further columns.
+std::string unit_of(const std::string& variable, const Robot& robot) {
+  constexpr std::array<std::array<const char*, 2>, 6> kinds = {{{"q.", "rad"},
+                                                                {"dq.", "rad/s"},
+                                                                {"ddq.", "rad/s^2"},
+                                                                {"tau.", "N m"},
+                                                                {"dtau.", "N m/s"},
+                                                                {"turn.", "rad"}}};
+  for (const auto& [prefix, unit] : kinds) {
+    if (!variable.starts_with(prefix)) continue;
+    const auto joint = robot.find_joint(variable.substr(std::string_view(prefix).size()));
+    if (joint) return unit_at(robot.joint(*joint), unit);
+  }
+  return variable == "time" ? "s" : variable == diagnosis::slow ? "Hz" : "";
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : fmt::format("{} ({})", name, unit);
+}
+
+/// Of "torque_gain@knee" the unit of its number.
+std::string unit_of_law(const std::string& law, const Robot& robot) {
+  const std::size_t at = law.find('@');
+  const diagnosis::Effect* effect = diagnosis::find_effect(law.substr(0, at));
+  if (effect == nullptr || effect->parameters.empty()) return {};
+  const auto joint = at == std::string::npos ? std::nullopt : robot.find_joint(law.substr(at + 1));
+  const std::string& unit = effect->parameters.front().unit;
+  return joint ? unit_at(robot.joint(*joint), unit) : unit;
+}
+
+}  // namespace
+
 std::string structure_picture(const diagnosis::Structure& structure, const Robot& robot) {
   std::string script = canvas(420, 240) + "unset key\n" +
                        data_rows("d", std::ssize(structure.at), [&](Eigen::Index i) {
@@ -101,15 +138,15 @@ std::string structure_picture(const diagnosis::Structure& structure, const Robot
                          return std::array{structure.at[k], structure.value[k]};
                        });
   const auto joint = robot.find_joint(structure.joint);
-  const std::string over =
+  // The joint, and the law, stand below the picture: a long name would not fit beside it.
+  const std::string up =
       structure.law.empty()
-          ? fmt::format("residual of {} ({})", structure.joint,
-                        joint ? unit_at(robot.joint(*joint), "N m") : joints_unit(robot))
-          : fmt::format("number of {}", structure.law);
+          ? with_unit("residual", joint ? unit_at(robot.joint(*joint), "N m") : joints_unit(robot))
+          : with_unit("its number", unit_of_law(structure.law, robot));
+  const std::string along = with_unit(structure.variable, unit_of(structure.variable, robot));
   return gnuplot(script + fmt::format("set xlabel {}\nset ylabel {}\n"
                                       "plot $d with linespoints pt 7 ps 0.5 lc rgb '{}'\n",
-                                      gnuplot_string(structure.variable), gnuplot_string(over),
-                                      blue));
+                                      gnuplot_string(along), gnuplot_string(up), blue));
 }
 
 }  // namespace shapeid::app

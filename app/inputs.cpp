@@ -309,7 +309,7 @@ Part part_of(double time_since_start, const MotionInputs& inputs) {
 void refuse_without_samples(const MotionReport& log) {
   if (log.samples > 0) return;
   std::string why = "the log has no usable sample";
-  if (log.dropped_at_contacts > 0) {
+  if (log.dropped_at_contacts > log.dropped_at_ends) {
     why += fmt::format(
         ": {} samples left out near changes of contact, or because no flag says whether a contact "
         "touches",

@@ -18,11 +18,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<const char*, 10> parameter_names = {"m",   "m rx", "m ry", "m rz", "Ixx",
-                                                         "Ixy", "Ixz",  "Iyy",  "Iyz",  "Izz"};
-constexpr std::array<const char*, 10> parameter_units = {
-    "kg", "kg m", "kg m", "kg m", "kg m^2", "kg m^2", "kg m^2", "kg m^2", "kg m^2", "kg m^2"};
-
 /// JSON has no infinity: a number that is not known is null.
 json numbers(const Eigen::VectorXd& v) {
   json list = json::array();

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -14,6 +15,12 @@
 #include "shapeid/reference/identify.hpp"
 
 namespace shapeid::app {
+
+/// Of a link's ten numbers, as text has them.
+inline constexpr std::array<const char*, 10> parameter_names = {
+    "m", "m rx", "m ry", "m rz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz"};
+inline constexpr std::array<const char*, 10> parameter_units = {
+    "kg", "kg m", "kg m", "kg m", "kg m^2", "kg m^2", "kg m^2", "kg m^2", "kg m^2", "kg m^2"};
 
 /// Residuals of three models on samples that were not fitted.
 struct Comparison {

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "shapeid/diagnosis/effects.hpp"
 
 namespace shapeid::diagnosis {
@@ -24,8 +26,9 @@ std::string kind_name(SiteKind kind) {
 std::string parameter_text(const Effect& e) {
   std::string text;
   for (const Parameter& p : e.parameters) {
-    text += fmt::format("{}{} ({}{})", text.empty() ? "" : ", ", p.name, p.unit,
-                        p.nonnegative ? ", >= 0" : "");
+    text += fmt::format(
+        "{}{} ({}{}{})", text.empty() ? "" : ", ", p.name, p.unit, p.nonnegative ? ", >= 0" : "",
+        std::isfinite(p.limit) ? fmt::format(", believed up to {:g}", p.limit) : "");
   }
   for (const ShapeNumber& s : e.shape) {
     text += fmt::format("; {} ({}, {:g} to {:g})", s.name, s.unit, s.lower, s.upper);

@@ -17,7 +17,8 @@ std::optional<Consistent> beside_causes_alone(const Robot& robot, const Recordin
   return make_consistent(robot, log, reference, settings, causes);
 }
 
-bool hangs_on_descriptions(const Consistent& model, const Consistent& causes_alone, int link) {
+std::optional<Eigen::Index> hangs_on_descriptions(const Consistent& model,
+                                                  const Consistent& causes_alone, int link) {
   constexpr double told_apart = 3.0;  // standard errors; ten numbers a link are looked at
   const Eigen::Index at = Eigen::Index{10} * link;
   const Eigen::ArrayXd moved =
@@ -28,7 +29,12 @@ bool hangs_on_descriptions(const Consistent& model, const Consistent& causes_alo
   // What nothing but the prior holds has no scatter: it moves by the solver's tolerance.
   constexpr double tolerance = 1e-6;
   const Eigen::ArrayXd size = model.model.Phi.segment<10>(at).cwiseAbs();
-  return (moved > told_apart * error && moved > tolerance * size).any();
+  std::optional<Eigen::Index> worst;
+  for (Eigen::Index p = 0; p < moved.size(); ++p) {
+    if (!(moved[p] > told_apart * error[p] && moved[p] > tolerance * size[p])) continue;
+    if (!worst || moved[p] * error[*worst] > moved[*worst] * error[p]) worst = p;
+  }
+  return worst;
 }
 
 }  // namespace shapeid::diagnosis

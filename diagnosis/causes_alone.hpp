@@ -15,10 +15,11 @@ namespace shapeid::diagnosis {
                                                             const LoopSettings& settings,
                                                             const LoopResult& loop);
 
-/// Whether some parameter of the link is another one without the effects that are no causes, by
-/// more than three standard errors of both together: then the data do not determine it, however
-/// small its error is.
-[[nodiscard]] bool hangs_on_descriptions(const Consistent& model, const Consistent& causes_alone,
-                                         int link);
+/// The parameter of the link, 0 to 9, that is another one without the effects that are no causes,
+/// by more than three standard errors of both together; of several the one by most of them. The
+/// data do not determine it, however small its error is.
+[[nodiscard]] std::optional<Eigen::Index> hangs_on_descriptions(const Consistent& model,
+                                                                const Consistent& causes_alone,
+                                                                int link);
 
 }  // namespace shapeid::diagnosis

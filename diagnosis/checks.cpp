@@ -59,7 +59,8 @@ void check_clock(Tally tally, const RichModel& given, const LoopSettings& settin
   if (std::abs(drift) > least_drift && std::abs(drift) > least_z * fit.standard_error[last]) {
     throw Refusal("clock-skew",
                   fmt::format("{}{}torque is {:.1f} ms late in the log's first half and {:.1f} ms "
-                              "in its second: the clocks of torque and joints drift apart",
+                              "in its second: the clocks of torque and joints drift apart, or rows "
+                              "were held, lost or repeated",
                               name, name.empty() ? "" : ": ", 1e3 * fit.value[last - 1],
                               1e3 * (fit.value[last - 1] + drift)));
   }

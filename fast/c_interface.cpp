@@ -2,6 +2,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -230,6 +231,8 @@ shapeid_identifier* shapeid_create(const char* urdf, const char* robot_yaml,
   shapeid_default_settings(&usual);
   try {
     return create(urdf, robot_yaml, shapes_yaml, settings != nullptr ? *settings : usual).release();
+  } catch (const std::bad_alloc&) {
+    say("memory is used up; a shorter window, fewer divisions or shapes", error, error_size);
   } catch (const std::exception& e) {
     say(e.what(), error, error_size);
   } catch (...) {

@@ -17,7 +17,9 @@ double seconds_since(Clock::time_point start) noexcept {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-const IdentifierSettings& checked(const IdentifierSettings& settings) {
+const IdentifierSettings& checked(const IdentifierSettings& settings, const Robot& robot,
+                                  const BodyModel& model) {
+  check_sought(robot, model);
   check_online(
       {settings.window, settings.stride, settings.alpha, settings.expected_mass, settings.lambda});
   if (settings.mass_bound &&
@@ -52,7 +54,9 @@ DivisionOptions options_of(const IdentifierSettings& settings) {
 
 Identifier::Identifier(const Robot& robot, const BodyModel& model,
                        const IdentifierSettings& settings)
-    : division_(model, options_of(checked(settings))),
+    : joints_(robot.joint_count()),
+      contacts_(robot.contacts.size()),
+      division_(model, options_of(checked(settings, robot, model))),
       block_(std::gcd(settings.window, settings.stride)),
       window_(settings.window),
       stride_(settings.stride),
@@ -72,7 +76,9 @@ Identifier::Identifier(const Robot& robot, const BodyModel& model,
 
 Identifier::Fed Identifier::feed(const Sample& sample) noexcept {
   const Clock::time_point start = Clock::now();
-  if (rows_.add(sample) != Verdict::taken) return Fed::sample_declined;
+  if (!has_sizes(sample, joints_, contacts_) || rows_.add(sample) != Verdict::taken) {
+    return Fed::sample_declined;
+  }
   ++since_last_;
   if (++in_block_ == block_) {
     if (sliding_) sliding_->push(rows_.triangle());

@@ -20,14 +20,15 @@ namespace shapeid::fast {
 
 struct IdentifierSettings {
   ContactTreatment contacts = ContactTreatment::project;
-  Eigen::VectorXd weight;      ///< diagonal of W, generalised order; empty: ones
+  /// Diagonal of W, generalised order, within twelve decades; empty: ones.
+  Eigen::VectorXd weight = {};
   std::size_t window = 10;     ///< samples a window
   std::size_t stride = 10;     ///< samples from one window to the next: 10 at 500 Hz is 20 ms
   double alpha = 0.5;          ///< equation (17), in (0, 1]
-  double expected_mass = 0.0;  ///< M0 > 0, kg, of all free shapes together
+  double expected_mass = 0.0;  ///< M0, kg, of all free shapes together: 1e-6 to 1e6
   /// Default: computed from the first window with nonzero forces, then fixed.
-  std::optional<double> lambda;
-  std::optional<double> mass_bound;  ///< kg, for the gap; default: ten times M0
+  std::optional<double> lambda = {};
+  std::optional<double> mass_bound = {};  ///< kg, for the gap; default: ten times M0
   /// Windows start at the masses of the one before. If not, an answer depends on its window alone,
   /// to the last bit: what a restart in the middle of a stream needs.
   bool warm = true;
@@ -37,30 +38,35 @@ struct IdentifierSettings {
 
 /// One window's answer, besides masses and parameters.
 struct WindowAnswer {
-  double time = 0.0;   ///< s, of the window's last sample
-  Objective value;     ///< f of the present shapes, before the filter
-  double gap = 0.0;    ///< f is at most this much above its minimum over the present shapes
+  double time = 0.0;  ///< s, of the window's last sample
+  Objective value;    ///< f of the present shapes, before the filter
+  /// f is at most this much above its minimum over the present shapes, if the masses there add up
+  /// to no more than the mass bound.
+  double gap = 0.0;
   int iterations = 0;  ///< small systems, of all divisions together
   int divisions = 0;
   Division::Stop stopped_by = Division::Stop::limit;  ///< what ended the divisions
-  double seconds = 0.0;         ///< spent on the window: all its samples, solve and divisions
+  double seconds = 0.0;         ///< of all calls since the last window, solve and divisions
   double slowest_sample = 0.0;  ///< s, of the calls that only kept a sample
   double last_call = 0.0;       ///< s, of the call that gave this answer
 };
 
 /// What `reference::OnlineIdentifier` does, on compressed windows. After construction nothing
-/// throws or allocates (but see PartTree for polyhedra), and the work of a call is bounded. Unlike
+/// throws or allocates (but see PartTree for polyhedra), and the work of a call is bounded. A
+/// division by zero may happen in it and be put right: traps of floating-point must be off. Unlike
 /// there, a window is declined whose forces and torques are, as a root mean square, beyond a
 /// hundred times the weight of all links (torques: at a metre): it would leave its scale to lambda.
 class Identifier {
  public:
-  /// Copies what it needs. Throws InputError for settings that make no sense.
+  /// Copies what it needs. Throws InputError for settings that make no sense, and for a model that
+  /// is not this robot's.
   Identifier(const Robot& robot, const BodyModel& model, const IdentifierSettings& settings);
 
   enum class Fed {
     kept,             ///< no window is complete yet
     answered,         ///< a window was solved: answer(), masses(), Phi() and filtered() are new
-    sample_declined,  ///< a number is not finite, or forces are missing: as if not fed
+    sample_declined,  ///< sizes are not the robot's, a number is not finite (or its square), or
+                      ///< forces are missing: as if not fed
     window_declined   ///< not solved, see outcome(): the last answer stays; ask the reference
   };
 
@@ -113,6 +119,8 @@ class Identifier {
  private:
   [[nodiscard]] bool solve(const Eigen::MatrixXd& R) noexcept;
 
+  int joints_;
+  std::size_t contacts_;
   Division division_;
   std::size_t block_, window_, stride_;  ///< samples
   bool warm_, has_answer_ = false;

@@ -8,19 +8,10 @@
 namespace shapeid::fast {
 namespace {
 
-[[maybe_unused]] Violation why_other_sizes(const Sample& s, std::size_t joints,
-                                           std::size_t contacts) {
-  const auto n = static_cast<Eigen::Index>(joints);
-  if (s.q.size() != n || s.dq.size() != n || s.ddq.size() != n || s.tau.size() != n) {
-    return "q, dq, ddq or tau does not have an entry for each joint";
-  }
-  if (!s.in_contact.empty() && s.in_contact.size() != contacts) {
-    return "not a flag for each contact";
-  }
-  if (!s.contact_force.empty() && s.contact_force.size() != contacts) {
-    return "not a force for each contact";
-  }
-  return std::nullopt;
+[[maybe_unused]] Violation why_other_sizes(const Sample& s, int joints, std::size_t contacts) {
+  if (has_sizes(s, joints, contacts)) return std::nullopt;
+  return "q, dq, ddq or tau does not have an entry for each joint, or there is not a flag for each "
+         "contact, or a force";
 }
 
 // Squares of rows up to this size add up over any log without overflow.
@@ -46,6 +37,12 @@ bool base_alone(const Robot& robot, const BodyModel& model) {
 
 }  // namespace
 
+bool has_sizes(const Sample& s, int joints, std::size_t contacts) noexcept {
+  return s.q.size() == joints && s.dq.size() == joints && s.ddq.size() == joints &&
+         s.tau.size() == joints && (s.in_contact.empty() || s.in_contact.size() == contacts) &&
+         (s.contact_force.empty() || s.contact_force.size() == contacts);
+}
+
 SampleRows::SampleRows(const Robot& robot, const BodyModel& model, ContactTreatment contacts,
                        const Eigen::VectorXd& weight)
     : contacts_(contacts),
@@ -62,8 +59,7 @@ SampleRows::SampleRows(const Robot& robot, const BodyModel& model, ContactTreatm
 }
 
 Verdict SampleRows::update(const Sample& sample) noexcept {
-  SHAPEID_CONTRACT(why_other_sizes(sample, static_cast<std::size_t>(kinematics_.link_count()) - 1,
-                                   measured_.contacts()));
+  SHAPEID_CONTRACT(why_other_sizes(sample, kinematics_.link_count() - 1, measured_.contacts()));
   first_ = count_ = 0;
   constant_ = 0.0;
   if (!is_finite(sample)) return Verdict::not_finite;

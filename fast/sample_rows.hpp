@@ -27,6 +27,9 @@ enum class Verdict {
   no_contact_forces  ///< declined: forces should be measured, and are not there for each contact
 };
 
+/// An entry for each joint, and for each contact or none at all.
+[[nodiscard]] bool has_sizes(const Sample& sample, int joints, std::size_t contacts) noexcept;
+
 /// What `reference::sample_rows` and `reference::eliminate_contacts` compute together, up to the
 /// rotation that Q2 leaves open: [Y F]^T [Y F] is the same.
 class SampleRows {

@@ -4,7 +4,8 @@
  * parameters whenever a feed answers (docs/examples/identifier.c). No exception leaves a function.
  * shapeid_create() allocates; nothing else does, but for division of polyhedra, which
  * allocates whenever one is cut that was not cut the same way shortly before
- * (fast/part_tree.hpp). An identifier is used by one thread at a time; different identifiers do not
+ * (fast/part_tree.hpp; if memory is used up there, the program ends). Traps of floating-point must
+ * be off: a division by zero may happen and be put right. An identifier is used by one thread at a time; different identifiers do not
  * know of each other.
  *
  * SI units and radians. A contact or link is told by its place in the robot's order, which the
@@ -34,7 +35,9 @@ typedef enum shapeid_root {
 /** What becomes of contact forces. */
 typedef enum shapeid_contacts {
   SHAPEID_PROJECT_CONTACTS,  /**< unknown, eliminated by projection */
-  SHAPEID_MEASURED_CONTACTS, /**< measured, part of every sample */
+  /** Measured, part of every sample, whatever the flags say. Of a plane or a line the force alone
+   * counts: moments that it transmits are taken for the links' own. */
+  SHAPEID_MEASURED_CONTACTS,
   SHAPEID_IGNORE_CONTACTS    /**< there are none */
 } shapeid_contacts;
 
@@ -51,7 +54,8 @@ typedef struct shapeid_settings {
   size_t window;         /**< samples a window: 10 */
   size_t stride;         /**< samples from one window to the next: 10, at 500 Hz 20 ms */
   double alpha;          /**< of filter (17), in (0, 1]: 0.5; 1 does not smooth */
-  double expected_mass;  /**< kg, of all free links; 0 (default): from robot.yaml, else the URDF */
+  double expected_mass;  /**< kg, of all free links, 1e-6 to 1e6; 0 (default): from robot.yaml, else
+                              the URDF */
   double lambda;         /**< density term, >= 0; negative (default): from the first forces */
   double mass_bound;     /**< kg, for the gap; 0 (default): ten times the expected mass */
   int most_divisions;    /**< in every window: 0 (default) divides nothing */
@@ -111,7 +115,8 @@ typedef struct shapeid_sample {
 typedef enum shapeid_status {
   SHAPEID_KEPT,     /**< no window is complete yet */
   SHAPEID_ANSWERED, /**< a window was solved: all that can be read below is new */
-  /** A number is not finite, also the time, or forces are missing: as if not fed. */
+  /** A number is not finite, also the time, or so large that its square is not; or forces are
+   * missing: as if not fed. */
   SHAPEID_SAMPLE_DECLINED,
   /** Not solved, and shapeid_last_outcome() says why: the last answer stays. */
   SHAPEID_WINDOW_DECLINED,
@@ -152,11 +157,13 @@ typedef enum shapeid_stop {
 typedef struct shapeid_answer {
   double time;             /**< s, of the window's last sample */
   double objective;        /**< f of (15) for the present shapes, before the filter */
-  double gap;              /**< f is at most this much above its minimum over the present shapes */
+  /** f is at most this much above its minimum over the present shapes, if the masses there add up
+   * to no more than mass_bound. Rounding can leave it a little below zero. */
+  double gap;
   int iterations;          /**< small systems solved, of all divisions together */
   int divisions;           /**< done in this window */
   shapeid_stop stopped_by; /**< what ended them */
-  double window_seconds;   /**< spent on the window: all its samples, solve and divisions */
+  double window_seconds;   /**< of all calls since the last window, solve and divisions */
   double slowest_sample_seconds; /**< of the calls that only kept a sample */
   double last_call_seconds;      /**< of the call that gave this answer */
 } shapeid_answer;

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "shapeid/models/alignment.hpp"
 #include "shapeid/models/contract.hpp"
 
 namespace shapeid {

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "shapeid/models/alignment.hpp"
 #include "shapeid/models/contract.hpp"
 
 namespace shapeid {

@@ -10,6 +10,7 @@
 #include "shapeid/models/contact_margin.hpp"
 #include "shapeid/models/equal_signals.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/held_positions.hpp"
 #include "shapeid/models/plausibility.hpp"
 #include "shapeid/models/resampler.hpp"
 #include "shapeid/models/row_steps.hpp"
@@ -43,6 +44,7 @@ struct MotionReader::State {
         source(path, r, mapping),
         equal(source.plan(), r.joint_count()),
         repeated(source.plan(), r.joint_count()),
+        held(source.plan(), r.joint_count()),
         margin(o.at_contact_change,
                o.exact_derivatives ? 0.0 : o.contact_margin.value_or(margin_periods / o.cutoff)) {
     const ChannelPlan& plan = source.plan();
@@ -90,6 +92,7 @@ struct MotionReader::State {
   std::optional<Plausibility> plausibility;
   EqualSignals equal;
   RepeatedStretches repeated;
+  HeldPositions held;
   std::optional<Resampler> grid;
   std::optional<SegmentSamples> segments;
   ContactMargin margin;
@@ -160,6 +163,7 @@ struct MotionReader::State {
     const std::optional<MeasuredRow> row = next_row();
     if (row) equal.add(*row);
     if (row) repeated.add(*row);
+    if (row) held.add(*row);
     if (options.exact_derivatives) {
       if (row) take_exact(*row);
     } else {
@@ -204,6 +208,20 @@ struct MotionReader::State {
         percent * repeated.share()));
   }
 
+  void note_held() {
+    std::size_t count = 0;
+    const std::optional<HeldPosition> longest = held.longest(count);
+    if (!longest) return;
+    const Joint& joint = robot.joint(longest->joint);
+    const auto channel = static_cast<std::size_t>(source.plan().q + longest->joint);
+    report.notes.push_back(fmt::format(
+        "{}:{}: {} stays the same for {:.2g} s and then jumps by {:.2g} {}: readings were held{}; "
+        "leave these rows out, a gap is no harm",
+        source.path(), longest->line, source.plan().channels[channel].from, longest->seconds,
+        longest->jump, joint.kind == JointKind::prismatic ? "m" : "rad",
+        count > 1 ? fmt::format(" ({} times)", count) : ""));
+  }
+
   void end_log() {
     ended = true;
     if (plausibility) plausibility->judge();
@@ -212,6 +230,7 @@ struct MotionReader::State {
     report.dropped_rows = source.filtered();
     report.dropped_at_contacts = margin.dropped();
     note_copies();
+    note_held();
     if (!segments) return;
     report.gaps = std::max<std::size_t>(segments->segments(), 1) - 1;
     report.dropped_at_ends = segments->lost();

@@ -14,8 +14,10 @@ void check_online(const OnlineNumbers& numbers) {
   if (numbers.window > longest || numbers.stride > longest) {
     throw InputError("a window or stride of more than a billion samples", "some dozens");
   }
-  if (!(numbers.expected_mass > 0.0) || !std::isfinite(numbers.expected_mass)) {
-    throw InputError("the expected mass is no positive number", "kg, of all free shapes together");
+  constexpr double lightest = 1e-6, heaviest = 1e6;
+  if (!(numbers.expected_mass >= lightest && numbers.expected_mass <= heaviest)) {
+    throw InputError("the expected mass is not from 1e-6 to 1e6 kg",
+                     "kg, of all free shapes together");
   }
   if (!(numbers.alpha > 0.0 && numbers.alpha <= 1.0)) {
     throw InputError("alpha of filter (17) is not in (0, 1]", "1 does not smooth");
@@ -27,9 +29,27 @@ void check_online(const OnlineNumbers& numbers) {
 
 Eigen::VectorXd online_weight(const Eigen::VectorXd& given, Eigen::Index dof) {
   Eigen::VectorXd weight = given.size() > 0 ? given : Eigen::VectorXd::Ones(dof).eval();
-  if (weight.size() == dof && (weight.array() > 0.0).all() && weight.allFinite()) return weight;
-  throw InputError("the weight is not a positive number for each of the robot's equations",
-                   "one entry a generalised coordinate, 1 / sigma^2");
+  if (weight.size() != dof || !(weight.array() > 0.0).all() || !weight.allFinite()) {
+    throw InputError("the weight is not a positive number for each of the robot's equations",
+                     "one entry a generalised coordinate, 1 / sigma^2");
+  }
+  constexpr double widest = 1.000001e12;  // twelve decades, however they are rounded
+  if (!(weight.maxCoeff() <= widest * weight.minCoeff())) {
+    throw InputError("the weight's numbers are more than twelve decades apart",
+                     "1 / sigma^2 of each equation, in SI units");
+  }
+  return weight;
+}
+
+void check_sought(const Robot& robot, const BodyModel& model) {
+  if (const Violation reason = why_malformed(model, robot)) {
+    throw InputError("the model is not this robot's: " + *reason,
+                     "make it for the robot that is given");
+  }
+  if (robot.root == Root::fixed && !model.free_links.empty() && model.free_links.front() == 0) {
+    throw InputError("the base of a robot that does not move is sought",
+                     "links that move: no torque shows the base's masses");
+  }
 }
 
 }  // namespace shapeid

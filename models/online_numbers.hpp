@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <optional>
 
+#include "shapeid/models/body_model.hpp"
+#include "shapeid/models/robot.hpp"
+
 namespace shapeid {
 
 struct OnlineNumbers {
@@ -18,8 +21,12 @@ struct OnlineNumbers {
 /// Throws InputError for numbers that make no sense.
 void check_online(const OnlineNumbers& numbers);
 
+/// Throws InputError unless the model is this robot's, and what it seeks moves.
+void check_sought(const Robot& robot, const BodyModel& model);
+
 /// The diagonal of W, ones where none is given. Throws InputError unless there is a positive number
-/// for each of the robot's `dof` equations.
+/// for each of the robot's `dof` equations, all within twelve decades of each other: beyond that
+/// rounding of one equation is more than all of another (docs/derivations/projection.md).
 [[nodiscard]] Eigen::VectorXd online_weight(const Eigen::VectorXd& given, Eigen::Index dof);
 
 }  // namespace shapeid

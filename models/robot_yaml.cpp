@@ -133,11 +133,11 @@ void read_masses(const YamlInput& in, const YAML::Node& node, const Robot& robot
       key = robot.links[static_cast<std::size_t>(link)].name;
     }
     const Eigen::VectorXd bounds = in.numbers(range, "the mass of " + name, 2);
-    constexpr double heaviest = 1e6;  // kg
-    if (bounds[0] < 0.0 || bounds[1] <= bounds[0] || bounds[1] > heaviest) {
+    constexpr double lightest = 1e-6, heaviest = 1e6;  // kg
+    if (bounds[0] < 0.0 || bounds[1] <= bounds[0] || bounds[1] > heaviest || bounds[1] < lightest) {
       in.refuse(range,
                 fmt::format("the mass of {} lies from {:g} to {:g}", name, bounds[0], bounds[1]),
-                "write [lower, upper] in kg, 0 <= lower < upper <= 1e6");
+                "write [lower, upper] in kg, 0 <= lower < upper, upper from 1e-6 to 1e6");
     }
     if (!notes.expected_mass.emplace(key, RobotNotes::MassRange{bounds[0], bounds[1]}).second) {
       in.refuse(range, fmt::format("{} is one rigid body with a link named before", name),

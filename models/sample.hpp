@@ -29,7 +29,8 @@ struct Sample {
 
   /// One entry for each contact of the robot: does it touch? Empty: nothing touches.
   std::vector<bool> in_contact;
-  /// Measured contact forces in base axes, N, one for each contact; empty if not measured.
+  /// Measured contact forces in base axes, N, one for each contact, whatever its flag says; empty
+  /// if not measured. Moments that planes and lines transmit are not among them.
   std::vector<Eigen::Vector3d> contact_force;
   /// The log's other columns (MotionReport::extra) in the nearest row, as logged: neither scaled
   /// nor filtered. NaN where the row had none. The dynamics do not use them.

@@ -188,6 +188,42 @@ Eigen::MatrixXd merged(const std::vector<RowBlock>& blocks) {
   return rows_without(blocks, blocks.size());
 }
 
+namespace {
+
+/// How many parameters blocks determine clearly: a third of the error would be asked for.
+Eigen::Index determined_by(const std::vector<RowBlock>& blocks, const Eigen::VectorXd& sizes) {
+  constexpr double share = largest_share / 3.0;
+  const Determination data = determine(blocks, sizes);
+  return (data.wider * data.standard_error.array() < share * sizes.array()).count();
+}
+
+/// Blocks that determine something clearly without one of them, or half of them by themselves, and
+/// nothing together, do not lack motion: they contradict each other.
+void refuse_disagreement(const std::vector<RowBlock>& blocks, const Eigen::VectorXd& sizes) {
+  constexpr std::size_t most = 20;  // as logs of a batch; each costs as much as all together
+  for (std::size_t k = 0; blocks.size() <= most && k < blocks.size(); ++k) {
+    std::vector<RowBlock> others = blocks;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    const auto count = determined_by(others, sizes);
+    if (count == 0) continue;
+    throw Refusal("disagree", fmt::format("number {} of {} blocks of time, or logs, contradicts "
+                                          "the others, which determine {} parameters without it",
+                                          k + 1, blocks.size(), count));
+  }
+  const auto middle = blocks.begin() + std::ssize(blocks) / 2;
+  const auto first = determined_by({blocks.begin(), middle}, sizes);
+  const auto second = determined_by({middle, blocks.end()}, sizes);
+  if (first > 0 || second > 0) {
+    throw Refusal("disagree",
+                  fmt::format("the first half of the blocks of time, or logs, determines {} "
+                              "parameters by itself, the second {}, both together none: something "
+                              "changed between them (a load, a sensor)",
+                              first, second));
+  }
+}
+
+}  // namespace
+
 Identification identify(const BodyModel& model, const CompressedRows& rows,
                         const IdentifySettings& settings,
                         const std::function<void(const DivisionRun&)>& watch) {
@@ -217,6 +253,7 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
                                 "parameter by; log a longer motion, and logs of like length",
                                 rows.blocks.size()));
     }
+    refuse_disagreement(rows.blocks, natural_sizes(model, settings.expected_mass));
     throw Refusal("not-excited",
                   "the motion determines no parameter of the free links; use a log in which they "
                   "move, turn or are loaded");

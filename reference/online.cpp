@@ -8,7 +8,8 @@
 namespace shapeid::reference {
 namespace {
 
-OnlineSettings checked(OnlineSettings settings) {
+OnlineSettings checked(OnlineSettings settings, const Robot& robot, const BodyModel& model) {
+  check_sought(robot, model);
   check_online(
       {settings.window, settings.stride, settings.alpha, settings.expected_mass, settings.lambda});
   return settings;
@@ -18,7 +19,7 @@ OnlineSettings checked(OnlineSettings settings) {
 
 OnlineIdentifier::OnlineIdentifier(const Robot& robot, BodyModel model, OnlineSettings settings)
     : model_(std::move(model)),
-      settings_(checked(std::move(settings))),
+      settings_(checked(std::move(settings), robot, model_)),
       rows_(robot, model_, settings_.contacts, online_weight(settings_.weight, robot.dof())),
       filter_(settings_.alpha),
       masses_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model_.shapes.size()))) {}

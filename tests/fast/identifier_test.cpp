@@ -225,9 +225,72 @@ TEST(FastIdentifier, TheReferenceRefusesTheSameSettings) {
   for (const double lambda : {-1.0, infinity, std::nan("")}) {
     refuse_both([&](auto& s) { s.lambda = lambda; });
   }
-  for (const double mass : {0.0, -1.0, infinity, std::nan("")}) {
+  for (const double mass : {0.0, -1.0, 1e-170, 1e308, infinity, std::nan("")}) {
     refuse_both([&](auto& s) { s.expected_mass = mass; });
   }
+  refuse_both([](auto& s) {
+    s.weight = Eigen::VectorXd::Ones(18);
+    s.weight[4] = 1e13;
+  });
+}
+
+/// Another robot's model would be read beyond its end, and a base that stands has no rows.
+TEST(FastIdentifier, TheModelIsTheRobots) {
+  const Robot robot = read_urdf(SHAPEID_SOURCE_DIR "/models/robots/quadruped.urdf").robot;
+  const auto refuse_both = [](const Robot& of, const BodyModel& model, const std::string& says) {
+    fast::IdentifierSettings settings;
+    reference::OnlineSettings same;
+    settings.expected_mass = same.expected_mass = 1.0;
+    for (const bool fast_path : {true, false}) {
+      try {
+        if (fast_path) {
+          Identifier(of, model, settings);
+        } else {
+          reference::OnlineIdentifier(of, model, same);
+        }
+        ADD_FAILURE() << says;
+      } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+      }
+    }
+  };
+  BodyModel model = test::base_model(robot);
+  Robot other = robot;
+  other.links.pop_back();
+  refuse_both(other, model, "not this robot's");
+  Robot standing = robot;
+  standing.root = Root::fixed;
+  refuse_both(standing, model, "does not move");
+  model.shapes.clear();
+  refuse_both(robot, model, "has no shape");
+}
+
+/// A log with contacts for a robot that has none, a joint too few: as if not fed, in every build.
+TEST(FastIdentifier, SamplesOfOtherSizesLeaveNoTrace) {
+  const Robot robot = test::bundled_quadruped();
+  const BodyModel model = test::bundled_shapes(robot);
+  fast::IdentifierSettings settings;
+  settings.expected_mass = 6.0;
+  Identifier disturbed(robot, model, settings), calm(robot, model, settings);
+  for (const Sample& sample :
+       test::trot(robot, stacked_parameters(robot), 3, 30, test::Noise::sensors)) {
+    for (Eigen::VectorXd Sample::*const numbers :
+         {&Sample::q, &Sample::dq, &Sample::ddq, &Sample::tau}) {
+      Sample wrong = sample;
+      (wrong.*numbers).conservativeResize(11);
+      ASSERT_EQ(disturbed.feed(wrong), Fed::sample_declined);
+    }
+    Sample wrong = sample;
+    wrong.in_contact.resize(5);
+    ASSERT_EQ(disturbed.feed(wrong), Fed::sample_declined);
+    wrong = sample;
+    wrong.contact_force.resize(3);
+    ASSERT_EQ(disturbed.feed(wrong), Fed::sample_declined);
+    ASSERT_EQ(disturbed.feed(sample), calm.feed(sample));
+  }
+  ASSERT_GT(calm.Phi()[0], 0.0);
+  EXPECT_EQ(disturbed.Phi(), calm.Phi());
+  EXPECT_EQ(disturbed.filtered(), calm.filtered());
 }
 
 TEST(FastIdentifier, RefusesSettingsThatMakeNoSense) {
@@ -249,8 +312,8 @@ TEST(FastIdentifier, RefusesSettingsThatMakeNoSense) {
   refused("a window or stride", [](auto& s) { s.window = static_cast<std::size_t>(-1); });
   refused("a window or stride", [](auto& s) { s.stride = static_cast<std::size_t>(-1); });
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  refused("the expected mass is no positive number", [](auto& s) { s.expected_mass = 0.0; });
-  refused("the expected mass is no positive number", [](auto& s) { s.expected_mass = infinity; });
+  refused("the expected mass is not from 1e-6", [](auto& s) { s.expected_mass = 0.0; });
+  refused("the expected mass is not from 1e-6", [](auto& s) { s.expected_mass = infinity; });
   refused("alpha", [](auto& s) { s.alpha = 0.0; });
   refused("alpha", [](auto& s) { s.alpha = 1.5; });
   refused("lambda is negative", [](auto& s) { s.lambda = -1.0; });
@@ -259,6 +322,10 @@ TEST(FastIdentifier, RefusesSettingsThatMakeNoSense) {
   refused("the mass bound is no positive number", [](auto& s) { s.mass_bound = infinity; });
   refused("the weight", [](auto& s) { s.weight = Eigen::VectorXd::Ones(1); });
   refused("the weight", [](auto& s) { s.weight = Eigen::VectorXd::Zero(18); });
+  refused("the weight's numbers are more than twelve decades apart", [](auto& s) {
+    s.weight = Eigen::VectorXd::Ones(18);
+    s.weight[9] = 1e100;
+  });
   refused("", [](auto& s) { s.division.k1 = -1.0; });
   // What is just allowed.
   fast::IdentifierSettings settings;

@@ -88,7 +88,7 @@ TEST_F(Copies, AStretchThatStandsTwiceIsNoted) {
 
 TEST_F(Copies, RestAndNoiseOfItStandAnywhere) {
   const auto resting = [&](int row) {
-    Sample sample = at(0);
+    Sample sample = at(2001);
     sample.dq.setZero();
     sample.ddq.setZero();
     sample.q[0] += row % 7 == 0 ? 0.001 : 0.0;  // the last bit of a coarse encoder

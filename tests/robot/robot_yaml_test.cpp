@@ -187,11 +187,14 @@ TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
        ":1: the mass of leg is not a list of 2 numbers; write them in brackets, with commas "
        "between them"},
       {"expected_mass: {leg: [3, 2]}\n",
-       ":1: the mass of leg lies from 3 to 2; write [lower, upper] in kg, 0 <= lower < upper <= "
-       "1e6"},
+       ":1: the mass of leg lies from 3 to 2; write [lower, upper] in kg, 0 <= lower < upper, "
+       "upper from 1e-6 to 1e6"},
       {"expected_mass: {leg: [-1, 2]}\n",
-       ":1: the mass of leg lies from -1 to 2; write [lower, upper] in kg, 0 <= lower < upper <= "
-       "1e6"},
+       ":1: the mass of leg lies from -1 to 2; write [lower, upper] in kg, 0 <= lower < upper, "
+       "upper from 1e-6 to 1e6"},
+      {"expected_mass: {leg: [0, 1e-170]}\n",
+       ":1: the mass of leg lies from 0 to 1e-170; write [lower, upper] in kg, 0 <= lower < upper, "
+       "upper from 1e-6 to 1e6"},
       {"expected_mass: {hip: [1, 2]}\n", ":1: hopper has no link hip; name a link"},
       {"expected_mass:\n  trunk: [1, 2]\n  plate: [1, 2]\n",
        ":3: plate is one rigid body with a link named before; give the mass of the whole once"},
