@@ -321,7 +321,13 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
         }
       }
     }
-    for (const AppliedEffect& a : error_places) result.effect_error.push_back(a.value);
+    // A number that no row feels is zero with every tenth, and not known to be.
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+      const Eigen::ArrayXd error = error_places[k].value.array();
+      const auto is_unfelt = error == 0.0 && effects[k].value.array() == 0.0;
+      result.effect_error.emplace_back(
+          is_unfelt.select(std::numeric_limits<double>::infinity(), error));
+    }
     if (sums.links() > 0) result.data = of_links(std::move(data), sums.links());
     result.load_size_error.assign(effects.size(), 0.0);
     for (std::size_t i = 0; i < loads.size(); ++i) {

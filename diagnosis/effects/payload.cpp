@@ -19,7 +19,9 @@ Effect payload() {
   e.site = SiteKind::link;
   e.parameters = load_parameters();
   e.confused_with = {"the link's own inertia", "payload on a neighbour", "torque_gain"};
-  e.separate_by = "a log of the same robot without it (--reference), or a trusted model";
+  e.separate_by =
+      "a log of the same robot without it (--reference), both with the joints between the links "
+      "where it might be moved; or a trusted model";
   e.under_contact = "as the link's own parameters";
   e.source = "docs/derivations/regressor.md";
   e.applies = moves;
