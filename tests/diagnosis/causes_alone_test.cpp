@@ -115,5 +115,18 @@ TEST(Consistent, WhatAnEffectContainsIsNotDetermined) {
   for (std::size_t p = 20; p < 30; ++p) EXPECT_FALSE(result.data.determined[p]) << p;
 }
 
+/// All joints in one plane: no torque tells how far the base leans out of it, and zero with an
+/// error of zero would say that it is known.
+TEST(Consistent, ANumberThatNoRowFeelsHasNoError) {
+  LoopedArm fitted(record({}));
+  const AppliedEffect tilt = effect("gravity_tilt", 0, {0.0, 0.01});
+  fitted.loop.found = {Found{tilt, "gravity_tilt@all", Eigen::Vector2d(0.0, 0.001)}};
+  fitted.loop.model.effects = {tilt};
+  const Consistent result = fitted.consistent();
+  ASSERT_EQ(result.effect_error.size(), 1U);
+  EXPECT_TRUE(std::isinf(result.effect_error[0][0]));
+  EXPECT_EQ(result.effect_error[0][1], 0.001);
+}
+
 }  // namespace
 }  // namespace shapeid::diagnosis
