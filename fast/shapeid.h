@@ -5,8 +5,8 @@
  * shapeid_create() allocates; nothing else does, but for division of polyhedra, which
  * allocates whenever one is cut that was not cut the same way shortly before
  * (fast/part_tree.hpp; if memory is used up there, the program ends). Traps of floating-point must
- * be off: a division by zero may happen and be put right. An identifier is used by one thread at a time; different identifiers do not
- * know of each other.
+ * be off: a division by zero may happen and be put right. An identifier is used by one thread at a
+ * time; different identifiers do not know of each other.
  *
  * SI units and radians. A contact or link is told by its place in the robot's order, which the
  * ..._count and ..._name functions give; joints are in the order of shapeid_joint_name().
@@ -34,11 +34,11 @@ typedef enum shapeid_root {
 
 /** What becomes of contact forces. */
 typedef enum shapeid_contacts {
-  SHAPEID_PROJECT_CONTACTS,  /**< unknown, eliminated by projection */
+  SHAPEID_PROJECT_CONTACTS, /**< unknown, eliminated by projection */
   /** Measured, part of every sample, whatever the flags say. Of a plane or a line the force alone
    * counts: moments that it transmits are taken for the links' own. */
   SHAPEID_MEASURED_CONTACTS,
-  SHAPEID_IGNORE_CONTACTS    /**< there are none */
+  SHAPEID_IGNORE_CONTACTS /**< there are none */
 } shapeid_contacts;
 
 /** Start from shapeid_default_settings() and change what is to differ. */
@@ -47,8 +47,8 @@ typedef struct shapeid_settings {
   shapeid_contacts contacts; /**< project */
   /** Diagonal of W, 1 / sigma^2 of each equation: base force (3), base moment (3) (floating root
    * only), then a number for each joint; positive, and within twelve decades of each other
-   * (docs/derivations/projection.md). NULL (default): ones, whatever robot.yaml says of noise. Read by
-   * shapeid_create() alone. */
+   * (docs/derivations/projection.md). NULL (default): ones, whatever robot.yaml says of noise. Read
+   * by shapeid_create() alone. */
   const double* weight;
   size_t weight_count;   /**< numbers there: 6 + joints, or joints for a fixed root; 0 for NULL */
   size_t window;         /**< samples a window: 10 */
@@ -155,15 +155,15 @@ typedef enum shapeid_stop {
 
 /** About the last window that was answered; zeros before the first. */
 typedef struct shapeid_answer {
-  double time;             /**< s, of the window's last sample */
-  double objective;        /**< f of (15) for the present shapes, before the filter */
+  double time;      /**< s, of the window's last sample */
+  double objective; /**< f of (15) for the present shapes, before the filter */
   /** f is at most this much above its minimum over the present shapes, if the masses there add up
    * to no more than mass_bound. Rounding can leave it a little below zero. */
   double gap;
-  int iterations;          /**< small systems solved, of all divisions together */
-  int divisions;           /**< done in this window */
-  shapeid_stop stopped_by; /**< what ended them */
-  double window_seconds;   /**< of all calls since the last window, solve and divisions */
+  int iterations;                /**< small systems solved, of all divisions together */
+  int divisions;                 /**< done in this window */
+  shapeid_stop stopped_by;       /**< what ended them */
+  double window_seconds;         /**< of all calls since the last window, solve and divisions */
   double slowest_sample_seconds; /**< of the calls that only kept a sample */
   double last_call_seconds;      /**< of the call that gave this answer */
 } shapeid_answer;

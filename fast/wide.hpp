@@ -122,8 +122,8 @@ constexpr std::uint64_t place_bits = 15;
 /// A function so marked is compiled twice, and the machine's own version is chosen when the program
 /// starts: Four is then one register. No operation changes, and none is fused with another
 /// (-ffp-contract=off), so the digits are the same on every machine (the test DigitsOfBothWidths).
-/// Not under ThreadSanitizer, which is not ready yet when the choice is made, nor for valgrind, which
-/// does not know every instruction of the wide one (SHAPEID_NARROW).
+/// Not under ThreadSanitizer, which is not ready yet when the choice is made, nor for valgrind,
+/// which does not know every instruction of the wide one (SHAPEID_NARROW).
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__AVX2__) && \
     !defined(__SANITIZE_THREAD__) && !defined(SHAPEID_NARROW)
 #define SHAPEID_WIDE __attribute__((target_clones("avx2", "default")))
