@@ -100,7 +100,7 @@ std::string inertia_picture(const DiagnosisRun& run, const Robot& robot, int lin
 namespace {
 
 /// Of a signal by its name; none of a log's further columns.
-std::string unit_of(const std::string& variable, const Robot& robot) {
+std::string unit_of_signal(const std::string& variable, const Robot& robot) {
   constexpr std::array<std::array<const char*, 2>, 6> kinds = {{{"q.", "rad"},
                                                                 {"dq.", "rad/s"},
                                                                 {"ddq.", "rad/s^2"},
@@ -143,7 +143,8 @@ std::string structure_picture(const diagnosis::Structure& structure, const Robot
       structure.law.empty()
           ? with_unit("residual", joint ? unit_at(robot.joint(*joint), "N m") : joints_unit(robot))
           : with_unit("its number", unit_of_law(structure.law, robot));
-  const std::string along = with_unit(structure.variable, unit_of(structure.variable, robot));
+  const std::string along =
+      with_unit(structure.variable, unit_of_signal(structure.variable, robot));
   return gnuplot(script + fmt::format("set xlabel {}\nset ylabel {}\n"
                                       "plot $d with linespoints pt 7 ps 0.5 lc rgb '{}'\n",
                                       gnuplot_string(along), gnuplot_string(up), blue));

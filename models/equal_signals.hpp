@@ -1,5 +1,5 @@
 // Signals of one log that are copies of each other: columns that a logger, or who prepared a log,
-// exchanged.
+// wrote twice.
 #pragma once
 
 #include <string>

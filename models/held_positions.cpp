@@ -22,13 +22,17 @@ void HeldPositions::add(const MeasuredRow& row) {
   for (std::size_t j = 0; j < tracks_.size(); ++j) {
     Track& track = tracks_[j];
     const double position = row.values[plan_.q + static_cast<Eigen::Index>(j)];
-    if (std::isnan(position) || (track.begun && position == track.position)) continue;
+    if (std::isnan(position)) continue;
+    // What went on across a gap is neither held nor a step.
+    const bool follows = track.begun && row.time - track.last <= long_held;
+    track.last = row.time;
+    if (follows && position == track.position) continue;
     const double step = std::abs(position - track.position), stayed = row.time - track.since;
-    if (track.begun && stayed > long_held) {
+    if (follows && stayed > long_held) {
       if (track.held.size() < most_kept) {
         track.held.push_back({static_cast<int>(j), track.line, stayed, step});
       }
-    } else if (track.begun) {
+    } else if (follows) {
       track.largest_step = std::max(track.largest_step, step);
     }
     track.begun = true;

@@ -31,6 +31,7 @@ class HeldPositions {
   struct Track {
     bool begun = false;
     double position = 0.0, since = 0.0;  ///< the present one, and when it came, s
+    double last = 0.0;                   ///< s, when there was a reading
     int line = 0;
     double largest_step = 0.0;  ///< of readings that were not held
     std::vector<HeldPosition> held;

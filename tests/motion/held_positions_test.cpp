@@ -63,5 +63,22 @@ TEST(HeldPositions, RestIsNone) {
   EXPECT_TRUE(noted(slow).empty());
 }
 
+/// While rows are missing a joint goes on, one that rested before as well.
+TEST(HeldPositions, AGapIsNone) {
+  const Robot robot = chain(3, Root::fixed);
+  const ScratchFolder folder;
+  const std::string path = folder.path("log.csv");
+  std::vector<double> times = regular_times(0.0, 500.0, 3000);
+  std::erase_if(times, [](double t) { return (t > 1.0 && t < 1.5) || (t > 4.0 && t < 4.2); });
+  write_log(path, robot, times, [&](double time) {
+    Sample sample = smooth_motion(robot, time);
+    if (time < 1.2) sample.q[1] = 0.7;
+    return sample;
+  });
+  MotionOptions options;
+  options.refuse_frozen = false;
+  EXPECT_EQ(read_motion(path, robot, options).report.notes, std::vector<std::string>());
+}
+
 }  // namespace
 }  // namespace shapeid::test
