@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "shapeid/tests/blind/parts/yardstick.hpp"
 #include "shapeid/tests/support/scratch_folder.hpp"
@@ -63,6 +64,20 @@ TEST(Plan, ATrialByItselfIsTheSame) {
     EXPECT_FALSE(text("both", name).empty()) << name;
     EXPECT_EQ(text("both", name), text("second", name)) << name;
   }
+}
+
+/// Kinds are drawn as in the mix of all: by one seed several of them.
+TEST(Plan, ForeignAloneAreOfEveryKindThatIsNotInTheCatalogue) {
+  constexpr int trials = 6;
+  const DrawnArms arms("foreign", trials);
+  std::set<std::string> kinds;
+  for (int number = 0; number < trials; ++number) {
+    const Trial trial = trial_from_json(arms.seal(number));
+    ASSERT_EQ(trial.items.size(), 1U);
+    EXPECT_TRUE(kind(trial.items[0].kind).foreign) << trial.items[0].kind;
+    kinds.insert(trial.items[0].kind);
+  }
+  EXPECT_GT(kinds.size(), 2U);
 }
 
 TEST(Plan, AThirdHaveAReferenceThatTheyDoNotNeed) {

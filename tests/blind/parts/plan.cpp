@@ -146,11 +146,12 @@ class Generator {
     if (place == 4) count = 2;
     if (!options_.only.empty()) {
       count = options_.only == "clean" ? 0 : 1;
-      foreign = count > 0 && kind(options_.only).foreign;
+      foreign = options_.only == "foreign" || (count > 0 && kind(options_.only).foreign);
     }
+    const bool one_kind = !options_.only.empty() && options_.only != "foreign";
     std::vector<const Kind*> possible;
     for (const Kind& k : kinds()) {
-      const bool wanted = options_.only.empty() ? k.foreign == foreign : k.id == options_.only;
+      const bool wanted = one_kind ? k.id == options_.only : k.foreign == foreign;
       if (wanted && !sites(m, k).empty()) possible.push_back(&k);
     }
     constexpr int most_draws = 50;

@@ -18,7 +18,9 @@ struct PlanOptions {
   bool drawn_arms = false;  ///< each arm is another one (drawn.hpp); phases are of five motions
   bool drawn_quadrupeds = false;  ///< likewise (drawn_quadruped.hpp)
   double ratio = 0.0;             ///< times the detectable size, of every effect; 0: drawn
-  std::string only;  ///< trials of this kind alone ("clean" for none); empty: all kinds
+  /// Trials of this kind alone, of none ("clean") or of each that is not in the catalogue
+  /// ("foreign"); empty: all kinds.
+  std::string only;
 };
 
 /// Whether a trial with this noise has a reference log that it does not need: a third do, whatever

@@ -62,7 +62,8 @@ int main(int argc, char** argv) {
   generating->add_flag("--drawn-quadrupeds", options.drawn_quadrupeds,
                        "each quadruped is another one");
   generating->add_option("--ratio", options.ratio, "times the detectable size (default: drawn)");
-  generating->add_option("--only", options.only, "this kind alone, or clean");
+  generating->add_option("--only", options.only,
+                         "this kind alone, clean, or foreign: any that is not in the catalogue");
   CLI::App* scoring = app.add_subcommand("score", "opens the seals and prints the tables");
   std::vector<std::string> folders;
   scoring->add_option("folders", folders, "all in one table")->required();
