@@ -22,6 +22,8 @@ namespace {
 
 // Feet of so many samples say something.
 constexpr std::size_t enough = 50;
+// s, about a stance of a trot: samples of one are no more than one opinion.
+constexpr double block = 0.25;
 
 /// What the gyro is multiplied with, reading by reading.
 std::vector<Eigen::Matrix3d> all_readings() {
@@ -55,6 +57,12 @@ void StandingFeet::add(const Sample& sample) {
   static const std::vector<Eigen::Matrix3d> reading = all_readings();
   const auto standing = std::count(sample.in_contact.begin(), sample.in_contact.end(), true);
   if (standing < 2) return;
+  if (standing_count_ == 0) block_begins_ = sample.time;
+  const double since = sample.time - block_begins_;
+  if (!(since >= 0.0 && since < block)) {  // or another log begins
+    close_block();
+    block_begins_ = sample.time;
+  }
   const ContactMotions feet = against_stance(*robot_, sample, static_cast<double>(standing));
   const auto squared_speed = [&](Eigen::Index foot, const Eigen::Vector3d& omega) {
     return (omega.cross(feet.place.col(foot)) + feet.velocity.col(foot)).squaredNorm();
@@ -78,11 +86,34 @@ void StandingFeet::add(const Sample& sample) {
       is_still[k] = squared_speed(c, reading[k] * sample.base_angular_velocity) < slow * slow;
     }
     for (std::size_t k = 0; k < readings; ++k) {
-      if (is_still[k]) ++still_[k];
-      from_logged_[k].count(is_still[k], is_still.front());
-      from_none_[k].count(is_still[k], is_still.back());
+      if (is_still[k]) ++still_in_block_[k];
+      from_logged_[k].feet.count(is_still[k], is_still.front());
+      from_none_[k].feet.count(is_still[k], is_still.back());
     }
   }
+}
+
+void StandingFeet::close_block() {
+  const auto more_than = [&](std::size_t k, std::size_t other) {
+    return still_in_block_[k] > still_in_block_[other];
+  };
+  const auto count = [&](Comparison& c, std::size_t k, std::size_t other) {
+    c.blocks.count(more_than(k, other), more_than(other, k));
+  };
+  for (std::size_t k = 0; k < readings; ++k) {
+    count(from_logged_[k], k, 0);
+    count(from_none_[k], k, readings - 1);
+    still_[k] += still_in_block_[k];
+  }
+  still_in_block_.fill(0);
+}
+
+// Feet that slip, roll or are labelled wrongly stand still now and then by any reading, and in some
+// stances more of them by a wrong one. Where most slip, the others are few, but of many stances.
+bool StandingFeet::Comparison::tells(std::size_t standing_count) const {
+  constexpr std::size_t times = 3, one_in = 20, many_blocks = 10;
+  const bool is_clear = feet.gained > times * feet.lost && blocks.gained >= times * blocks.lost;
+  return is_clear && (feet.gained > standing_count / one_in || blocks.gained >= many_blocks);
 }
 
 void StandingFeet::judge() const {
@@ -92,14 +123,10 @@ void StandingFeet::judge() const {
 }
 
 void StandingFeet::judge_gyro() const {
-  // Feet that slip, roll or are labelled wrongly stand still now and then by any reading.
-  constexpr std::size_t one_in = 20, times = 3;
-  const auto tells = [&](const Difference& d) {
-    return d.gained > standing_count_ / one_in && d.gained > times * d.lost;
-  };
   const auto best = static_cast<std::size_t>(
       std::distance(still_.begin(), std::max_element(still_.begin(), still_.end())));
-  if (!tells(from_logged_[best]) || !tells(from_none_[best])) return;
+  const Comparison& from_logged = from_logged_[best];
+  if (!from_logged.tells(standing_count_) || !from_none_[best].tells(standing_count_)) return;
   const auto percent = [&](std::size_t reading) {
     return 1e2 * static_cast<double>(still_[reading]) / static_cast<double>(standing_count_);
   };
@@ -108,10 +135,12 @@ void StandingFeet::judge_gyro() const {
   if (best >= signed_axes_count) wrong.emplace_back("its unit were degrees per second");
   if (best % signed_axes_count != 0) wrong.push_back("its axes were " + axes.words());
   throw Refusal("imu-axes",
-                fmt::format("{:.0f} % of the standing feet stand still by the gyro as it is, and "
-                            "{:.0f} % if {}: turn the IMU (robot.yaml: without it its axes are "
-                            "the base's), or the gyro in the mapping; or legs are exchanged",
-                            percent(0), percent(best), fmt::join(wrong, " and ")));
+                fmt::format("{:.1f} % of the standing feet stand still by the gyro as it is, and "
+                            "{:.1f} % if {}, more in {} stretches of {} s and fewer in {}: turn "
+                            "the IMU (robot.yaml: without it its axes are the base's), or the "
+                            "gyro in the mapping; or legs are exchanged",
+                            percent(0), percent(best), fmt::join(wrong, " and "),
+                            from_logged.blocks.gained, block, from_logged.blocks.lost));
 }
 
 void StandingFeet::judge_labels() const {

@@ -24,7 +24,7 @@ class StandingFeet {
   /// Throws Refusal, where enough was seen to say so:
   ///  * "imu-axes": standing feet that stand still by the gyro as it is, or without any, and not by
   ///    one of another unit or with other axes, are few beside those of which it is the other way
-  ///    round;
+  ///    round, which are a part of all, or are many stances;
   ///  * "contact-labels": while others are in the air, feet that are declared to stand move against
   ///    each other about as fast as these.
   void judge() const;
@@ -33,7 +33,7 @@ class StandingFeet {
   /// Ways to read a gyro: the 48 exchanges and signs of axes, as logged first, in rad/s and then in
   /// degrees per second; the last is that it reads nothing.
   static constexpr std::size_t readings = 2 * signed_axes_count + 1;
-  /// Feet of samples that stand still by a reading and not by another one, and the other way round.
+  /// What is so by a reading and not by another one, and the other way round.
   struct Difference {
     std::size_t gained = 0, lost = 0;
     void count(bool by_this, bool by_other) {
@@ -41,13 +41,20 @@ class StandingFeet {
       if (by_other && !by_this) ++lost;
     }
   };
+  /// Feet of samples that stand still; blocks of time in which more of them do.
+  struct Comparison {
+    Difference feet, blocks;
+    [[nodiscard]] bool tells(std::size_t standing_count) const;
+  };
 
+  void close_block();
   void judge_gyro() const;
   void judge_labels() const;
 
   const Robot* robot_;
-  std::array<std::size_t, readings> still_{};
-  std::array<Difference, readings> from_logged_{}, from_none_{};
+  std::array<std::size_t, readings> still_{}, still_in_block_{};
+  std::array<Comparison, readings> from_logged_{}, from_none_{};
+  double block_begins_ = 0.0;  ///< s
   std::size_t standing_count_ = 0;
   /// (m/s)^2, against the mean of the feet that stand, in samples in which some do not.
   double standing_ = 0.0, flying_ = 0.0;

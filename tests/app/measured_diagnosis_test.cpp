@@ -10,23 +10,47 @@
 
 #include "shapeid/tests/app/command.hpp"
 #include "shapeid/tests/support/files.hpp"
+#include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid::test {
 namespace {
+
+std::string mini_cheetah() { return (data_folder() / "mini_cheetah_umich").string() + "/"; }
+
+bool has_mini_cheetah() {
+  return std::filesystem::exists(mini_cheetah() + "small_pebble_val.csv.gz");
+}
+
+/// Of a run on one ground its first log, tested on the other.
+CommandRun diagnose_mini_cheetah(const std::string& ground, const std::string& options) {
+  return shapeid(
+      fmt::format("diagnose --robot {0}mini_cheetah_from_mit_constants.urdf --accept-impossible "
+                  "--mapping {1}/docs/examples/mini_cheetah.mapping.yaml "
+                  "--log {0}{2}_val.csv.gz --test {0}{2}_test.csv.gz {3}",
+                  mini_cheetah(), SHAPEID_SOURCE_DIR, ground, options));
+}
+
+/// Standing feet of this robot slip but for a few in a hundred, and these tell. An external force
+/// was found in its place before.
+TEST(MeasuredDiagnosis, AnImuThatIsTurnedAboutTheVerticalIsRefused) {
+  if (!has_mini_cheetah()) GTEST_SKIP() << mini_cheetah() << " is not there (set SHAPEID_DATA)";
+  const ScratchFolder scratch;
+  scratch.write("turned.robot.yaml", "imu: {rpy: [0, 0, 1.5707963267948966]}\n");
+  for (const char* ground : {"asphalt_road", "middle_pebble", "concrete_right_circle"}) {
+    const CommandRun run =
+        diagnose_mini_cheetah(ground, "--robot-yaml " + scratch.path("turned.robot.yaml"));
+    EXPECT_EQ(run.status, 1) << ground;
+    EXPECT_NE(run.err.find("refused (imu-axes)"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("if its axes were (y, -x, z)"), std::string::npos) << run.err;
+  }
+}
 
 /// A Mini Cheetah on small pebbles: of two delays, both large, that of the IMU is sought at more
 /// than 18 ms while little else is known, which is not believed. It may come in once more: beside
 /// all else it is 16 to 17 ms, and without it the error on the other log is a fifth larger.
 TEST(MeasuredDiagnosis, ADelayThatWasTooLargeAtFirstIsSoughtAgain) {
-  const std::string folder = (data_folder() / "mini_cheetah_umich").string() + "/";
-  if (!std::filesystem::exists(folder + "small_pebble_val.csv.gz")) {
-    GTEST_SKIP() << folder << " is not there (set SHAPEID_DATA)";
-  }
-  const CommandRun run = shapeid(
-      fmt::format("diagnose --robot {0}mini_cheetah_from_mit_constants.urdf --accept-impossible "
-                  "--mapping {1}/docs/examples/mini_cheetah.mapping.yaml "
-                  "--log {0}small_pebble_val.csv.gz --test {0}small_pebble_test.csv.gz --json",
-                  folder, SHAPEID_SOURCE_DIR));
+  if (!has_mini_cheetah()) GTEST_SKIP() << mini_cheetah() << " is not there (set SHAPEID_DATA)";
+  const CommandRun run = diagnose_mini_cheetah("small_pebble", "--json");
   ASSERT_EQ(run.status, 0) << run.err;
   const auto result = nlohmann::json::parse(run.out);
   const auto& findings = result["findings"];
