@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -9,12 +10,13 @@
 #include "shapeid/diagnosis/accelerometer_axes.hpp"
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
-#include "shapeid/diagnosis/joint_zeros.hpp"
+#include "shapeid/diagnosis/joint_readings.hpp"
 #include "shapeid/diagnosis/quarter_turns.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/diagnosis/torque_columns.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/motion_extent.hpp"
+#include "shapeid/models/student.hpp"
 #include "shapeid/reference/standing_feet.hpp"
 
 namespace shapeid::diagnosis {
@@ -46,6 +48,7 @@ void check_standing_feet(const Robot& robot, const Recording& recording) {
 void check_clock(Tally tally, const RichModel& given, const LoopSettings& settings,
                  const std::string& name) {
   const Eigen::Index column = tally.inertial;
+  const Eigen::Index count = std::ssize(tally.blocks);
   const std::size_t half = tally.blocks.size() / 2;
   if (half < 4) return;
   const BlockFits fits(std::move(tally), given.Phi, settings.size, 4);
@@ -54,9 +57,9 @@ void check_clock(Tally tally, const RichModel& given, const LoopSettings& settin
   const Fit fit = fits.fit({term_of_masses(settings.shapes.free_links), whole, later});
   const Eigen::Index last = fit.value.size() - 1;
   constexpr double least_drift = 5e-3;  // s; less is a delay that depends on the motion
-  constexpr double least_z = 6.0;
+  const double least_t = limit_for(6.0, count);
   const double drift = fit.value[last];
-  if (std::abs(drift) > least_drift && std::abs(drift) > least_z * fit.standard_error[last]) {
+  if (std::abs(drift) > least_drift && std::abs(drift) > least_t * fit.standard_error[last]) {
     throw Refusal("clock-skew",
                   fmt::format("{}{}torque is {:.1f} ms late in the log's first half and {:.1f} ms "
                               "in its second: the clocks of torque and joints drift apart, or rows "
@@ -82,7 +85,7 @@ void check_meaning(const Robot& robot, const Recording& recording, ContactTreatm
   check_torque_columns(robot, recording, contacts);
   check_accelerometer(robot, recording, contacts);
   check_base(robot, recording, contacts);
-  check_joint_zeros(robot, recording, contacts);
+  check_joint_readings(robot, recording, contacts);
 }
 
 void check_clocks(const Robot& robot, const Recording& recording, const LoopSettings& settings,
@@ -97,8 +100,8 @@ void check_clocks(const Robot& robot, const Recording& recording, const LoopSett
   options.weight = Eigen::VectorXd::Ones(robot.dof());
   options.log_starts = log_starts;
   constexpr double blocks = 40.0;
-  options.block_seconds =
-      recording.duration() / (blocks * static_cast<double>(log_starts.size() + 1));
+  options.block_seconds = std::max(
+      shortest_block, recording.duration() / (blocks * static_cast<double>(log_starts.size() + 1)));
   const RichModel given{stacked_parameters(robot), {}};
   add_to_tally(all, robot, settings.rows, given, recording, options, false);
   // A log without samples begins nowhere, and leaves open which are the others.

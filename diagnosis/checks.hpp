@@ -21,7 +21,8 @@ void check_excitation(const Robot& robot, const Recording& recording);
 ///  * "imu-axes" also if they would predict far better by other axes of the accelerometer
 ///    (accelerometer_axes.hpp);
 ///  * "upside-down": the base, if it hangs, explains far more;
-///  * "joint-zero": so do joints that are read a quarter or half a turn further (joint_zeros.hpp).
+///  * "joint-sign", "joint-zero": so do joints that are read with the other sign, or a quarter or
+///    half a turn further (joint_readings.hpp).
 /// Units, signs, frozen channels and clocks that cannot be are refused when the log is read
 /// (models/plausibility.hpp), a torque column that is a current by its name as well.
 void check_meaning(const Robot& robot, const Recording& recording, ContactTreatment contacts);

@@ -38,8 +38,8 @@ LoopState::LoopState(const Robot& robot_, const Recording& log_, const Recording
   tally_options.log_starts = settings.log_starts;
   tally_options.block_seconds = settings.block_seconds;
   if (tally_options.block_seconds <= 0.0) {
-    constexpr double wanted_blocks = 40.0, shortest = 0.5;
-    tally_options.block_seconds = std::max(shortest, log.duration() / wanted_blocks);
+    constexpr double wanted_blocks = 40.0;
+    tally_options.block_seconds = std::max(shortest_block, log.duration() / wanted_blocks);
   }
   masses = term_of_masses(settings.shapes.free_links);
 }

@@ -56,6 +56,9 @@ struct Tally {
   [[nodiscard]] Eigen::Index columns() const { return width - 1; }
 };
 
+/// s. The errors of shorter blocks depend on those of their neighbours.
+inline constexpr double shortest_block = 0.5;
+
 struct TallyOptions {
   std::size_t stride = 1;
   double block_seconds = 1.0;

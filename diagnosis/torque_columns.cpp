@@ -1,9 +1,13 @@
 #include "shapeid/diagnosis/torque_columns.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
+#include <vector>
 
 #include "shapeid/diagnosis/rich_model.hpp"
 #include "shapeid/models/error.hpp"
@@ -46,7 +50,8 @@ void check_scale(const Robot& robot, const Products& sums) {
   // Joints whose torque the given model follows closely tell the scale; friction and errors of
   // inertia do not make a factor of four at all of them.
   constexpr double close = 0.8, far = 4.0;
-  int telling = 0, against = 0, above = 0, below = 0;
+  int telling = 0, above = 0, below = 0;
+  std::vector<std::string> against;
   double typical = 0.0;
   for (Eigen::Index j = 0; j < robot.joint_count(); ++j) {
     const double pt = sums.pt(j, j);
@@ -55,7 +60,7 @@ void check_scale(const Robot& robot, const Products& sums) {
     const double scale = pt / sums.pp[j];
     ++telling;
     if (scale < 0.0) {
-      ++against;
+      against.push_back(robot.joint(static_cast<int>(j)).name);
       continue;
     }
     if (scale > far) ++above;
@@ -63,15 +68,17 @@ void check_scale(const Robot& robot, const Products& sums) {
     typical += std::log(scale);
   }
   if (telling == 0) return;
-  if (against == telling) {
-    throw Refusal("torque-sign",
-                  fmt::format("the logged torque runs against the given model at {} joints, and "
-                              "with it at none: turn it in the mapping (sign: -1){}",
-                              telling,
-                              robot.root == Root::fixed
-                                  ? ", or the base in the URDF, if it hangs upside down, or a "
-                                    "joint's zero, if it is half a turn off"
-                                  : ""));
+  if (std::ssize(against) == telling) {
+    throw Refusal(
+        "torque-sign",
+        fmt::format("the logged torque runs against the given model at {}, and with it at "
+                    "no joint: turn it in the mapping (sign: -1), or the joint, if its "
+                    "axis points the other way{}",
+                    fmt::join(against, ", "),
+                    robot.root == Root::fixed
+                        ? " or its zero is half a turn off, or the base in the URDF, if "
+                          "it hangs upside down"
+                        : ""));
   }
   if (above == telling || below == telling) {
     throw Refusal(

@@ -1,5 +1,5 @@
-// Joints that are read from another zero than the model's.
-#include "shapeid/diagnosis/joint_zeros.hpp"
+// Joints that are read from another zero than the model's, or with another sign.
+#include "shapeid/diagnosis/joint_readings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,15 +17,19 @@ using test::effect;
 
 constexpr double a_quarter = 0.5 * std::numbers::pi;
 
-/// What is refused of the arm's log with these in it; empty if nothing is.
-std::string zeros_of(const Robot& robot, const Recording& log) {
+/// What is refused, as this; empty if nothing is.
+std::string refused(const Robot& robot, const Recording& log, const std::string& code) {
   try {
-    check_joint_zeros(robot, log, ContactTreatment::ignore);
+    check_joint_readings(robot, log, ContactTreatment::ignore);
   } catch (const Refusal& r) {
-    EXPECT_EQ(r.code(), "joint-zero");
+    EXPECT_EQ(r.code(), code) << r.what();
     return r.what();
   }
   return "";
+}
+/// Of the arm's log with these in it.
+std::string zeros_of(const Robot& robot, const Recording& log) {
+  return refused(robot, log, "joint-zero");
 }
 std::string zeros_of(const std::vector<AppliedEffect>& effects) {
   return zeros_of(test::arm(), test::record({effects}));
@@ -60,6 +64,46 @@ TEST(JointZeros, AreNoneWhereSomethingElseIsWrong) {
     EXPECT_EQ(zeros_of({effect("gravity_tilt", 0, {roll, 0.0})}), "") << roll;
     EXPECT_EQ(zeros_of({effect("gravity_tilt", 0, {0.0, roll})}), "") << roll;
   }
+}
+
+/// The arm's log as another convention has it: of a joint position and torque with these signs, and
+/// zero elsewhere.
+struct Convention {
+  int joint;
+  double position_sign, torque_sign, further;
+};
+std::string signs_of(const std::vector<Convention>& conventions) {
+  const Recording log = test::record({}, [&](std::vector<Sample>& samples) {
+    for (Sample& s : samples) {
+      for (const Convention& c : conventions) {
+        s.q[c.joint] = c.position_sign * (s.q[c.joint] - c.further);
+        s.dq[c.joint] *= c.position_sign;
+        s.ddq[c.joint] *= c.position_sign;
+        s.tau[c.joint] *= c.torque_sign;
+      }
+    }
+  });
+  return refused(test::arm(), log, "joint-sign");
+}
+
+TEST(JointSigns, AreNamed) {
+  EXPECT_NE(signs_of({{1, -1.0, 1.0, 0.0}}).find("(joint2 position of the other sign)"),
+            std::string::npos);
+  EXPECT_NE(signs_of({{1, 1.0, -1.0, 0.0}}).find("(joint2 torque of the other sign)"),
+            std::string::npos);
+  EXPECT_NE(signs_of({{1, -1.0, -1.0, a_quarter}})
+                .find("(joint2 position of the other sign and +1.5708 rad and torque of the other "
+                      "sign)"),
+            std::string::npos);
+  const std::string both = signs_of({{1, -1.0, 1.0, 0.0}, {2, 1.0, -1.0, 0.0}});
+  EXPECT_NE(both.find("joint2 position of the other sign"), std::string::npos) << both;
+  EXPECT_NE(both.find("joint3 torque of the other sign"), std::string::npos) << both;
+}
+
+/// A pendulum near its zero takes the same torque as one whose axis points the other way: more than
+/// half is predicted, and what is not may be a centre of mass.
+TEST(JointSigns, AreNotSoughtWhereHalfIsPredicted) {
+  EXPECT_EQ(signs_of({{1, -1.0, -1.0, 0.0}}), "");
 }
 
 /// About a level first axis a base on its side is what a turned joint is: left to the tilt.
