@@ -8,6 +8,7 @@
 
 #include "shapeid/app/shared_stretches.hpp"
 #include "shapeid/diagnosis/checks.hpp"
+#include "shapeid/diagnosis/joint_signs.hpp"
 #include "shapeid/diagnosis/motion_noise.hpp"
 #include "shapeid/models/error.hpp"
 
@@ -114,6 +115,7 @@ void check_logs(const RobotInputs& robot, const DiagnoseOptions& options, const 
   }
   diagnosis::check_clocks(robot.robot, fitted.recording, settings, fitted.starts,
                           fitted_logs(options));
+  diagnosis::check_joint_signs(robot.robot, fitted.recording, settings);
   if (logs.earlier) {
     diagnosis::check_clocks(robot.robot, logs.earlier->recording,
                             settings_for(*logs.earlier, options, settings), {},

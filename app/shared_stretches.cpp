@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -17,11 +16,6 @@
 
 namespace shapeid::app {
 namespace {
-
-/// Of one log's stretches.
-constexpr double too_many = 0.1;
-/// Digests that are kept of a log: the smallest, which are the same ones in a copy.
-constexpr std::size_t most_kept = 1U << 12U;
 
 /// Columns of what was measured at the joints, in the order of our names for them.
 std::vector<std::size_t> measured_columns(const LogReader& log,
@@ -67,8 +61,8 @@ std::uint64_t digest(const LogRow& row, const std::vector<std::size_t>& columns)
   return digest.value();
 }
 
-/// The smallest digests of a log's stretches, and whether it has a stretch once only: a robot that
-/// rests may read the same in any log, and so may a simulated one that repeats itself.
+/// A log's stretches. Those that it has once only tell: a robot that rests may read the same in any
+/// log, and so may a simulated one that repeats itself.
 class Stretches {
  public:
   Stretches(const std::string& path, const std::optional<Mapping>& mapping) {
@@ -79,38 +73,32 @@ class Stretches {
     while (const std::optional<LogRow> row = log.next()) {
       if (!is_kept(*row)) continue;
       stretch.add(digest(*row, columns));
-      if (const std::optional<std::uint64_t> state = stretch.digest()) keep(*state);
+      if (const std::optional<std::uint64_t> state = stretch.digest()) counts_.add(*state);
     }
   }
 
-  /// Whether more than a tenth of one log's stand in both.
+  /// Whether too many of one log's stand in both.
   [[nodiscard]] bool are_shared_with(const Stretches& other) const {
-    const std::uint64_t limit = std::min(this->limit(), other.limit());
+    const std::uint64_t limit = std::min(counts_.limit(), other.counts_.limit());
     const std::size_t fewer = std::min(count_up_to(limit), other.count_up_to(limit));
     std::size_t both = 0;
-    for (const auto& [state, is_once] : once_) {
-      const auto found = other.once_.find(state);
-      both += is_once && found != other.once_.end() && found->second ? 1 : 0;
+    for (const auto& [state, times] : counts_.times()) {
+      both += times == 1 && other.has_once(state) ? 1 : 0;
     }
-    return static_cast<double>(both) > too_many * static_cast<double>(fewer);
+    return static_cast<double>(both) > StretchCounts::too_many * static_cast<double>(fewer);
   }
 
  private:
-  void keep(std::uint64_t state) {
-    const auto [place, is_new] = once_.try_emplace(state, true);
-    if (!is_new) place->second = false;
-    if (once_.size() > most_kept) once_.erase(std::prev(once_.end()));
-  }
-  /// All stretches up to this digest are kept.
-  [[nodiscard]] std::uint64_t limit() const {
-    return once_.size() < most_kept ? std::numeric_limits<std::uint64_t>::max()
-                                    : once_.rbegin()->first;
+  [[nodiscard]] bool has_once(std::uint64_t state) const {
+    const auto found = counts_.times().find(state);
+    return found != counts_.times().end() && found->second == 1;
   }
   [[nodiscard]] std::size_t count_up_to(std::uint64_t limit) const {
-    return static_cast<std::size_t>(std::distance(once_.begin(), once_.upper_bound(limit)));
+    const auto& times = counts_.times();
+    return static_cast<std::size_t>(std::distance(times.begin(), times.upper_bound(limit)));
   }
 
-  std::map<std::uint64_t, bool> once_;
+  StretchCounts counts_;
 };
 
 void refuse_same_files(const LogsByUse& logs) {

@@ -7,9 +7,10 @@
 
 namespace shapeid::diagnosis {
 
-/// If some joints should be read otherwise, the given links then predict the logged torque well,
-/// far better than as it is, and, on a fixed base, better than with the base on its side. Masses
-/// that are fitted would hide it: they may lie anywhere about the axis. Throws Refusal:
+/// By the given links: masses that are fitted would hide it, for they may lie anywhere about the
+/// axis. On a fixed base they predict the logged torque well if some joints are read otherwise, far
+/// better than as it is, and better than with the base on its side; on a floating one clearly
+/// better, part by part of the log. Throws Refusal:
 ///  * "joint-sign": position, torque or both of some joint have the other sign;
 ///  * "joint-zero": on a fixed base revolute joints should be read a quarter or half a turn
 ///    further, and no sign is wrong.

@@ -200,8 +200,8 @@ struct MotionReader::State {
       report.notes.push_back(fmt::format(
           "columns {} and {} say the same in every row: is one a copy of the other?", one, other));
     }
-    constexpr double too_many = 0.1, percent = 100.0;
-    if (!(repeated.share() > too_many)) return;
+    constexpr double percent = 100.0;
+    if (!(repeated.share() > StretchCounts::too_many)) return;
     report.notes.push_back(fmt::format(
         "{:.0f} percent of the motion stand in the log a second time: standard errors are too "
         "small, and what is held out may be a copy of what is fitted",

@@ -4,11 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace shapeid {
 namespace {
 
-/// Digests that are counted. The smallest of all are the same ones wherever a stretch stands.
+/// Digests that are counted.
 constexpr std::size_t most_kept = 1U << 12U;
 
 /// The next state of splitmix64 (Steele, Lea, Flood 2014).
@@ -42,6 +43,16 @@ bool Stretch::moves() const {
   return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
+void StretchCounts::add(std::uint64_t digest) {
+  ++times_[digest];
+  if (times_.size() > most_kept) times_.erase(std::prev(times_.end()));
+}
+
+std::uint64_t StretchCounts::limit() const {
+  return times_.size() < most_kept ? std::numeric_limits<std::uint64_t>::max()
+                                   : times_.rbegin()->first;
+}
+
 void RepeatedStretches::add(const MeasuredRow& row) {
   RowDigest digest;
   for (const int first : {plan_.q, plan_.tau}) {
@@ -50,15 +61,14 @@ void RepeatedStretches::add(const MeasuredRow& row) {
   stretch_.add(digest.value());
   const std::optional<std::uint64_t> state = stretch_.digest();
   if (!state || !stretch_.moves()) return;
-  ++times_[*state];
-  if (times_.size() > most_kept) times_.erase(std::prev(times_.end()));
+  counts_.add(*state);
 }
 
 double RepeatedStretches::share() const {
   std::size_t all = 0;
-  for (const auto& [state, times] : times_) all += times;
+  for (const auto& [state, times] : counts_.times()) all += times;
   if (all == 0) return 0.0;
-  return static_cast<double>(all - times_.size()) / static_cast<double>(all);
+  return static_cast<double>(all - counts_.times().size()) / static_cast<double>(all);
 }
 
 }  // namespace shapeid

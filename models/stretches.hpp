@@ -39,6 +39,22 @@ class Stretch {
   std::size_t count_ = 0;
 };
 
+/// How often stretches stand in a log: of the smallest digests, which are the same ones wherever
+/// the measurements stand, and so a sample of all in memory that does not grow.
+class StretchCounts {
+ public:
+  /// Of a log's stretches: more that stand somewhere else are no chance.
+  static constexpr double too_many = 0.1;
+
+  void add(std::uint64_t digest);
+  [[nodiscard]] const std::map<std::uint64_t, std::size_t>& times() const { return times_; }
+  /// All stretches up to this digest are counted.
+  [[nodiscard]] std::uint64_t limit() const;
+
+ private:
+  std::map<std::uint64_t, std::size_t> times_;
+};
+
 /// Stretches of joint angles and torques that stand in one log several times.
 class RepeatedStretches {
  public:
@@ -51,7 +67,7 @@ class RepeatedStretches {
   const ChannelPlan& plan_;
   int joints_;
   Stretch stretch_;
-  std::map<std::uint64_t, std::size_t> times_;  ///< of the smallest digests, a sample of all
+  StretchCounts counts_;
 };
 
 }  // namespace shapeid

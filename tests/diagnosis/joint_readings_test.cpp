@@ -5,10 +5,14 @@
 
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/joint_signs.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
+#include "shapeid/tests/diagnosis/trot.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -72,8 +76,8 @@ struct Convention {
   int joint;
   double position_sign, torque_sign, further;
 };
-std::string signs_of(const std::vector<Convention>& conventions) {
-  const Recording log = test::record({}, [&](std::vector<Sample>& samples) {
+Recording read_as(const std::vector<Convention>& conventions) {
+  return test::record({}, [&](std::vector<Sample>& samples) {
     for (Sample& s : samples) {
       for (const Convention& c : conventions) {
         s.q[c.joint] = c.position_sign * (s.q[c.joint] - c.further);
@@ -83,7 +87,9 @@ std::string signs_of(const std::vector<Convention>& conventions) {
       }
     }
   });
-  return refused(test::arm(), log, "joint-sign");
+}
+std::string signs_of(const std::vector<Convention>& conventions) {
+  return refused(test::arm(), read_as(conventions), "joint-sign");
 }
 
 TEST(JointSigns, AreNamed) {
@@ -98,6 +104,89 @@ TEST(JointSigns, AreNamed) {
   const std::string both = signs_of({{1, -1.0, 1.0, 0.0}, {2, 1.0, -1.0, 0.0}});
   EXPECT_NE(both.find("joint2 position of the other sign"), std::string::npos) << both;
   EXPECT_NE(both.find("joint3 torque of the other sign"), std::string::npos) << both;
+}
+
+/// Of legs, whose feet stand, each joint and each sign is told.
+TEST(JointSigns, OfALegAreNamed) {
+  const test::Trot trot;
+  const auto said = [&trot](int joint, double position_sign, double torque_sign) -> std::string {
+    std::vector<Sample> samples = trot.samples;
+    for (Sample& s : samples) {
+      s.q[joint] *= position_sign;
+      s.dq[joint] *= position_sign;
+      s.ddq[joint] *= position_sign;
+      s.tau[joint] *= torque_sign;
+    }
+    try {
+      check_joint_readings(trot.robot, {std::move(samples), test::Trot::rate},
+                           ContactTreatment::project);
+    } catch (const Refusal& r) {
+      EXPECT_EQ(r.code(), "joint-sign");
+      return r.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(said(0, 1.0, 1.0), "");
+  for (const int joint : {0, 4, 11}) {
+    const std::string& name = trot.robot.joint(joint).name;
+    EXPECT_NE(said(joint, -1.0, 1.0)
+                  .find("(" + name + " position of the other sign, or others of that leg)"),
+              std::string::npos)
+        << name;
+  }
+  EXPECT_NE(said(1, 1.0, -1.0).find("(" + trot.robot.joint(1).name + " torque of the other sign,"),
+            std::string::npos);
+}
+
+/// What masses that are fitted tell, of links that are given ten times too light.
+std::string fitted_signs_of(const Recording& log) {
+  Robot given = test::arm();
+  for (Link& link : given.links) link.inertia.values *= 0.1;
+  EXPECT_EQ(refused(given, log, "none"), "");
+  try {
+    check_joint_signs(given, log, test::arm_settings());
+  } catch (const Refusal& r) {
+    EXPECT_EQ(r.code(), "joint-sign") << r.what();
+    return r.what();
+  }
+  return "";
+}
+
+TEST(JointSigns, AreToldByMassesThatAreFitted) {
+  EXPECT_NE(fitted_signs_of(read_as({{1, -1.0, 1.0, 0.0}}))
+                .find("masses that are fitted predict the logged torque far better if joints are "
+                      "read otherwise (joint2 position of the other sign):"),
+            std::string::npos);
+  EXPECT_NE(
+      fitted_signs_of(read_as({{2, 1.0, -1.0, 0.0}})).find("(joint3 torque of the other sign)"),
+      std::string::npos);
+  EXPECT_NE(fitted_signs_of(read_as({{1, -1.0, -1.0, 0.0}}))
+                .find("(joint2 position of the other sign and torque of the other sign)"),
+            std::string::npos);
+  const std::string both = fitted_signs_of(read_as({{1, -1.0, 1.0, 0.0}, {2, -1.0, -1.0, 0.0}}));
+  EXPECT_NE(both.find("joint2 position of the other sign"), std::string::npos) << both;
+  EXPECT_NE(both.find("joint3 position of the other sign and torque of the other sign"),
+            std::string::npos)
+      << both;
+}
+
+/// Whatever else is in the log, and a lot of it.
+TEST(JointSigns, AreNotWhatAnEffectLooksLikeToMasses) {
+  EXPECT_EQ(fitted_signs_of(test::record({})), "");
+  EXPECT_EQ(fitted_signs_of(test::record({{}, 20.0, 0.0})), "") << "exact";
+  constexpr double size = 30.0;
+  for (const char* id : {"viscous_friction", "coulomb_friction", "torque_offset", "joint_spring",
+                         "rotor_inertia", "load_friction"}) {
+    for (const int joint : {0, 1, 2}) {
+      AppliedEffect put = at_start(*find_effect(id), joint);
+      put.value[0] = size * put.effect->parameters[0].size;
+      EXPECT_EQ(fitted_signs_of(test::record({{put}})), "") << id << joint;
+    }
+  }
+  for (const double angle : {0.3, 2.0, -a_quarter}) {
+    EXPECT_EQ(fitted_signs_of(test::record({{effect("gravity_tilt", 0, {angle, 0.2})}})), "");
+    EXPECT_EQ(fitted_signs_of(test::record({{effect("encoder_offset", 1, {angle})}})), "");
+  }
 }
 
 /// A pendulum near its zero takes the same torque as one whose axis points the other way: more than
