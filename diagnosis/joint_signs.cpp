@@ -23,7 +23,10 @@ namespace {
 class ByFittedMasses {
  public:
   ByFittedMasses(const Robot& robot, const Recording& recording, const LoopSettings& settings)
-      : robot_(robot), recording_(recording), settings_(settings) {}
+      : robot_(robot), recording_(recording), settings_(settings) {
+    // Some thousand samples, evenly: for as coarse a question, asked a hundred times.
+    settings_.stride = std::max(settings.stride, recording.stride_of(3000));
+  }
 
   /// Joints that should be read otherwise, the strongest first.
   [[nodiscard]] JointReadings sought() const {
@@ -87,7 +90,7 @@ class ByFittedMasses {
 
   const Robot& robot_;
   const Recording& recording_;
-  const LoopSettings& settings_;
+  LoopSettings settings_;
 };
 
 }  // namespace

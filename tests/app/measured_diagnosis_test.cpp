@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -21,13 +22,30 @@ bool has_mini_cheetah() {
   return std::filesystem::exists(mini_cheetah() + "small_pebble_val.csv.gz");
 }
 
+std::string example(const std::string& name) {
+  return (std::filesystem::path(SHAPEID_SOURCE_DIR) / "docs" / "examples" / name).string();
+}
+
 /// Of a run on one ground its first log, tested on the other.
-CommandRun diagnose_mini_cheetah(const std::string& ground, const std::string& options) {
+CommandRun diagnose_mini_cheetah(
+    const std::string& ground, const std::string& options,
+    const std::string& mapping = example("mini_cheetah.mapping.yaml")) {
   return shapeid(
       fmt::format("diagnose --robot {0}mini_cheetah_from_mit_constants.urdf --accept-impossible "
-                  "--mapping {1}/docs/examples/mini_cheetah.mapping.yaml "
-                  "--log {0}{2}_val.csv.gz --test {0}{2}_test.csv.gz {3}",
-                  mini_cheetah(), SHAPEID_SOURCE_DIR, ground, options));
+                  "--mapping {1} --log {0}{2}_val.csv.gz --test {0}{2}_test.csv.gz {3}",
+                  mini_cheetah(), mapping, ground, options));
+}
+
+/// A mapping with the position of a joint of the other sign.
+std::string with_other_sign(const std::string& mapping, const std::string& joint) {
+  std::string text = text_of(example(mapping));
+  for (const char* column : {"q.", "dq."}) {
+    const std::string name = "\n  " + (column + joint) + ": ";
+    const std::size_t begin = text.find(name) + name.size(), end = text.find('\n', begin);
+    text.replace(begin, end - begin,
+                 fmt::format("{{from: {}, sign: -1}}", text.substr(begin, end - begin)));
+  }
+  return text;
 }
 
 /// Standing feet of this robot slip but for a few in a hundred, and these tell. An external force
@@ -43,6 +61,31 @@ TEST(MeasuredDiagnosis, AnImuThatIsTurnedAboutTheVerticalIsRefused) {
     EXPECT_NE(run.err.find("refused (imu-axes)"), std::string::npos) << run.err;
     EXPECT_NE(run.err.find("if its axes were (y, -x, z)"), std::string::npos) << run.err;
   }
+}
+
+/// A knee by the given links and feet that stand; a Panda's joint by masses that are fitted, for of
+/// this one no inertias are given.
+TEST(MeasuredDiagnosis, AJointOfTheOtherSignIsRefused) {
+  if (!has_mini_cheetah()) GTEST_SKIP() << mini_cheetah() << " is not there (set SHAPEID_DATA)";
+  const ScratchFolder scratch;
+  const std::string knee =
+      scratch.write("knee.yaml", with_other_sign("mini_cheetah.mapping.yaml", "FR_knee"));
+  const CommandRun trot = diagnose_mini_cheetah("asphalt_road", "", knee);
+  EXPECT_EQ(trot.status, 1);
+  EXPECT_NE(trot.err.find("refused (joint-sign): the given model"), std::string::npos) << trot.err;
+  EXPECT_NE(trot.err.find("(FR_knee position of the other sign,"), std::string::npos) << trot.err;
+
+  const std::string joint =
+      scratch.write("joint.yaml", with_other_sign("panda.mapping.yaml", "panda_joint3"));
+  const CommandRun arm = shapeid(fmt::format(
+      "diagnose --robot {} --log {} --mapping {} --cutoff 10 --expected-mass 18",
+      example("panda.urdf"),
+      (data_folder() / "franka_panda" / "panda_exciting_traj1_first_half.csv.gz").string(), joint));
+  EXPECT_EQ(arm.status, 1);
+  EXPECT_NE(arm.err.find("refused (joint-sign): masses that are fitted"), std::string::npos)
+      << arm.err;
+  EXPECT_NE(arm.err.find("(panda_joint3 position of the other sign)"), std::string::npos)
+      << arm.err;
 }
 
 /// A Mini Cheetah on small pebbles: of two delays, both large, that of the IMU is sought at more
