@@ -23,7 +23,7 @@ namespace {
 /// a centre of mass that is given a little off an axis, on the other side of it, may gain as much.
 constexpr double well = 0.25, badly = 0.5;
 
-/// Where feet tell of zeros and signs as well, half a turn is none that a leg could make.
+/// rad by which a joint may be read further. No leg stands that is read a quarter of a turn off.
 std::vector<double> turns_of(const Robot& robot, int joint) {
   if (robot.root != Root::fixed || robot.joint(joint).kind == JointKind::prismatic) return {0.0};
   return {0.0, -quarter_turn, quarter_turn, 2.0 * quarter_turn};
@@ -86,7 +86,6 @@ class ByGivenLinks {
 
   /// What the given links leave on a base that stands on its side, if it is less than `error`.
   [[nodiscard]] double best_on_its_side(double error) const {
-    if (robot_.root != Root::fixed) return error;
     for (const AppliedEffect& turn : bases_on_their_side()) {
       const RichModel turned{stacked_parameters(robot_), {turn}};
       const Series left = series(robot_, viewer_.source(), turned, recording_, stride());
