@@ -11,6 +11,7 @@
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/joint_readings.hpp"
+#include "shapeid/diagnosis/leg_order.hpp"
 #include "shapeid/diagnosis/quarter_turns.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/diagnosis/torque_columns.hpp"
@@ -80,7 +81,9 @@ void check_excitation(const Robot& robot, const Recording& recording) {
 }
 
 void check_meaning(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
-  // First what needs no inertia.
+  // Legs that are exchanged have contacts at odds with their feet as well.
+  check_leg_order(robot, recording, contacts);
+  // Then what needs no inertia.
   if (contacts == ContactTreatment::project) check_standing_feet(robot, recording);
   check_torque_columns(robot, recording, contacts);
   check_accelerometer(robot, recording, contacts);

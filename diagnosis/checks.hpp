@@ -15,13 +15,14 @@ namespace shapeid::diagnosis {
 void check_excitation(const Robot& robot, const Recording& recording);
 
 /// Of each log, also of one that is only tested on. Throws Refusal:
+///  * "leg-order": the given links would predict better with legs exchanged (leg_order.hpp);
 ///  * "imu-axes" and "contact-labels", by feet that stand (reference/standing_feet.hpp);
 ///  * "torque-scale", "torque-sign" and "torque-order", by what the given links predict
 ///    (torque_columns.hpp);
 ///  * "imu-axes" also if they would predict far better by other axes of the accelerometer
 ///    (accelerometer_axes.hpp);
 ///  * "upside-down": the base, if it hangs, explains far more;
-///  * "joint-sign", "joint-zero": so do joints that are read with the other sign, or a quarter or
+///  * "joint-sign", "joint-zero": or with joints that are read with the other sign, or a quarter or
 ///    half a turn further (joint_readings.hpp).
 /// Units, signs, frozen channels and clocks that cannot be are refused when the log is read
 /// (models/plausibility.hpp), a torque column that is a current by its name as well.

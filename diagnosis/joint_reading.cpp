@@ -4,10 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
-
-#include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -74,14 +71,6 @@ std::string words_of(const JointReadings& readings, const Robot& robot) {
     each.push_back(fmt::format("{} {}", robot.joint(r.joint).name, fmt::join(parts, " and ")));
   }
   return fmt::format("{}", fmt::join(each, ", "));
-}
-
-bool are_less(const Eigen::VectorXd& errors, const Eigen::VectorXd& others) {
-  const Eigen::ArrayXd ratio = (others.array() / errors.array()).log();
-  const auto count = static_cast<double>(ratio.size());
-  const double mean = ratio.mean();
-  const double error = std::sqrt((ratio - mean).square().sum() / (count * (count - 1.0)));
-  return mean > limit_for(4.0, ratio.size()) * error;
 }
 
 std::optional<ReadingTrial> ReadingSearch::best_beside(const ReadingTrial& before,

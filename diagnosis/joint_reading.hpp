@@ -1,8 +1,6 @@
 // How a joint's columns in a log may be meant otherwise than they are read.
 #pragma once
 
-#include <Eigen/Core>
-
 #include <functional>
 #include <optional>
 #include <string>
@@ -35,10 +33,6 @@ struct ReadingTrial {
   JointReadings readings;
   double left;
 };
-
-/// Whether errors of blocks are less by the logarithms of their ratios: in a few blocks a wrong
-/// reading may leave more than in all others.
-[[nodiscard]] bool are_less(const Eigen::VectorXd& errors, const Eigen::VectorXd& others);
 
 /// How other readings are tried.
 struct ReadingSearch {

@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
+#include "shapeid/diagnosis/given_errors.hpp"
 #include "shapeid/diagnosis/joint_reading.hpp"
 #include "shapeid/diagnosis/quarter_turns.hpp"
-#include "shapeid/diagnosis/rich_model.hpp"
-#include "shapeid/diagnosis/series.hpp"
-#include "shapeid/diagnosis/tally.hpp"
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::diagnosis {
@@ -32,12 +28,7 @@ std::vector<double> turns_of(const Robot& robot, int joint) {
 class ByGivenLinks {
  public:
   ByGivenLinks(const Robot& robot, const Recording& recording, RowSource rows)
-      : robot_(robot), recording_(recording), viewer_(robot, rows, {}) {
-    for (const std::size_t i : recording.usable(stride())) {
-      samples_.push_back(recording[i]);
-      surroundings_.push_back(recording.surroundings(i));
-    }
-  }
+      : robot_(robot), errors_(robot, recording, rows) {}
 
   /// Joints that should be read otherwise, the strongest first; none if that is not far better.
   [[nodiscard]] JointReadings sought() const {
@@ -46,14 +37,14 @@ class ByGivenLinks {
 
  private:
   [[nodiscard]] JointReadings sought_on_fixed_base() const {
-    ReadingTrial read{{}, given_errors({}).sum()};
-    const double torque = squared_torque();
+    ReadingTrial read{{}, left_by({}).sum()};
+    const double torque = errors_.of_nothing();
     if (!(read.left > badly * torque)) return {};
     const double enough = far_better * read.left;
     const ReadingSearch search{
         robot_, [this](int joint) { return turns_of(robot_, joint); },
         [this](const JointReadings& with, const ReadingTrial& before) -> std::optional<double> {
-          const double left = given_errors(with).sum();
+          const double left = left_by(with).sum();
           if (!(left < far_better * before.left)) return std::nullopt;
           return left;
         },
@@ -69,14 +60,14 @@ class ByGivenLinks {
   // sign 1.3 to 2.7 times as much.
   [[nodiscard]] JointReadings sought_beside_feet() const {
     constexpr double clearly_better = 0.8, as_good = 0.9, little = 1e-4;
-    ReadingTrial read{{}, given_errors({}).sum()};
-    if (!(read.left > little * squared_torque())) return {};
+    ReadingTrial read{{}, left_by({}).sum()};
+    if (!(read.left > little * errors_.of_nothing())) return {};
     const ReadingSearch search{
         robot_, [this](int joint) { return turns_of(robot_, joint); },
         [this](const JointReadings& with, const ReadingTrial& before) -> std::optional<double> {
-          const Eigen::VectorXd left = given_errors(with);
+          const Eigen::VectorXd left = left_by(with);
           if (!(left.sum() < clearly_better * before.left)) return std::nullopt;
-          if (!are_less(left, given_errors(before.readings))) return std::nullopt;
+          if (!are_less(left, left_by(before.readings))) return std::nullopt;
           return left.sum();
         },
         as_good};
@@ -87,45 +78,19 @@ class ByGivenLinks {
   /// What the given links leave on a base that stands on its side, if it is less than `error`.
   [[nodiscard]] double best_on_its_side(double error) const {
     for (const AppliedEffect& turn : bases_on_their_side()) {
-      const RichModel turned{stacked_parameters(robot_), {turn}};
-      const Series left = series(robot_, viewer_.source(), turned, recording_, stride());
-      error = std::min(error, left.residual.squaredNorm());
+      error = std::min(error, errors_.with(turn));
     }
     return error;
   }
 
-  [[nodiscard]] Eigen::VectorXd given_errors(const JointReadings& readings) const {
-    return squared_errors({stacked_parameters(robot_), {}}, readings);
+  [[nodiscard]] Eigen::VectorXd left_by(const JointReadings& readings) const {
+    return errors_.of_parts([&readings](Sample& sample) {
+      for (const JointReading& reading : readings) reading.apply(sample);
+    });
   }
-  [[nodiscard]] double squared_torque() const {
-    const Eigen::Index numbers = Eigen::Index{10} * robot_.link_count();
-    return squared_errors({Eigen::VectorXd::Zero(numbers), {}}, {}).sum();
-  }
-  /// Of parts of the log.
-  [[nodiscard]] Eigen::VectorXd squared_errors(const RichModel& model,
-                                               const JointReadings& readings) const {
-    constexpr double most_parts = 20.0;
-    const double parts = std::clamp(recording_.duration() / shortest_block, 1.0, most_parts);
-    const auto count = static_cast<std::size_t>(parts);
-    Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      Sample read = samples_[i];
-      for (const JointReading& reading : readings) reading.apply(read);
-      const View view = viewer_.view(read, surroundings_[i]);
-      sums[static_cast<Eigen::Index>(i * count / samples_.size())] +=
-          residual(viewer_, view, model).tail(robot_.joint_count()).squaredNorm();
-    }
-    return sums;
-  }
-
-  /// Some hundred samples, evenly: for as coarse a question.
-  [[nodiscard]] std::size_t stride() const { return recording_.stride_of(600); }
 
   const Robot& robot_;
-  const Recording& recording_;
-  Viewer viewer_;
-  std::vector<Sample> samples_;
-  std::vector<Surroundings> surroundings_;
+  GivenErrors errors_;
 };
 
 }  // namespace
@@ -134,13 +99,14 @@ void check_joint_readings(const Robot& robot, const Recording& recording,
                           ContactTreatment contacts) {
   const JointReadings readings = ByGivenLinks(robot, recording, contacts).sought();
   if (readings.empty()) return;
+  const bool legs = robot.root == Root::floating;
   if (std::ranges::any_of(readings, &JointReading::turns_a_sign)) {
     throw Refusal("joint-sign",
                   fmt::format("the given model predicts the logged torque far better if joints are "
                               "read otherwise ({}{}): turn them in the mapping (sign: -1, offset), "
-                              "or their axes in the URDF",
-                              words_of(readings, robot),
-                              robot.root == Root::fixed ? "" : ", or others of that leg"));
+                              "or their axes in the URDF{}",
+                              words_of(readings, robot), legs ? ", or others of that leg" : "",
+                              legs ? "; or the IMU is turned" : ""));
   }
   throw Refusal("joint-zero",
                 fmt::format("the given model predicts the logged torque far better if joints are "

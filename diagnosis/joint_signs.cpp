@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "shapeid/diagnosis/effects.hpp"
+#include "shapeid/diagnosis/given_errors.hpp"
 #include "shapeid/diagnosis/joint_reading.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/quarter_turns.hpp"
