@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "shapeid/diagnosis/accelerometer_axes.hpp"
 #include "shapeid/diagnosis/given_errors.hpp"
 #include "shapeid/models/error.hpp"
 
@@ -134,6 +135,7 @@ void check_leg_order(const Robot& robot, const Recording& recording, ContactTrea
     }
   }
   if (trials.empty()) return;
+  check_accelerometer(robot, recording, contacts);  // with other axes it may look like that, too
   // Of those that are about as good as the best one, that which moves fewest legs.
   const double least = std::ranges::min(trials, {}, &Trial::left).left;
   std::erase_if(trials, [&](const Trial& t) { return better * t.left > least; });
