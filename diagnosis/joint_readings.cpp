@@ -32,7 +32,27 @@ class ByGivenLinks {
 
   /// Joints that should be read otherwise, the strongest first; none if that is not far better.
   [[nodiscard]] JointReadings sought() const {
-    return robot_.root == Root::fixed ? sought_on_fixed_base() : sought_beside_feet();
+    return robot_.root == Root::fixed ? sought_on_fixed_base() : sought_beside_feet().readings;
+  }
+
+  /// Where feet stand a sign is not a matter of a centre of mass, and each block tells. Of measured
+  /// trots the given links leave a fifth to a third of the squared torque, with a knee of the other
+  /// sign 1.3 to 2.7 times as much.
+  [[nodiscard]] ReadingTrial sought_beside_feet() const {
+    constexpr double clearly_better = 0.8, as_good = 0.9, little = 1e-4;
+    ReadingTrial read{{}, left_by({}).sum()};
+    if (!(read.left > little * errors_.of_nothing())) return read;
+    const ReadingSearch search{
+        robot_, [this](int joint) { return turns_of(robot_, joint); },
+        [this](const JointReadings& with, const ReadingTrial& before) -> std::optional<double> {
+          const Eigen::VectorXd left = left_by(with);
+          if (!(left.sum() < clearly_better * before.left)) return std::nullopt;
+          if (!are_less(left, left_by(before.readings))) return std::nullopt;
+          return left.sum();
+        },
+        as_good};
+    while (const std::optional<ReadingTrial> next = search.best_beside(read)) read = *next;
+    return read;
   }
 
  private:
@@ -55,26 +75,6 @@ class ByGivenLinks {
     return read.readings;
   }
 
-  // Where feet stand a sign is not a matter of a centre of mass, and each block tells. Of measured
-  // trots the given links leave a fifth to a third of the squared torque, with a knee of the other
-  // sign 1.3 to 2.7 times as much.
-  [[nodiscard]] JointReadings sought_beside_feet() const {
-    constexpr double clearly_better = 0.8, as_good = 0.9, little = 1e-4;
-    ReadingTrial read{{}, left_by({}).sum()};
-    if (!(read.left > little * errors_.of_nothing())) return {};
-    const ReadingSearch search{
-        robot_, [this](int joint) { return turns_of(robot_, joint); },
-        [this](const JointReadings& with, const ReadingTrial& before) -> std::optional<double> {
-          const Eigen::VectorXd left = left_by(with);
-          if (!(left.sum() < clearly_better * before.left)) return std::nullopt;
-          if (!are_less(left, left_by(before.readings))) return std::nullopt;
-          return left.sum();
-        },
-        as_good};
-    while (const std::optional<ReadingTrial> next = search.best_beside(read)) read = *next;
-    return read.readings;
-  }
-
   /// What the given links leave on a base that stands on its side, if it is less than `error`.
   [[nodiscard]] double best_on_its_side(double error) const {
     for (const AppliedEffect& turn : bases_on_their_side()) {
@@ -94,6 +94,11 @@ class ByGivenLinks {
 };
 
 }  // namespace
+
+double left_by_other_signs(const Robot& robot, const Recording& recording,
+                           ContactTreatment contacts) {
+  return ByGivenLinks(robot, recording, contacts).sought_beside_feet().left;
+}
 
 void check_joint_readings(const Robot& robot, const Recording& recording,
                           ContactTreatment contacts) {

@@ -17,4 +17,9 @@ namespace shapeid::diagnosis {
 void check_joint_readings(const Robot& robot, const Recording& recording,
                           ContactTreatment contacts);
 
+/// On a floating base: what the given links leave (GivenErrors) with the joints read as that would
+/// say, or as logged if it would say nothing.
+[[nodiscard]] double left_by_other_signs(const Robot& robot, const Recording& recording,
+                                         ContactTreatment contacts);
+
 }  // namespace shapeid::diagnosis

@@ -12,6 +12,7 @@
 
 #include "shapeid/diagnosis/accelerometer_axes.hpp"
 #include "shapeid/diagnosis/given_errors.hpp"
+#include "shapeid/diagnosis/joint_readings.hpp"
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::diagnosis {
@@ -138,6 +139,8 @@ void check_leg_order(const Robot& robot, const Recording& recording, ContactTrea
   check_accelerometer(robot, recording, contacts);  // with other axes it may look like that, too
   // Of those that are about as good as the best one, that which moves fewest legs.
   const double least = std::ranges::min(trials, {}, &Trial::left).left;
+  // A joint of the other sign is said by check_joint_readings().
+  if (left_by_other_signs(robot, recording, contacts) < least) return;
   std::erase_if(trials, [&](const Trial& t) { return better * t.left > least; });
   const Order best = std::ranges::min(trials, {}, [](const Trial& t) {
                        return std::pair(legs_moved_by(t.order), t.left);
