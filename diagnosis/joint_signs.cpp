@@ -81,12 +81,13 @@ class ByFittedMasses {
     }
     return least;
   }
+  /// Of what is weighed as the errors are.
   [[nodiscard]] double squared_torque() const {
-    double sum = 0.0;
+    Eigen::VectorXd squares = Eigen::VectorXd::Zero(robot_.dof());
     for (const std::size_t i : recording_.usable(settings_.stride)) {
-      sum += recording_[i].tau.squaredNorm();
+      squares += recording_[i].tau.cwiseAbs2();
     }
-    return sum;
+    return settings_.weight.size() > 0 ? squares.dot(settings_.weight) : squares.sum();
   }
 
   const Robot& robot_;
