@@ -201,8 +201,9 @@ TEST(TrackStreams, ALogThatIsNotThereAnyMoreEndsTheFollowing) {
   expect_one_line(followed_until("rm moved.csv"), 2, "is not there any more");
   expect_one_line(followed_until("cp another.csv new.csv; mv new.csv moved.csv"), 2,
                   "is another file now");
+  // Between the two commands it is not there, after them it is another.
   expect_one_line(followed_until("mv moved.csv moved.csv.1; cp another.csv moved.csv"), 2,
-                  "is another file now");
+                  "follow a log that stays where it is");
   EXPECT_TRUE(text_of(scratch() + "/said.txt") == followed_without_haste());
 }
 
