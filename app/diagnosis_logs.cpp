@@ -138,10 +138,14 @@ double margin_of(const MotionInputs& inputs, double rate) {
   return std::min(0.5 / (inputs.cutoff > 0.0 ? inputs.cutoff : rate), longest);
 }
 
-std::optional<RecordedLog> SameLogs::less_smooth() const {
+double SameLogs::less_smooth_cutoff() const {
   constexpr double times = 3.0, highest = 0.4;  // of the rate
+  return std::min(times * inputs.cutoff, highest * rate);
+}
+
+std::optional<RecordedLog> SameLogs::less_smooth() const {
   MotionInputs other = inputs;
-  other.cutoff = std::min(times * inputs.cutoff, highest * rate);
+  other.cutoff = less_smooth_cutoff();
   if (inputs.exact || inputs.causal || !(other.cutoff > inputs.cutoff)) return {};
   return read_recordings(paths, robot, other, part, shifts);
 }

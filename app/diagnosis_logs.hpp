@@ -47,8 +47,10 @@ struct SameLogs {
   double rate;                 ///< Hz
   std::vector<double> shifts;  ///< RecordedLog::shifts
 
-  /// Behind three times the cutoff, from which the filter's own error is computed; none if there is
-  /// no filter, or one that works forward only.
+  /// Hz: three times the cutoff, if the rate allows.
+  [[nodiscard]] double less_smooth_cutoff() const;
+  /// Behind that, from which the filter's own error is computed; none if there is no filter, or one
+  /// that works forward only.
   [[nodiscard]] std::optional<RecordedLog> less_smooth() const;
   /// Behind diagnosis::slower_by times the cutoff; none if there is no filter.
   [[nodiscard]] std::optional<RecordedLog> smoother() const;

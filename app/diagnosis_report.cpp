@@ -171,7 +171,7 @@ void add_undetermined(Page& page, const DiagnosisRun& run, const Robot& robot) {
     page.picture(structure_picture(s, robot),
                  s.variable == diagnosis::slow
                      ? fmt::format("Unexplained: the residual of {} is no noise: {:.1f} % of its "
-                                   "variance is slower",
+                                   "variance is slow and beyond it",
                                    s.joint, 100.0 * s.share)
                  : !s.law.empty()
                      ? fmt::format("Unexplained: as {}, but its number follows {}; {:.1f} % of the "

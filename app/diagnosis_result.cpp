@@ -247,8 +247,7 @@ std::string curves_text(const DiagnosisRun& run, const Robot& robot) {
 
 std::string structures_text(const DiagnosisRun& run) {
   if (run.structures.empty())
-    return "\nof what was fitted, of what was fitted, the residual follows no signal that was "
-           "tested\n";
+    return "\nof what was fitted, the residual follows no signal that was tested\n";
   std::string text =
       "\nunexplained: the residual still follows (share of its variance on blocks left out)\n";
   constexpr std::size_t shown = 12;
@@ -260,8 +259,8 @@ std::string structures_text(const DiagnosisRun& run) {
       continue;
     }
     if (s.variable == diagnosis::slow) {
-      text += fmt::format("  {:<24}none of them, but slowly: {:.1f} % more than noise\n", s.joint,
-                          100.0 * s.share);
+      text += fmt::format("  {:<24}none of them, and is no noise: {:.1f} % is slow and beyond it\n",
+                          s.joint, 100.0 * s.share);
       continue;
     }
     const std::string what = s.law.empty() ? s.joint : "as " + s.law;

@@ -18,6 +18,7 @@
 #include "shapeid/diagnosis/needed.hpp"
 #include "shapeid/diagnosis/regions.hpp"
 #include "shapeid/diagnosis/slowness.hpp"
+#include "shapeid/diagnosis/torque_noise.hpp"
 #include "shapeid/diagnosis/usual.hpp"
 #include "shapeid/models/butterworth.hpp"
 #include "shapeid/models/error.hpp"
@@ -283,6 +284,7 @@ class Diagnosis {
     return diagnosis::series(robot_.robot, run_.settings.rows, model, run_.test, run_.test_stride);
   }
   void add_slow_remains(const diagnosis::Series& remaining);
+  [[nodiscard]] std::vector<double> noise_of_torque() const;
 
   const RobotInputs& robot_;
   const DiagnoseOptions& options_;
@@ -400,12 +402,26 @@ void Diagnosis::add_slow_remains(const diagnosis::Series& remaining) {
   const double given = options_.inputs.cutoff;
   const double cutoff = given > 0.0 ? given : 0.5 * run_.motion.rate;
   for (const diagnosis::Structure& slow :
-       diagnosis::slow_remains(robot_.robot, log_, remaining, cutoff)) {
+       diagnosis::slow_remains(robot_.robot, log_, remaining, cutoff, noise_of_torque())) {
     const bool known = std::any_of(run_.structures.begin(), run_.structures.end(),
                                    [&](const auto& s) { return s.joint == slow.joint; });
     const bool is_noise = std::ranges::find(noise_->silent(), slow.joint) != noise_->silent().end();
     if (!known && !is_noise) run_.structures.push_back(slow);
   }
+}
+
+/// Not a number where the log behind another filter was not read.
+std::vector<double> Diagnosis::noise_of_torque() const {
+  if (!rough_) {
+    return std::vector<double>(static_cast<std::size_t>(robot_.robot.joint_count()),
+                               std::numeric_limits<double>::quiet_NaN());
+  }
+  MotionInputs less_smooth = options_.inputs;
+  less_smooth.cutoff = same_fitted_.less_smooth_cutoff();
+  return diagnosis::torque_noise(
+      {robot_.robot, run_.settings.rows, {}},
+      {log_, rough_->recording, options_.inputs.cutoff, less_smooth.cutoff},
+      stride_of(less_smooth, run_.motion.rate));
 }
 
 void Diagnosis::add_notes() {

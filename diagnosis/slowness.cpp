@@ -27,7 +27,8 @@ void set_curve(const Spectrum& spectrum, Structure& structure) {
 }  // namespace
 
 std::vector<Structure> slow_remains(const Robot& robot, const Recording& recording,
-                                    const Series& series, double cutoff) {
+                                    const Series& series, double cutoff,
+                                    const std::vector<double>& noise) {
   std::vector<Structure> found;
   const std::vector<double> time = times(recording, series);
   if (time.size() < fewest) return found;
@@ -39,20 +40,25 @@ std::vector<Structure> slow_remains(const Robot& robot, const Recording& recordi
     const std::size_t low_end = power.at(slow_below * cutoff), from = power.at(noise_from * cutoff);
     const std::size_t end = power.power.size();
     if (low_end < fewest || end - from < fewest) continue;
-    const double low = power.mean(0, low_end), noise = power.mean(from, end);
+    const double low = power.mean(0, low_end);
     // The logarithm of a mean of n exponential numbers has a standard deviation of 1 / sqrt(n).
     // Where only a share of the duration counts, that share of them is independent.
     const auto counted = static_cast<double>(series.counted.row(row).count());
     const double share = counted * step / (time.back() - time.front() + step);
     const double error = std::sqrt(
         (1.0 / static_cast<double>(low_end) + 1.0 / static_cast<double>(end - from)) / share);
-    const double z = std::log(low / noise) / error;
+    double quiet = power.mean(from, end);
+    // In a spectrum what does not count is zero. Not a number is not less.
+    const double of_torque = noise[static_cast<std::size_t>(j)] / step * counted /
+                             static_cast<double>(time.size());
+    if (of_torque < quiet) quiet = of_torque;
+    const double z = std::log(low / quiet) / error;
     if (!(z > believed_z)) continue;
     Structure structure;
     structure.joint = robot.joint(j).name;
     structure.variable = slow;
     const double all = y.squaredNorm() / static_cast<double>(time.size());
-    structure.share = std::clamp(2.0 * (low - noise) * power.every * static_cast<double>(low_end) /
+    structure.share = std::clamp(2.0 * (low - quiet) * power.every * static_cast<double>(low_end) /
                                      static_cast<double>(time.size()) / all,
                                  0.0, 1.0);
     structure.t = z;

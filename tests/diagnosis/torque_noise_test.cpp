@@ -1,0 +1,120 @@
+// How strong noise of torque is that somebody put there.
+#include "shapeid/diagnosis/torque_noise.hpp"
+
+#include <gtest/gtest.h>
+#include <Eigen/QR>
+
+#include <cmath>
+#include <random>
+
+#include "shapeid/models/segment_filter.hpp"
+#include "shapeid/tests/diagnosis/arm.hpp"
+#include "shapeid/tests/diagnosis/trot.hpp"
+
+namespace shapeid::diagnosis {
+namespace {
+
+/// The torque through the filter of a log; what else is in it stays.
+std::vector<Sample> behind(double cutoff, double rate, std::vector<Sample> samples) {
+  const Eigen::Index joints = samples[0].tau.size();
+  SegmentFilter filter(Smoothing::zero_phase, Butterworth(log_filter_order, cutoff, rate), joints);
+  for (const Sample& s : samples) filter.push(s.tau);
+  filter.finish();
+  for (Sample& s : samples) s.tau = *filter.next();
+  return samples;
+}
+
+void add_noise(const Eigen::VectorXd& sigma, std::vector<Sample>& samples) {
+  std::mt19937 generator(5);
+  std::normal_distribution<double> noise;
+  for (Sample& s : samples) {
+    for (Eigen::Index j = 0; j < sigma.size(); ++j) s.tau[j] += sigma[j] * noise(generator);
+  }
+}
+
+constexpr double arm_rate = 100.0, arm_cutoff = 5.0;
+
+/// Some are missing: a pause would spread the torque over all frequencies.
+std::vector<Sample> with_pause(std::vector<Sample> samples) {
+  constexpr std::size_t first = 2000, last = 2300;
+  if (samples.size() > last) samples.erase(samples.begin() + first, samples.begin() + last);
+  return samples;
+}
+
+struct BothFilters {
+  explicit BothFilters(const std::vector<Sample>& samples)
+      : smooth(with_pause(behind(arm_cutoff, arm_rate, samples)), arm_rate),
+        rough(with_pause(behind(3.0 * arm_cutoff, arm_rate, samples)), arm_rate) {}
+  [[nodiscard]] std::vector<double> noise() const {
+    return torque_noise({test::arm(), ContactTreatment::ignore, {}},
+                        {smooth, rough, arm_cutoff, 3.0 * arm_cutoff}, 1);
+  }
+  Recording smooth, rough;
+};
+
+/// The torque itself is a thousand times as strong as the noise.
+std::vector<Sample> motion() { return test::record({{}, 60.0, 0.0}).samples(); }
+
+/// Of 150 frequencies the mean power of noise has a standard deviation of 8 %.
+constexpr double four_deviations = 0.33;
+
+TEST(TorqueNoise, IsWhatWasAddedToEachJoint) {
+  std::vector<Sample> samples = motion();
+  const Eigen::Vector3d sigma(0.02, 0.05, 0.11);
+  add_noise(sigma, samples);
+  const std::vector<double> noise = BothFilters(samples).noise();
+  ASSERT_EQ(noise.size(), 3U);
+  for (std::size_t j = 0; j < 3; ++j) {
+    const double added = std::pow(sigma[static_cast<Eigen::Index>(j)], 2) / arm_rate;
+    EXPECT_NEAR(noise[j] / added, 1.0, four_deviations) << j;
+  }
+}
+
+/// What the robot does is slower than the filter.
+TEST(TorqueNoise, IsNextToNothingWithoutAny) {
+  for (const double n : BothFilters(motion()).noise()) EXPECT_LT(n, 1e-3 * 0.02 * 0.02 / arm_rate);
+}
+
+TEST(TorqueNoise, IsUnknownOfAShortLog) {
+  std::vector<Sample> samples = motion();
+  samples.resize(static_cast<std::size_t>(2.0 * arm_rate));
+  for (const double n : BothFilters(samples).noise()) EXPECT_TRUE(std::isnan(n));
+}
+
+TEST(TorqueNoise, IsUnknownWhereTheRoughLogHasNoSamples) {
+  BothFilters both(motion());
+  both.rough = Recording({}, arm_rate);
+  for (const double n : both.noise()) EXPECT_TRUE(std::isnan(n));
+}
+
+/// The same noise at all joints of a trot: what contact forces could explain of it is gone.
+TEST(TorqueNoise, IsThatBeyondContactForces) {
+  const test::Trot trot;
+  constexpr double of_filter = 15.0, sigma = 0.1;
+  std::vector<Sample> quiet = trot.samples, noisy = quiet;
+  add_noise(Eigen::VectorXd::Constant(trot.robot.joint_count(), sigma), noisy);
+  // The noise alone: contacts' forces change the torque faster than any filter.
+  for (std::size_t i = 0; i < noisy.size(); ++i) noisy[i].tau -= quiet[i].tau;
+  const Recording smooth(behind(of_filter, test::Trot::rate, noisy), test::Trot::rate);
+  const Recording rough(behind(3.0 * of_filter, test::Trot::rate, noisy), test::Trot::rate);
+  const Viewer viewer(trot.robot, ContactTreatment::project, {});
+  const std::vector<double> noise =
+      torque_noise(viewer, {smooth, rough, of_filter, 3.0 * of_filter}, 4);
+
+  const auto usable = smooth.usable(20);
+  Eigen::VectorXd expected = Eigen::VectorXd::Zero(trot.robot.joint_count());
+  for (const std::size_t i : usable) {
+    const Eigen::MatrixXd JT = viewer.view(smooth, i).J.transpose();
+    const Eigen::MatrixXd P = Eigen::MatrixXd::Identity(JT.rows(), JT.rows()) -
+                              JT * JT.completeOrthogonalDecomposition().pseudoInverse();
+    expected += P.bottomRightCorner(expected.size(), expected.size()).rowwise().squaredNorm();
+  }
+  expected *= sigma * sigma / (test::Trot::rate * static_cast<double>(usable.size()));
+  ASSERT_LT(expected.maxCoeff(), 0.9 * sigma * sigma / test::Trot::rate);
+  for (std::size_t j = 0; j < noise.size(); ++j) {
+    EXPECT_NEAR(noise[j] / expected[static_cast<Eigen::Index>(j)], 1.0, four_deviations) << j;
+  }
+}
+
+}  // namespace
+}  // namespace shapeid::diagnosis
