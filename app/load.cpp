@@ -11,6 +11,7 @@
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/number.hpp"
+#include "shapeid/models/robot_size.hpp"
 #include "shapeid/models/shapes_yaml.hpp"
 
 namespace shapeid::app {
@@ -41,6 +42,10 @@ BodyModel region(const LoadArguments& options, const Robot& robot) {
       throw InputError(fmt::format("--area: {} to {} is empty", lower[axis], upper[axis]),
                        "the lower bound first, the larger one after it");
     }
+  }
+  const double furthest = lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).norm();
+  if (const auto why = why_too_far(furthest, robot)) {
+    throw InputError("--area: a corner is " + *why, "metres, in the link's frame");
   }
   return load_region(robot, site->link, lower, upper, site->pose);
 }

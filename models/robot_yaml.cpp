@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "shapeid/models/robot_size.hpp"
 #include "shapeid/models/yaml_input.hpp"
 
 namespace shapeid {
@@ -29,6 +30,15 @@ Eigen::Matrix3d frame_along(const Eigen::Vector3d& axis) {
   return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), axis).toRotationMatrix();
 }
 
+Eigen::Vector3d place_on(const YamlInput& in, const YAML::Node& node, const std::string& what,
+                         const Robot& robot) {
+  const Eigen::Vector3d place = in.place(node, what);
+  if (const auto why = why_too_far(place.norm(), robot)) {
+    in.refuse(node, fmt::format("{} is {}", what, *why), "metres, on the robot");
+  }
+  return place;
+}
+
 Contact read_contact(const YamlInput& in, const YAML::Node& node, const Robot& robot) {
   in.check_keys(node, "a contact", {"link"}, {"point", "kind", "axis"});
   Contact contact;
@@ -36,7 +46,7 @@ Contact read_contact(const YamlInput& in, const YAML::Node& node, const Robot& r
   const LinkSite site = site_of(in, node["link"], contact.name, robot);
   contact.link = site.link;
   if (node["kind"]) contact.kind = kind_of(in, node["kind"]);
-  if (node["point"]) contact.frame.translation() = in.place(node["point"], "point");
+  if (node["point"]) contact.frame.translation() = place_on(in, node["point"], "point", robot);
   const bool line = contact.kind == ContactKind::line;
   if (line && !node["axis"]) {
     in.refuse(node, fmt::format("the line contact of {} does not say which line", contact.name),
@@ -154,7 +164,10 @@ RobotNotes read_robot_yaml(const std::string& path, Robot& robot) {
   in.check_keys(root, "robot.yaml", {}, {"imu", "contacts", "noise", "rotors", "expected_mass"});
   RobotNotes notes;
   notes.imu_given = static_cast<bool>(root["imu"]);
-  if (notes.imu_given) notes.imu = in.pose(root["imu"], "imu");
+  if (notes.imu_given) {
+    notes.imu = in.pose(root["imu"], "imu");
+    if (root["imu"]["xyz"]) static_cast<void>(place_on(in, root["imu"]["xyz"], "imu xyz", robot));
+  }
   std::vector<Contact> contacts;
   if (const YAML::Node list = root["contacts"]) {
     if (!list.IsSequence()) in.refuse(list, "contacts is not a list", "write - {link: NAME}");

@@ -73,6 +73,8 @@ TEST(Refusals, OneLineThatSaysWhatIsWrongAndWhatWouldBeRight) {
        "divisions"},
       {fmt::format("load --robot {} --log {} --area arm 0 1 0 1 1 0", robot, log), 2, "empty"},
       {fmt::format("load --robot {} --log {} --area arm 0 1 0 1 0 nan", robot, log), 2, "nan"},
+      {fmt::format("load --robot {} --log {} --area arm 0 90 0 90 -300 0", robot, log), 2,
+       "--area: a corner is 326 m from the link's origin, on a robot of"},
       {fmt::format("load --robot {} --log {} --area leg 0 1 0 1 0 1", robot, log), 2, "leg"},
       {"convert --from pinocchio --to nonsense 1 2 3", 2, "nonsense"},
       {"convert --from pinocchio --to drake 1 2 3", 2, "10"},

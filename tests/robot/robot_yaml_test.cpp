@@ -154,6 +154,10 @@ TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
        ":3: point is not a list of 3 numbers; write them in brackets, with commas between them"},
       {"contacts:\n  - {link: leg, point: [0, -2e6, 1]}\n",
        ":2: point is 2e+06 m away; metres, on the robot"},
+      {"contacts:\n  - {link: leg, point: [0, 0, -200]}\n",
+       ":2: point is 200 m from the link's origin, on a robot of 3.7 m; metres, on the robot"},
+      {"imu: {xyz: [120, 0, 0]}\n",
+       ":1: imu xyz is 120 m from the link's origin, on a robot of 3.7 m; metres, on the robot"},
       {"noise: {tau.ankle: 1}\n",
        ":1: tau.ankle is no channel of a log of hopper; write q, dq, ddq or tau, alone or with "
        ".<joint>, base.gyro or base.accel, alone or with .x, force.<link>.x, base.force or "
