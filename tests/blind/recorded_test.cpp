@@ -72,6 +72,18 @@ TEST(Blind, AnOffsetBringsNoOtherWithIt) {
   EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
 }
 
+/// Trial 87 of seed 9598, diagnosed at e6a38e3: blows of a gear of an upright axis, fifteen times
+/// the noise of its torque, follow no signal and are as strong at all frequencies; nothing was
+/// said.
+TEST(Blind, BlowsOfAGearAreNoNoise) {
+  PlanOptions options;
+  options.seed = 9598;
+  options.quadruped_every = 0;
+  options.only = "foreign";
+  const Judgement judged = judgement_of(options, 87);
+  EXPECT_EQ(name_of(judged.outcome), "unexplained") << judged.said;
+}
+
 /// A drawn arm with one effect of eight times the detectable size.
 PlanOptions drawn_arm_with(const std::string& effect, std::uint64_t seed) {
   PlanOptions options;
