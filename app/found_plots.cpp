@@ -15,7 +15,6 @@
 #include "shapeid/app/gnuplot.hpp"
 #include "shapeid/app/plot_script.hpp"
 #include "shapeid/app/result.hpp"
-#include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/slowness.hpp"
 
 namespace shapeid::app {
@@ -101,12 +100,8 @@ namespace {
 
 /// Of a signal by its name; none of a log's further columns.
 std::string unit_of_signal(const std::string& variable, const Robot& robot) {
-  constexpr std::array<std::array<const char*, 2>, 6> kinds = {{{"q.", "rad"},
-                                                                {"dq.", "rad/s"},
-                                                                {"ddq.", "rad/s^2"},
-                                                                {"tau.", "N m"},
-                                                                {"dtau.", "N m/s"},
-                                                                {"turn.", "rad"}}};
+  constexpr std::array<std::array<const char*, 2>, 5> kinds = {
+      {{"q.", "rad"}, {"dq.", "rad/s"}, {"ddq.", "rad/s^2"}, {"tau.", "N m"}, {"dtau.", "N m/s"}}};
   for (const auto& [prefix, unit] : kinds) {
     if (!variable.starts_with(prefix)) continue;
     const auto joint = robot.find_joint(variable.substr(std::string_view(prefix).size()));
@@ -117,16 +112,6 @@ std::string unit_of_signal(const std::string& variable, const Robot& robot) {
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} ({})", name, unit);
-}
-
-/// Of "torque_gain@knee" the unit of its number.
-std::string unit_of_law(const std::string& law, const Robot& robot) {
-  const std::size_t at = law.find('@');
-  const diagnosis::Effect* effect = diagnosis::find_effect(law.substr(0, at));
-  if (effect == nullptr || effect->parameters.empty()) return {};
-  const auto joint = at == std::string::npos ? std::nullopt : robot.find_joint(law.substr(at + 1));
-  const std::string& unit = effect->parameters.front().unit;
-  return joint ? unit_at(robot.joint(*joint), unit) : unit;
 }
 
 }  // namespace
@@ -142,7 +127,7 @@ std::string structure_picture(const diagnosis::Structure& structure, const Robot
   const std::string up =
       structure.law.empty()
           ? with_unit("residual", joint ? unit_at(robot.joint(*joint), "N m") : joints_unit(robot))
-          : with_unit("its number", unit_of_law(structure.law, robot));
+          : with_unit("its number", structure.law_unit);
   const std::string along =
       with_unit(structure.variable, unit_of_signal(structure.variable, robot));
   return gnuplot(script + fmt::format("set xlabel {}\nset ylabel {}\n"

@@ -357,6 +357,8 @@ Structure lawless(const Robot& robot, RowSource source, const RichModel& model,
   structure.joint = robot.joint(joint).name;
   structure.variable = variable_of({stranger.law.signal, joint}, robot);
   structure.law = law_id(stranger, robot);
+  structure.law_unit =
+      unit_at(robot.joint(joint), stranger.carrier.effect->parameters.front().unit);
   structure.share = stranger.gain;
   structure.t = stranger.t;
   if (x.empty()) return structure;

@@ -24,7 +24,7 @@ struct Structure {
   std::string under_name;         ///< the effect that was accepted and does not stay constant
   /// "torque_gain@knee": the curve is of this law's number over the signal, in the law's unit; else
   /// empty, and it is of the residual.
-  std::string law;
+  std::string law, law_unit;
 };
 
 /// Tests the residual of every joint against its own position, velocity, acceleration and torque,
