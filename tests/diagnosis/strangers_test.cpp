@@ -54,6 +54,7 @@ TEST(Strangers, SeeAGainOnOneSide) {
   EXPECT_EQ(curve.joint, "joint2");
   EXPECT_EQ(curve.variable, "tau.joint2");
   EXPECT_FALSE(curve.law.empty());
+  EXPECT_EQ(curve.law_unit, result.strangers.front().carrier.effect->parameters.front().unit);
   ASSERT_GT(curve.at.size(), 2U);
   EXPECT_LT(curve.at.front(), curve.at.back());
   EXPECT_GT(curve.share, 0.0);

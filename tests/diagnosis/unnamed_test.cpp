@@ -62,6 +62,7 @@ TEST(Unnamed, GearsNumberIsWhatTheGearYields) {
   EXPECT_LT(law.number, 0.0006);
   const Structure curve = lawless(arm(), ContactTreatment::ignore, result.model, log, 2, law);
   EXPECT_EQ(curve.law, "gear@joint2 that yields");
+  EXPECT_EQ(curve.law_unit, "rad");
   ASSERT_GT(curve.at.size(), 1U);
   ASSERT_EQ(curve.value.size(), curve.at.size());
   for (std::size_t i = 0; i < curve.at.size(); ++i) {
