@@ -49,8 +49,8 @@ std::vector<Structure> slow_remains(const Robot& robot, const Recording& recordi
         (1.0 / static_cast<double>(low_end) + 1.0 / static_cast<double>(end - from)) / share);
     double quiet = power.mean(from, end);
     // In a spectrum what does not count is zero. Not a number is not less.
-    const double of_torque = noise[static_cast<std::size_t>(j)] / step * counted /
-                             static_cast<double>(time.size());
+    const double of_torque =
+        noise[static_cast<std::size_t>(j)] / step * counted / static_cast<double>(time.size());
     if (of_torque < quiet) quiet = of_torque;
     const double z = std::log(low / quiet) / error;
     if (!(z > believed_z)) continue;

@@ -32,7 +32,7 @@ Eigen::Matrix3d frame_along(const Eigen::Vector3d& axis) {
 
 Eigen::Vector3d place_on(const YamlInput& in, const YAML::Node& node, const std::string& what,
                          const Robot& robot) {
-  const Eigen::Vector3d place = in.place(node, what);
+  Eigen::Vector3d place = in.place(node, what);
   if (const auto why = why_too_far(place.norm(), robot)) {
     in.refuse(node, fmt::format("{} is {}", what, *why), "metres, on the robot");
   }
