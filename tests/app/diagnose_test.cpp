@@ -126,8 +126,8 @@ TEST(Diagnose, NeedsUsableSamplesToTestOn) {
 
 /// A knee that is pulled by the hip of another leg has no name. As a curve it predicts, here and
 /// where `identify` takes it as known.
-/// A foot that carries little before it lifts is no foot in the air: at 0.15 of the weight a delay of
-/// the torque was found in such logs, by five standard errors and more.
+/// A foot that carries little before it lifts is no foot in the air: at 0.15 of the weight a delay
+/// of the torque was found in such logs, by five standard errors and more.
 TEST(Diagnose, FindsNothingWhereContactsAreDerived) {
   simulated_log("clean.csv.gz", "--seconds 10");
   write_changed("clean.csv.gz", "derived.csv", as_it_is, {"contact."});
