@@ -410,18 +410,23 @@ void Diagnosis::add_slow_remains(const diagnosis::Series& remaining) {
   }
 }
 
-/// Not a number where the log behind another filter was not read.
+/// Not a number where the log behind another filter was not read, and of joints at which noise of
+/// motion is most of what remains: it makes inertias too small, and what that leaves is slow.
 std::vector<double> Diagnosis::noise_of_torque() const {
-  if (!rough_) {
-    return std::vector<double>(static_cast<std::size_t>(robot_.robot.joint_count()),
-                               std::numeric_limits<double>::quiet_NaN());
-  }
+  const Robot& robot = robot_.robot;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> noise(static_cast<std::size_t>(robot.joint_count()), unknown);
+  if (!rough_) return noise;
   MotionInputs less_smooth = options_.inputs;
   less_smooth.cutoff = same_fitted_.less_smooth_cutoff();
-  return diagnosis::torque_noise(
-      {robot_.robot, run_.settings.rows, {}},
-      {log_, rough_->recording, options_.inputs.cutoff, less_smooth.cutoff},
-      stride_of(less_smooth, run_.motion.rate));
+  noise =
+      diagnosis::torque_noise({robot, run_.settings.rows, {}},
+                              {log_, rough_->recording, options_.inputs.cutoff, less_smooth.cutoff},
+                              stride_of(less_smooth, run_.motion.rate));
+  for (std::size_t j = 0; j < noise.size(); ++j) {
+    if (noise_->is_noisy(robot.joint(static_cast<int>(j)).name)) noise[j] = unknown;
+  }
+  return noise;
 }
 
 void Diagnosis::add_notes() {

@@ -138,11 +138,9 @@ void NoiseOfMotion::note(DiagnosisRun& run) const {
 
 bool NoiseOfMotion::is_noisy(const std::string& joint) const {
   const Robot& robot = log_inputs_.robot.robot;
-  for (int j = 0; j < robot.joint_count(); ++j) {
-    if (robot.joint(j).name != joint) continue;
-    return diagnosis::is_noise_of_motion(fast_shares_[static_cast<std::size_t>(j)]);
-  }
-  return false;
+  const std::optional<int> j = robot.find_joint(joint);
+  return j && !fast_shares_.empty() &&
+         diagnosis::is_noise_of_motion(fast_shares_[static_cast<std::size_t>(*j)]);
 }
 
 }  // namespace shapeid::app

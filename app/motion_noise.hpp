@@ -27,13 +27,14 @@ class NoiseOfMotion {
   void question_curves(const diagnosis::Recording& log, const diagnosis::Series& remaining,
                        DiagnosisRun& run);
   [[nodiscard]] const std::vector<std::string>& silent() const { return silent_; }
+  /// Whether most of what remains of a joint is noise of motion, as far as was asked.
+  [[nodiscard]] bool is_noisy(const std::string& joint) const;
   /// Adds notes: of which joints most of what remains is noise of motion, and what was taken back.
   void note(DiagnosisRun& run) const;
 
  private:
   void take_back_names(const diagnosis::Recording& log, const diagnosis::Recording* reference,
                        DiagnosisRun& run);
-  [[nodiscard]] bool is_noisy(const std::string& joint) const;
   [[nodiscard]] diagnosis::FilteredLogs smoother(const DiagnosisRun& run);
 
   SameLogs log_inputs_;
