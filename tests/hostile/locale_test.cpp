@@ -78,7 +78,7 @@ std::string session() {
 
   Robot hopper = test::two_link_robot();
   const RobotNotes notes = read_robot_yaml(
-      folder.write("r.yaml", "imu: {xyz: [0.125, 1234.5, -1e-3]}\nnoise: {tau: 0.5}\n"), hopper);
+      folder.write("r.yaml", "imu: {xyz: [0.125, 12.345, -1e-3]}\nnoise: {tau: 0.5}\n"), hopper);
   const BodyModel model = read_shapes_yaml(
       folder.write("s.yaml", "trunk:\n  - {kind: ellipsoid, size: [0.5, 1.5, 2.25]}\n"), hopper);
   const Mapping mapping = read_mapping_yaml(
