@@ -17,6 +17,7 @@
 #include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/needed.hpp"
 #include "shapeid/diagnosis/regions.hpp"
+#include "shapeid/diagnosis/same_time.hpp"
 #include "shapeid/diagnosis/slowness.hpp"
 #include "shapeid/diagnosis/torque_noise.hpp"
 #include "shapeid/diagnosis/usual.hpp"
@@ -90,14 +91,10 @@ Eigen::MatrixXd unfiltered_torque(const Recording& smooth, const diagnosis::Seri
                                   const Recording& raw) {
   Eigen::MatrixXd tau = Eigen::MatrixXd::Constant(smooth[0].tau.size(), std::ssize(series.index),
                                                   std::numeric_limits<double>::quiet_NaN());
-  const auto& samples = raw.samples();
   for (Eigen::Index i = 0; i < tau.cols(); ++i) {
-    const double time = smooth[series.index[static_cast<std::size_t>(i)]].time;
-    const auto at = std::lower_bound(samples.begin(), samples.end(), time - 0.25 / raw.rate(),
-                                     [](const Sample& s, double t) { return s.time < t; });
-    if (at != samples.end() && std::abs(at->time - time) < 0.25 / raw.rate()) {
-      tau.col(i) = at->tau;
-    }
+    const Sample* at =
+        diagnosis::sample_at(raw, smooth[series.index[static_cast<std::size_t>(i)]].time);
+    if (at != nullptr) tau.col(i) = at->tau;
   }
   return tau;
 }

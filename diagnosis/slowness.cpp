@@ -47,11 +47,11 @@ std::vector<Structure> slow_remains(const Robot& robot, const Recording& recordi
     const double share = counted * step / (time.back() - time.front() + step);
     const double error = std::sqrt(
         (1.0 / static_cast<double>(low_end) + 1.0 / static_cast<double>(end - from)) / share);
-    double quiet = power.mean(from, end);
-    // In a spectrum what does not count is zero. Not a number is not less.
+    // In a spectrum what does not count is zero.
     const double of_torque =
         noise[static_cast<std::size_t>(j)] / step * counted / static_cast<double>(time.size());
-    if (of_torque < quiet) quiet = of_torque;
+    // The other one if this is not a number.
+    const double quiet = std::fmin(power.mean(from, end), of_torque);
     const double z = std::log(low / quiet) / error;
     if (!(z > believed_z)) continue;
     Structure structure;

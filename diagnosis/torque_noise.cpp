@@ -1,9 +1,9 @@
 #include "shapeid/diagnosis/torque_noise.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "shapeid/diagnosis/same_time.hpp"
 #include "shapeid/diagnosis/spectrum.hpp"
 #include "shapeid/models/butterworth.hpp"
 
@@ -25,19 +25,17 @@ struct Fast {
 
 Fast fast_torque(const Viewer& viewer, const TwoFilters& log, std::size_t stride) {
   const Robot& robot = viewer.robot();
-  const auto& rough = log.rough.samples();
   const std::vector<std::size_t> usable = log.smooth.usable(stride);
   Fast fast{{},
             Eigen::MatrixXd(robot.joint_count(), std::ssize(usable)),
             Eigen::ArrayXXd(robot.joint_count(), std::ssize(usable))};
   for (const std::size_t index : usable) {
-    const double time = log.smooth[index].time, near = 0.25 / log.smooth.rate();
-    const auto at = std::lower_bound(rough.begin(), rough.end(), time - near,
-                                     [](const Sample& s, double t) { return s.time < t; });
-    if (at == rough.end() || at->time > time + near) continue;
+    const double time = log.smooth[index].time;
+    const Sample* rough = sample_at(log.rough, time);
+    if (rough == nullptr) continue;
     const View view = viewer.view(log.smooth, index);
     Eigen::VectorXd difference = Eigen::VectorXd::Zero(robot.dof());
-    difference.tail(robot.joint_count()) = at->tau - log.smooth[index].tau;
+    difference.tail(robot.joint_count()) = rough->tau - log.smooth[index].tau;
     const auto column = std::ssize(fast.time);
     fast.torque.col(column) =
         beyond_contacts(viewer, view.J, difference).bottomRows(robot.joint_count());

@@ -30,13 +30,11 @@ Eigen::Matrix3d frame_along(const Eigen::Vector3d& axis) {
   return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), axis).toRotationMatrix();
 }
 
-Eigen::Vector3d place_on(const YamlInput& in, const YAML::Node& node, const std::string& what,
-                         const Robot& robot) {
-  Eigen::Vector3d place = in.place(node, what);
+void check_on_robot(const YamlInput& in, const YAML::Node& node, const std::string& what,
+                    const Eigen::Vector3d& place, const Robot& robot) {
   if (const auto why = why_too_far(place.norm(), robot)) {
     in.refuse(node, fmt::format("{} is {}", what, *why), "metres, on the robot");
   }
-  return place;
 }
 
 Contact read_contact(const YamlInput& in, const YAML::Node& node, const Robot& robot) {
@@ -46,7 +44,10 @@ Contact read_contact(const YamlInput& in, const YAML::Node& node, const Robot& r
   const LinkSite site = site_of(in, node["link"], contact.name, robot);
   contact.link = site.link;
   if (node["kind"]) contact.kind = kind_of(in, node["kind"]);
-  if (node["point"]) contact.frame.translation() = place_on(in, node["point"], "point", robot);
+  if (node["point"]) {
+    contact.frame.translation() = in.place(node["point"], "point");
+    check_on_robot(in, node["point"], "point", contact.frame.translation(), robot);
+  }
   const bool line = contact.kind == ContactKind::line;
   if (line && !node["axis"]) {
     in.refuse(node, fmt::format("the line contact of {} does not say which line", contact.name),
@@ -166,7 +167,7 @@ RobotNotes read_robot_yaml(const std::string& path, Robot& robot) {
   notes.imu_given = static_cast<bool>(root["imu"]);
   if (notes.imu_given) {
     notes.imu = in.pose(root["imu"], "imu");
-    if (root["imu"]["xyz"]) static_cast<void>(place_on(in, root["imu"]["xyz"], "imu xyz", robot));
+    check_on_robot(in, root["imu"], "imu xyz", notes.imu.translation(), robot);
   }
   std::vector<Contact> contacts;
   if (const YAML::Node list = root["contacts"]) {
