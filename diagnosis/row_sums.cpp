@@ -7,15 +7,16 @@
 namespace shapeid::diagnosis {
 
 RowSums::RowSums(Eigen::Index columns, Eigen::Index most)
-    : rows_(2 * columns + most, columns),
+    : rows_(columns, 2 * columns + most),
       sums_(Eigen::MatrixXd::Zero(columns, columns)),
+      part_(columns, columns),
       all_(static_cast<std::size_t>(columns)) {
   std::iota(all_.begin(), all_.end(), 0);
 }
 
 void RowSums::add(const Eigen::MatrixXd& rows) {
-  if (used_ + rows.rows() > rows_.rows()) flush();
-  rows_.middleRows(used_, rows.rows()) = rows;
+  if (used_ + rows.rows() > rows_.cols()) flush();
+  rows_.middleCols(used_, rows.rows()) = rows.transpose();
   used_ += rows.rows();
 }
 
@@ -42,29 +43,32 @@ void RowSums::flush() {
 }
 
 void RowSums::add_products(const Places& rows, const Places& columns) {
+  const Eigen::MatrixXd entries = rows_(columns, rows);
+  if (columns.size() == all_.size()) {
+    sums_.selfadjointView<Eigen::Lower>().rankUpdate(entries);
+    return;
+  }
   const auto n = static_cast<Eigen::Index>(columns.size());
-  const Eigen::MatrixXd entries = rows_(rows, columns);
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n);
-  sums.selfadjointView<Eigen::Lower>().rankUpdate(entries.transpose());
+  auto part = part_.topLeftCorner(n, n);
+  part.setZero();
+  part.selfadjointView<Eigen::Lower>().rankUpdate(entries);
   for (Eigen::Index column = 0; column < n; ++column) {
     auto to = sums_.col(columns[static_cast<std::size_t>(column)]);
     for (Eigen::Index row = column; row < n; ++row) {
-      to[columns[static_cast<std::size_t>(row)]] += sums(row, column);
+      to[columns[static_cast<std::size_t>(row)]] += part(row, column);
     }
   }
 }
 
 /// Places of rows by the columns in which they are not zero, both in increasing order.
 std::map<RowSums::Places, RowSums::Places> RowSums::rows_by_columns() const {
-  std::vector<Places> columns(static_cast<std::size_t>(used_));
-  for (Eigen::Index column = 0; column < rows_.cols(); ++column) {
-    for (Eigen::Index row = 0; row < used_; ++row) {
-      if (rows_(row, column) != 0.0) columns[static_cast<std::size_t>(row)].push_back(column);
-    }
-  }
   std::map<Places, Places> rows;
-  for (std::size_t row = 0; row < columns.size(); ++row) {
-    rows[std::move(columns[row])].push_back(static_cast<Eigen::Index>(row));
+  for (Eigen::Index row = 0; row < used_; ++row) {
+    Places columns;
+    for (const Eigen::Index column : all_) {
+      if (rows_(column, row) != 0.0) columns.push_back(column);
+    }
+    rows[std::move(columns)].push_back(row);
   }
   return rows;
 }

@@ -26,8 +26,9 @@ class RowSums {
   void add_products(const Places& rows, const Places& columns);
   [[nodiscard]] std::map<Places, Places> rows_by_columns() const;
 
-  Eigen::MatrixXd rows_;  ///< the first `used_`: to be summed
+  Eigen::MatrixXd rows_;  ///< a row in each of the first `used_` columns: to be summed
   Eigen::MatrixXd sums_;  ///< the lower half
+  Eigen::MatrixXd part_;  ///< sums of rows that have entries in the same columns
   Eigen::Index used_ = 0;
   Places all_;  ///< every column
 };
