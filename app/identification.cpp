@@ -217,7 +217,7 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   result.heldout = effects ? effects->compare(robot, inputs, options, result.found.Phi)
                            : compare(robot, inputs, options, result.found.Phi);
   note_worse_prediction(robot.robot, result);
-  if (result.sought.free_links.size() < robot.robot.links.size()) {
+  if (result.sought.free_links.size() < moving_links(robot.robot).size()) {
     result.notes.emplace_back(
         "standard errors are of the scatter between blocks of time: what is taken as given (other "
         "links, friction, the scale of torques) is in none of them; diagnose looks for it");
