@@ -5,11 +5,19 @@
 
 namespace shapeid {
 
+// In periods of the cutoff. What one pass makes of an event comes after it; before, only a flag
+// that is late matters.
+Margin margin_of(Smoothing smoothing, double cutoff) {
+  constexpr double half = 0.5, after_one_pass = 0.8;
+  return {half / cutoff, (smoothing == Smoothing::causal ? after_one_pass : half) / cutoff};
+}
+
 void ContactMargin::push(FlaggedSample sample) {
   if (sample.starts_segment) finish();
   const double newest = sample.sample.time;
   near_.push_back(std::move(sample));
-  while (decided_ < near_.size() && newest >= near_[decided_].sample.time + margin_) decide();
+  while (decided_ < near_.size() && newest >= near_[decided_].sample.time + margin_.before)
+    decide();
 }
 
 void ContactMargin::finish() {
@@ -18,10 +26,10 @@ void ContactMargin::finish() {
   decided_ = 0;
 }
 
-/// The next sample: everything within the margin around it is in near_.
+/// The next sample: all changes that it may be near are in near_.
 void ContactMargin::decide() {
   const double time = near_[decided_].sample.time;
-  while (near_.front().sample.time < time - margin_) {
+  while (near_.front().sample.time < time - margin_.after) {
     near_.pop_front();
     --decided_;
   }
@@ -30,7 +38,7 @@ void ContactMargin::decide() {
   std::vector<bool> touches(flags.size(), false);
   bool wanted = std::find(flags.begin(), flags.end(), -1) == flags.end();
   for (const FlaggedSample& other : near_) {
-    if (other.sample.time > time + margin_) break;
+    if (other.sample.time > time + margin_.before) break;
     if (change_ == ContactChange::drop && other.contacts != flags) wanted = false;
     for (std::size_t c = 0; c < flags.size(); ++c) {
       if (other.contacts[c] != 0) touches[c] = true;

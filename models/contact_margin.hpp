@@ -11,10 +11,13 @@
 
 namespace shapeid {
 
-/// The margin where none is given, in periods of the filter's cutoff: from there on the impulse
-/// response of two passes of second order stays below 5 percent of its peak
-/// (docs/derivations/filtering.md).
-inline constexpr double margin_periods = 0.5;
+/// How long before and after a change of contact samples are near it, s.
+struct Margin {
+  double before = 0.0, after = 0.0;
+};
+
+/// Where none is given, of a filter of second order (docs/derivations/filtering.md).
+[[nodiscard]] Margin margin_of(Smoothing smoothing, double cutoff);
 
 /// A sample with its contact flags still as numbers: 1, 0, or -1 for not known.
 struct FlaggedSample {
@@ -30,12 +33,12 @@ struct FlaggedSample {
   }
 };
 
-/// Holds samples back until the contacts within the margin after them are known. A contact that is
+/// Holds samples back until the contacts are known to which they may be near. A contact that is
 /// not known may touch: its samples are dropped, and it counts as touching for those near it.
 class ContactMargin {
  public:
-  /// `margin` in s; 0 only drops samples whose contacts are not known.
-  ContactMargin(ContactChange change, double margin) : change_(change), margin_(margin) {}
+  /// Of no width it only drops samples whose contacts are not known.
+  ContactMargin(ContactChange change, Margin margin) : change_(change), margin_(margin) {}
 
   /// Nothing counts across the start of a segment.
   void push(FlaggedSample sample);
@@ -57,8 +60,8 @@ class ContactMargin {
   void decide();
 
   ContactChange change_;
-  double margin_;
-  std::deque<FlaggedSample> near_;  ///< all that lies within the margin of the next to decide
+  Margin margin_;
+  std::deque<FlaggedSample> near_;  ///< all that the next to decide depends on
   std::size_t decided_ = 0;         ///< of these, from the front
   std::deque<Sample> ready_;
   std::size_t dropped_ = 0;

@@ -33,6 +33,12 @@ void check_exact(const ChannelPlan& plan, const std::string& path) {
   }
 }
 
+Margin margin_around(const MotionOptions& options) {
+  if (options.exact_derivatives) return {};
+  if (options.contact_margin) return {*options.contact_margin, *options.contact_margin};
+  return margin_of(options.smoothing, options.cutoff);
+}
+
 }  // namespace
 
 struct MotionReader::State {
@@ -45,8 +51,7 @@ struct MotionReader::State {
         equal(source.plan(), r.joint_count()),
         repeated(source.plan(), r.joint_count()),
         held(source.plan(), r.joint_count()),
-        margin(o.at_contact_change,
-               o.exact_derivatives ? 0.0 : o.contact_margin.value_or(margin_periods / o.cutoff)) {
+        margin(o.at_contact_change, margin_around(o)) {
     const ChannelPlan& plan = source.plan();
     if (options.contact_margin && !(*options.contact_margin >= 0.0)) {
       throw InputError(

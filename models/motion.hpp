@@ -46,9 +46,9 @@ struct MotionOptions {
   bool contacts_needed = true;
   /// What becomes of samples near a change of contact.
   ContactChange at_contact_change = ContactChange::widen;
-  /// s before and after a change that count as near. Empty: 1 / (2 cutoff), from where on
-  /// the impulse response of two passes of second order stays below 5 percent of its peak; 0: every
-  /// sample keeps its flags.
+  /// s before and after a change that count as near. Empty: 1 / (2 cutoff), and 0.8 / cutoff after
+  /// a change where `smoothing` is causal (docs/derivations/filtering.md); 0: every sample keeps
+  /// its flags.
   std::optional<double> contact_margin;
   /// Refuse a floating log whose accelerometer does not read about 9.81 m/s^2 on average while
   /// something carries the robot. Turn off for free fall without contact flags.

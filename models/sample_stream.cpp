@@ -22,7 +22,7 @@ SampleStream::SampleStream(std::string path, const ChannelPlan& plan, const Robo
       robot_(robot),
       imu_(imu),
       options_(std::move(options)),
-      margin_(ContactChange::widen, margin_periods / options_.cutoff) {
+      margin_(ContactChange::widen, margin_of(Smoothing::causal, options_.cutoff)) {
   if (options_.contacts_needed && !robot.contacts.empty() && plan.contacts.empty() &&
       !options_.derive_contacts) {
     throw InputError({path_}, "has no contact.* columns, but the robot has contacts",
@@ -87,7 +87,8 @@ double SampleStream::latency() const {
   // The grid waits for a channel's next value; the sample is the middle of the rows that are
   // differentiated, and its point of the grid may be a step behind the row.
   const double rows = static_cast<double>(difference_reach) + 1.0;
-  return longest_step_.maxCoeff() + rows / rate_ + margin_periods / options_.cutoff;
+  return longest_step_.maxCoeff() + rows / rate_ +
+         margin_of(Smoothing::causal, options_.cutoff).before;
 }
 
 double SampleStream::group_delay() const {

@@ -5,7 +5,6 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "shapeid/tests/motion/example.hpp"
 #include "shapeid/tests/support/scratch_folder.hpp"
@@ -45,14 +44,15 @@ struct Kept {
 
 /// Of one segment.
 std::vector<Kept> looked_up(const std::vector<FlaggedSample>& segment, ContactChange change,
-                            double margin) {
+                            Margin margin) {
   std::vector<Kept> kept;
   for (const FlaggedSample& here : segment) {
     const double time = here.sample.time;
     Kept result{time, std::vector<bool>(here.contacts.size())};
     bool changes = false;
     for (const FlaggedSample& other : segment) {
-      if (std::abs(other.sample.time - time) > margin) continue;
+      const double later = other.sample.time - time;
+      if (later > margin.before || -later > margin.after) continue;
       changes = changes || other.contacts != here.contacts;
       for (std::size_t c = 0; c < here.contacts.size(); ++c) {
         if (other.contacts[c] != 0) result.touches[c] = true;
@@ -68,7 +68,7 @@ std::vector<Kept> looked_up(const std::vector<FlaggedSample>& segment, ContactCh
 RC_GTEST_PROP(ContactMargin, EqualsALookUpInTheWholeLog, ()) {
   const std::vector<FlaggedSample> log = drawn_log();
   const auto change = *rc::gen::element(ContactChange::widen, ContactChange::drop);
-  const double margin = margin_step * *rc::gen::inRange(0, 5);
+  const Margin margin{margin_step * *rc::gen::inRange(0, 5), margin_step * *rc::gen::inRange(0, 5)};
   ContactMargin tested(change, margin);
   std::vector<Kept> out;
   std::size_t pushed = 0;
@@ -91,7 +91,7 @@ RC_GTEST_PROP(ContactMargin, EqualsALookUpInTheWholeLog, ()) {
     // All that the samples so far decide is out, and no more.
     std::size_t decided = pushed;
     for (const FlaggedSample& s : segment) {
-      if (s.sample.time + margin > sample.sample.time) --decided;
+      if (s.sample.time + margin.before > sample.sample.time) --decided;
     }
     RC_ASSERT(out.size() + tested.dropped() == decided);
   }
