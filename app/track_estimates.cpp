@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include "shapeid/models/error.hpp"
 
@@ -67,15 +69,44 @@ std::size_t recent_windows(const EstimateSettings& settings, double window_secon
   return windows_in(settings.recent, window_seconds);
 }
 
+/// Of the forces and moments that all contacts of a link together can give it: a point gives three,
+/// two points five, what else there is six.
+Eigen::Index numbers_on(const Robot& robot, const Sample& sample, int link) {
+  constexpr double same = 1e-6;  // m
+  constexpr Eigen::Index of_a_point = 3, of_a_line = 5, of_all = 6;
+  std::vector<Eigen::Vector3d> places;
+  Eigen::Index numbers = 0;
+  for (std::size_t c = 0; c < sample.in_contact.size(); ++c) {
+    const Contact& contact = robot.contacts[c];
+    if (!sample.in_contact[c] || contact.link != link) continue;
+    const Eigen::Vector3d place = contact.frame.translation();
+    const bool is_there = std::any_of(places.begin(), places.end(), [&](const auto& other) {
+      return (place - other).norm() < same;
+    });
+    const Eigen::Index own = force_numbers(contact.kind);
+    if (places.empty() || is_there) {
+      numbers = std::max(numbers, own);
+    } else {
+      numbers = numbers == of_a_point && own == of_a_point ? of_a_line : of_all;
+    }
+    places.push_back(place);
+  }
+  return numbers;
+}
+
 /// Rows of a sample that are left when contact forces are out.
 double rows_of(const Robot& robot, const Sample& sample, ContactTreatment treatment) {
-  double rows = robot.dof();
-  if (treatment != ContactTreatment::project) return rows;
-  for (std::size_t c = 0; c < sample.in_contact.size(); ++c) {
-    if (!sample.in_contact[c]) continue;
-    rows -= static_cast<double>(force_numbers(robot.contacts[c].kind));
-  }
-  return std::max(rows, 0.0);
+  Eigen::Index rows = robot.dof();
+  if (treatment != ContactTreatment::project) return static_cast<double>(rows);
+  for (int link = 0; link < robot.link_count(); ++link) rows -= numbers_on(robot, sample, link);
+  return static_cast<double>(std::max<Eigen::Index>(rows, 0));
+}
+
+/// The squared error that least squares leaves of a triangle's rows. Samples that never change
+/// leave rounding errors, of which no window is made certain.
+double left_of(const Eigen::MatrixXd& R) {
+  const Eigen::Index n = R.cols() - 1;
+  return std::max(R(n, n) * R(n, n), rounding * rounding * R.col(n).squaredNorm());
 }
 
 }  // namespace
@@ -127,6 +158,8 @@ void Estimates::take_window(double time) {
   // One that stands out weighs as much less as it is noisier.
   recent_block_.forget(noise_.last() > 0.0 ? noise_.usual() / noise_.last() : 1.0);
   sliding_.push(recent_block_);
+  recent_rows_.push_back(rows_);
+  if (recent_rows_.size() > windows_in_recent_) recent_rows_.pop_front();
   // Here and below: what the tracker cannot take is as if it had not been said.
   static_cast<void>(tracker_.drift(window_seconds_));
   learn_correlation();
@@ -136,14 +169,21 @@ void Estimates::take_window(double time) {
   watch_load(time);
 }
 
-/// From what least squares leaves of the window: the last entry of its triangle.
+/// From what least squares leaves of the window. One that has hardly more rows than unknowns is
+/// explained whatever they say: then by the longer window before it, and as long as that is as
+/// short, all that the rows say may be noise.
 void Estimates::learn_noise() {
+  constexpr double enough = 10.0;
   const Eigen::MatrixXd& R = identifier_.window().R();
-  const Eigen::Index n = R.cols() - 1;
-  const double left = std::max(rows_ - static_cast<double>(n), 1.0);
-  // Samples that never change leave rounding errors, of which no window is made certain.
-  const double error = std::max(R(n, n) * R(n, n), rounding * rounding * R.col(n).squaredNorm());
-  noise_.learn(error / left);
+  const auto unknowns = static_cast<double>(R.cols() - 1);
+  const double before = std::accumulate(recent_rows_.begin(), recent_rows_.end(), 0.0);
+  if (rows_ >= unknowns + enough) {
+    noise_.learn(left_of(R) / (rows_ - unknowns));
+  } else if (before >= unknowns + enough) {
+    noise_.learn(left_of(sliding_.triangle().R()) / (before - unknowns));
+  } else {
+    noise_.learn(R.col(R.cols() - 1).squaredNorm() / std::max(rows_, 1.0));
+  }
   ++windows_;
 }
 
@@ -273,6 +313,7 @@ void Estimates::watch_load(double time) {
   disagreeing_ = 0;
   past_.clear();
   sliding_.clear();
+  recent_rows_.clear();
   // What the load did to the pulls is no noise.
   pulls_.clear();
   mean_square_ = before.mean_square;

@@ -75,6 +75,7 @@ class Estimates {
     archive("mean_square", mean_square_);
     archive("pulls", pulls_);
     archive("rows", rows_);
+    archive("recent_rows", recent_rows_);
     archive("past", past_);
     archive("disagreeing", disagreeing_);
     archive("found", found_);
@@ -133,13 +134,14 @@ class Estimates {
   fast::ParameterTracker tracker_;
   fast::MassSolver solver_;
   Eigen::VectorXd recent_, tracked_;
-  double mass_variance_;         ///< kg^2, mass_error()
-  std::size_t windows_ = 0;      ///< that were answered
-  double mean_square_ = 0.0;     ///< of the pulls of windows, running: learn_correlation()
-  std::deque<double> pulls_;     ///< of the windows of a stance, newest first
-  double rows_ = 0.0;            ///< free of contact forces, since the window began
-  std::deque<Past> past_;        ///< of as many windows as the longer one has
-  std::size_t disagreeing_ = 0;  ///< windows in a row
+  double mass_variance_;            ///< kg^2, mass_error()
+  std::size_t windows_ = 0;         ///< that were answered
+  double mean_square_ = 0.0;        ///< of the pulls of windows, running: learn_correlation()
+  std::deque<double> pulls_;        ///< of the windows of a stance, newest first
+  double rows_ = 0.0;               ///< free of contact forces, since the window began
+  std::deque<double> recent_rows_;  ///< of each of the windows in sliding_
+  std::deque<Past> past_;           ///< of as many windows as the longer one has
+  std::size_t disagreeing_ = 0;     ///< windows in a row
   std::optional<Found> found_;
   std::size_t settles_in_ = 0;  ///< windows
   std::optional<LoadChange> change_;

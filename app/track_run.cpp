@@ -55,7 +55,9 @@ TrackRun::TrackRun(const LogTable& log, const RobotInputs& robot, const BodyMode
       guard_(meaning_.plan(), static_cast<std::size_t>(robot.robot.joint_count())),
       stream_(log.path(), meaning_.plan(), robot.robot, robot.notes.imu, settings_.stream),
       events_(meaning_.plan().channels.size(), robot.robot.contacts.size()),
-      path_(log.path()) {}
+      path_(log.path()) {
+  check_forces(path_, settings_.estimates.identifier.contacts, meaning_.plan().force >= 0);
+}
 
 std::vector<json> TrackRun::push(const LogRow& row) {
   due_.clear();

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
+#include <string>
 
+#include "shapeid/tests/app/command.hpp"
+#include "shapeid/tests/support/files.hpp"
 #include "shapeid/tests/track/logs.hpp"
 
 namespace shapeid::test {
@@ -43,6 +47,37 @@ TEST(TrackLoad, PutOnAndTakenOffIsFoundWithinHalfASecond) {
       EXPECT_TRUE(settled[i].at("holds").get<bool>());
     }
   }
+}
+
+/// What `track` says of the total mass from `from` (s) on, where nothing is put on: near the truth,
+/// and no load. The share of intervals that hold it.
+double share_of_intervals_held(const std::string& options, double truth, double from) {
+  const CommandRun run = shapeid("track few_rows.csv " + options);
+  EXPECT_EQ(run.status, 0) << run.err;
+  std::istringstream text(run.out);
+  int held = 0, count = 0;
+  for (std::string part; std::getline(text, part);) {
+    const json line = json::parse(part);
+    const double time = line.at("time").get<double>();
+    if (time < from) continue;
+    const json &mass = line.at("mass"), &interval = mass.at("interval");
+    EXPECT_TRUE(line.at("load").is_null()) << time << ": " << line.at("load");
+    EXPECT_NEAR(mass.at("tracked").get<double>(), truth, 0.05 * truth) << time;
+    ++count;
+    if (interval[0].get<double>() <= truth && truth <= interval[1].get<double>()) ++held;
+  }
+  EXPECT_GT(count, 150);
+  return static_cast<double>(held) / count;
+}
+
+/// Rows that are hardly more than unknowns are explained whatever they say; that makes no window
+/// certain. (A whole body by ten samples once weighed a hundred tonnes.)
+TEST(TrackLoad, NoneIsInventedWhereWindowsHaveFewRows) {
+  scratch_file("few_rows.csv", joined(simulated("few", "--seconds 6 --seed 2")));
+  constexpr double base = 5.48, body = 13.0;  // kg
+  EXPECT_GE(share_of_intervals_held(bundled_robot() + " --window 1", base, 1.0), 0.6);
+  // Of a whole body it is far less (docs/tracking.md).
+  EXPECT_GE(share_of_intervals_held(quadruped_files + " --whole-body", body, 2.0), 0.2);
 }
 
 }  // namespace
