@@ -205,11 +205,12 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
       run.loop.blocks, run.loop.screening_seconds, run.loop.refit_seconds));
   page.heading("Error before and after");
   page.paragraph(fmt::format(
-      "Predicted minus logged torque, root mean square, {} (base rows: N and N m). "
+      "Predicted minus logged torque, root mean square, {}{}. "
       "Usual fit: least squares of masses and, at every joint, viscous and Coulomb friction, an "
       "offset and a rotor, nothing selected. Unfiltered: the found model against the torque as "
       "logged. {}",
-      joints_unit(robot), beyond_contacts(run, robot)));
+      joints_unit(robot), robot.base_dof() > 0 ? " (base rows: N and N m)" : "",
+      beyond_contacts(run, robot)));
   page.table(errors_table(run, robot));
   page.paragraph(noise_floor_words(filtered));
   if (const std::string picture = errors_picture(run, robot); !picture.empty()) {

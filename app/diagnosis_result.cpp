@@ -187,8 +187,11 @@ std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
       text += fmt::format("  {:<38}a description, not the cause: {}\n", "", doubt(run, *f, robot));
     }
     if (f == nullptr) continue;
-    text +=
-        fmt::format("  {:<38}gain {:.1f} %, {:.1f} standard errors\n", "", 100.0 * f->gain, f->t);
+    const bool for_bodies_alone = f->needed && f->t == 0.0;  // not for what it predicts
+    if (!for_bodies_alone) {
+      text +=
+          fmt::format("  {:<38}gain {:.1f} %, {:.1f} standard errors\n", "", 100.0 * f->gain, f->t);
+    }
     if (const std::string since = since_text(*f); !since.empty()) {
       text += fmt::format("  {:<38}{}\n", "", since);
     }

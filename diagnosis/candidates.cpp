@@ -64,6 +64,7 @@ void add_groups(std::vector<Candidate>& list) {
         if (list[k].only_rival) continue;
         if (group.members.empty()) group = {single, {}, {}};
         group.members.push_back(k);
+        group.choices = std::max(group.choices, list[k].choices);
         const Term& term = list[k].term;
         group.term.from_block = term.from_block;
         group.term.columns.insert(group.term.columns.end(), term.columns.begin(),

@@ -1,5 +1,6 @@
 #include "shapeid/diagnosis/constancy.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "shapeid/diagnosis/chance.hpp"
@@ -118,6 +119,10 @@ std::vector<std::optional<Variation>> variations(const BlockFits& fits,
     for (const Term& own : terms) {
       const bool same = !own.columns.empty() && own.columns.front() == tally.first[m.hypothesis];
       if (same) term.from_block = own.from_block;
+    }
+    // Of a transformation that came since the reference log there is no term.
+    if (tally.hypotheses[m.hypothesis].is_of_the_log_alone()) {
+      term.from_block = std::max(term.from_block, fits.first_block());
     }
     const double gain = (now.error() - now.with(term)).sum();
     const double share = gain / own_gain[static_cast<Eigen::Index>(m.hypothesis)];

@@ -10,6 +10,7 @@
 
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/hypotheses.hpp"
+#include "shapeid/models/inertia.hpp"
 #include "shapeid/models/yaml_input.hpp"
 
 namespace shapeid::diagnosis {
@@ -111,6 +112,13 @@ AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Ro
       check_value(file, number, *applied.effect, applied.effect->parameters[i - shapes], value);
       applied.value[static_cast<Eigen::Index>(i - shapes)] = value;
     }
+  }
+  if (!applied.effect->is_payload) return applied;
+  // What is written has fewer digits than what was found.
+  constexpr double written = 1e-6;
+  if (const Violation reason = why_impossible({applied.value.head<10>()}, written)) {
+    file.refuse(node["values"], *reason,
+                "moments of a body that can exist, about the link's origin");
   }
   return applied;
 }

@@ -115,16 +115,24 @@ double BlockFits::square_of_noise(double error) const {
 
 int BlockFits::fold_of(std::size_t block) const { return fold_[block]; }
 
-const Eigen::MatrixXd& BlockFits::sums(int left_out, std::size_t from) const {
-  auto [place, is_new] = cache_.try_emplace({left_out, from});
+const Eigen::MatrixXd& BlockFits::sums(int left_out) const {
+  auto [place, is_new] = cache_.try_emplace(left_out);
   if (is_new) {
     const Eigen::Index size = tally_.columns() + 1;
     place->second = Eigen::MatrixXd::Zero(size, size);
-    for (std::size_t b = from; b < tally_.blocks.size(); ++b) {
+    for (std::size_t b = 0; b < tally_.blocks.size(); ++b) {
       if (left_out < 0 || fold_of(b) != left_out) place->second += tally_.blocks[b].sums;
     }
   }
   return place->second;
+}
+
+double BlockFits::sum_from(int left_out, std::size_t from, Eigen::Index i, Eigen::Index j) const {
+  double sum = 0.0;
+  for (std::size_t b = from; b < tally_.blocks.size(); ++b) {
+    if (left_out < 0 || fold_of(b) != left_out) sum += tally_.blocks[b].sums(i, j);
+  }
+  return sum;
 }
 
 BlockFits::Columns BlockFits::listed(const std::vector<Term>& terms) {
@@ -140,22 +148,27 @@ Eigen::MatrixXd BlockFits::normal(const Columns& a, const Columns& b, int left_o
   const auto at_once = [](const Columns& list) {
     return std::all_of(list.from.begin(), list.from.end(), [](std::size_t f) { return f == 0; });
   };
-  if (at_once(a) && at_once(b)) return sums(left_out, 0)(a.index, b.index);
+  const Eigen::MatrixXd& all = sums(left_out);
+  if (at_once(a) && at_once(b)) return all(a.index, b.index);
   Eigen::MatrixXd N(a.count(), b.count());
   for (Eigen::Index j = 0; j < b.count(); ++j) {
     for (Eigen::Index i = 0; i < a.count(); ++i) {
       const auto ui = static_cast<std::size_t>(i), uj = static_cast<std::size_t>(j);
-      N(i, j) = sums(left_out, std::max(a.from[ui], b.from[uj]))(a.index[ui], b.index[uj]);
+      const std::size_t from = std::max(a.from[ui], b.from[uj]);
+      N(i, j) = from == 0 ? all(a.index[ui], b.index[uj])
+                          : sum_from(left_out, from, a.index[ui], b.index[uj]);
     }
   }
   return N;
 }
 
 Eigen::VectorXd BlockFits::target(const Columns& a, int left_out) const {
+  const Eigen::MatrixXd& all = sums(left_out);
+  const Eigen::Index F = tally_.columns();
   Eigen::VectorXd g(a.count());
   for (Eigen::Index i = 0; i < a.count(); ++i) {
     const auto u = static_cast<std::size_t>(i);
-    g[i] = sums(left_out, a.from[u])(a.index[u], tally_.columns());
+    g[i] = a.from[u] == 0 ? all(a.index[u], F) : sum_from(left_out, a.from[u], a.index[u], F);
   }
   return g;
 }

@@ -148,7 +148,11 @@ class BlockFits {
     [[nodiscard]] Eigen::Index count() const { return std::ssize(index); }
   };
   [[nodiscard]] static Columns listed(const std::vector<Term>& terms);
-  [[nodiscard]] const Eigen::MatrixXd& sums(int left_out, std::size_t from) const;
+  /// Of all blocks outside of a fold (-1: all).
+  [[nodiscard]] const Eigen::MatrixXd& sums(int left_out) const;
+  /// One entry of that, of the blocks from one on.
+  [[nodiscard]] double sum_from(int left_out, std::size_t from, Eigen::Index i,
+                                Eigen::Index j) const;
   void assign_folds(int stretches);
   [[nodiscard]] int fold_of(std::size_t block) const;
   /// Normal matrix between two lists of columns over the blocks outside of a fold (-1: all in).
@@ -180,7 +184,7 @@ class BlockFits {
   std::size_t first_block_ = 0;
   /// How many numbers the noise has: of all blocks, and of those that can be held out.
   double freedom_ = 0.0, held_freedom_ = 0.0;
-  mutable std::map<std::pair<int, std::size_t>, Eigen::MatrixXd> cache_;
+  mutable std::map<int, Eigen::MatrixXd> cache_;  ///< sums()
 };
 
 }  // namespace shapeid::diagnosis

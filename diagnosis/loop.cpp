@@ -209,7 +209,7 @@ class Loop {
     result_.prior = choose_prior(fits, chosen_terms(fixed, list, selection));
     take_selection(fits, fixed, list, selection, state_);
     note_exchangeable(fits, fixed, list, selection, state_);
-    if (round_ == 0) note_first_ranking(list, selection, result_);
+    if (result_.first_ranking.empty()) note_first_ranking(list, selection, result_);
   }
 
   /// What a large transformation leaves of its derivative looks like further effects. So one that
@@ -323,7 +323,8 @@ class Loop {
   /// are taken back for good, the least first. That is asked of derivatives: what gains little is
   /// small, and sums of the log without each would be most of the time that many take.
   void prune_transformations() {
-    while (true) {
+    while (std::any_of(result_.found.begin(), result_.found.end(),
+                       [](const Found& f) { return f.effect.effect->transform.any(); })) {
       const std::vector<Gain> gains = state_.gains_by_derivative();
       std::optional<std::size_t> worst;
       for (std::size_t i = 0; i < gains.size(); ++i) {

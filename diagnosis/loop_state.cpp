@@ -68,10 +68,11 @@ BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
   const auto blocks = std::count_if(tally.blocks.begin(), tally.blocks.end(),
                                     [](const Block& b) { return !b.reference; });
   if (blocks < fewest_blocks) {
-    throw Refusal("too-short",
-                  fmt::format("the log gives {} blocks of {:.2g} s to hold out, at least {} are "
-                              "needed",
-                              blocks, tally_options.block_seconds, fewest_blocks));
+    throw Refusal(
+        "too-short",
+        fmt::format("the log gives {} block{} of {:.2g} s to hold out, at least {} are "
+                    "needed",
+                    blocks, blocks == 1 ? "" : "s", tally_options.block_seconds, fewest_blocks));
   }
   BlockFits fits(std::move(tally), centre, settings.size, settings.folds);
   fits.set_prior(result.prior);

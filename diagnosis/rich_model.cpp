@@ -197,7 +197,13 @@ Eigen::MatrixXd beyond_contacts(const Viewer& viewer, const Eigen::MatrixXd& J,
 }
 
 Eigen::VectorXd residual(const Viewer& viewer, const View& view, const RichModel& model) {
-  const Prediction predicted = predict(viewer, view, model);
+  // The load takes contact forces to know, and much of the time.
+  const bool feels_load =
+      !model.curves.empty() ||
+      std::any_of(model.effects.begin(), model.effects.end(),
+                  [](const AppliedEffect& a) { return a.effect->columns != nullptr; });
+  const Prediction predicted = feels_load ? predict(viewer, view, model)
+                                          : predict(viewer, view, view.Y * model.Phi, model, {});
   return beyond_contacts(viewer, predicted.J, predicted.force - logged_force(viewer, view));
 }
 

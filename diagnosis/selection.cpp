@@ -56,6 +56,7 @@ class Search {
     const auto came_with = std::exchange(came_with_, {});
     const Chosen dropped = std::exchange(dropped_, {});
     const Selection result = result_;
+    const std::optional<Chosen> ranked_beside = ranked_beside_;
     go_on();
     accepted_ = worthy(accepted_, start);
     const bool is_better = gain_of(fits_.held_out(contenders_.terms(accepted)),
@@ -66,7 +67,7 @@ class Search {
       came_with_ = came_with;
       dropped_ = dropped;
       result_ = result;
-      ranked_beside_.reset();
+      ranked_beside_ = ranked_beside;
     }
     result_.usual_is_better = is_better;
   }

@@ -36,6 +36,7 @@ StrangerLaws::StrangerLaws(const Questions& asked) : fits_(asked.fits) {
     if (!is_law || carrier.effect->site != SiteKind::joint) continue;
     laws_.push_back(k);
     Term& term = terms_.emplace_back();
+    if (carrier.is_of_the_log_alone()) term.from_block = fits_.first_block();
     const Eigen::Index count = m.columns_of(carrier.value.size());
     for (Eigen::Index p = 0; p < count; ++p) {
       term.columns.push_back(tally.first_modulated[k] + p);

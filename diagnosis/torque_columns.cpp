@@ -83,10 +83,10 @@ void check_scale(const Robot& robot, const Products& sums) {
   if (above == telling || below == telling) {
     throw Refusal(
         "torque-scale",
-        fmt::format("the logged torque follows the given model at {} joints, but is {:.2g} times "
+        fmt::format("the logged torque follows the given model at {} joint{}, but is {:.2g} times "
                     "as large: another unit than N m, a current or the motor's torque; declare it "
                     "in the mapping (scale, or torque: kind, factor)",
-                    telling, std::exp(typical / telling)));
+                    telling, telling == 1 ? "" : "s", std::exp(typical / telling)));
   }
 }
 

@@ -208,6 +208,23 @@ TEST(EffectsYaml, LimitsOfWhatIsBelievedAreNoLimitsOfWhatIsKnown) {
   EXPECT_THROW(read(test::effect("torque_delay", 0, {0.5})), InputError);
 }
 
+TEST(EffectsYaml, APayloadIsABodyThatCanExist) {
+  const Robot robot = test::arm();
+  const auto read = [&](const std::vector<double>& load) {
+    const test::ScratchFolder scratch;
+    const AppliedEffect effect = test::effect("payload", 2, load);
+    return read_effects_yaml(
+               scratch.write("effects.yaml", write_effects_yaml(robot, {{effect}, {}})), robot)
+        .effects.at(0)
+        .value;
+  };
+  // Half a kilogram, a tenth of a metre off; a point; nothing; and a point without its m r^2.
+  EXPECT_EQ(read({0.5, 0.05, 0, 0, 0.001, 0, 0, 0.006, 0, 0.006})[7], 0.006);
+  EXPECT_EQ(read({0.5, 0.05, 0, 0, 0, 0, 0, 0.005, 0, 0.005})[7], 0.005);
+  EXPECT_EQ(read(std::vector<double>(10, 0.0))[0], 0.0);
+  EXPECT_THROW(read({0.5, 0.05, 0, 0, 0, 0, 0, 0, 0, 0}), InputError);
+}
+
 TEST(CurvesYaml, IsReadBackTheSame) {
   const Robot robot = test::arm();
   KnownEffects known{{test::effect("torque_offset", 2, {0.25})}, {}};
