@@ -26,22 +26,24 @@ using shapeid::fast::IdentifierSettings;
 using shapeid::fast::Outcome;
 
 struct shapeid_identifier {
-  shapeid_identifier(const Robot& robot, const BodyModel& model,
+  shapeid_identifier(const Robot& robot, const Eigen::Isometry3d& imu_pose, const BodyModel& model,
                      const IdentifierSettings& settings);
 
   Identifier identifier;
   Sample sample;  ///< with room for all that a feed copies
   Eigen::VectorXd rotor_inertias;
+  Eigen::Isometry3d imu;
   std::size_t shapes;
   std::vector<std::string> joints, contacts, free_links;
   bool answered = false;
   bool completed = false;  ///< a window, answered or not
 };
 
-shapeid_identifier::shapeid_identifier(const Robot& robot, const BodyModel& model,
-                                       const IdentifierSettings& settings)
+shapeid_identifier::shapeid_identifier(const Robot& robot, const Eigen::Isometry3d& imu_pose,
+                                       const BodyModel& model, const IdentifierSettings& settings)
     : identifier(robot, model, settings),
       rotor_inertias(shapeid::rotor_inertias(robot)),
+      imu(imu_pose),
       shapes(model.shapes.size()) {
   sample.q = sample.dq = sample.ddq = sample.tau = Eigen::VectorXd::Zero(robot.joint_count());
   sample.in_contact.resize(robot.contacts.size());
@@ -124,7 +126,8 @@ std::unique_ptr<shapeid_identifier> create(const char* urdf, const char* robot_y
   if (robot_yaml != nullptr) notes = shapeid::read_robot_yaml(robot_yaml, robot);
   const BodyModel model = model_of(shapes_yaml, robot);
   const double usual_mass = shapeid::expected_mass(robot, notes, model.free_links);
-  return std::make_unique<shapeid_identifier>(robot, model, settings_of(given, robot, usual_mass));
+  return std::make_unique<shapeid_identifier>(robot, notes.imu, model,
+                                              settings_of(given, robot, usual_mass));
 }
 
 shapeid_stop stop_of(Division::Stop stop) noexcept {
@@ -198,8 +201,9 @@ void copy(const shapeid_sample& from, const Eigen::VectorXd& rotor_inertias, Sam
 }
 
 const double* ten_of(const Eigen::VectorXd& all, size_t link) noexcept {
-  const auto first = 10 * static_cast<Eigen::Index>(link);
-  return first < all.size() ? all.data() + first : nullptr;
+  // No product of a number that may be any.
+  const auto links = static_cast<size_t>(all.size()) / 10;
+  return link < links ? all.data() + 10 * link : nullptr;
 }
 
 }  // namespace
@@ -266,6 +270,25 @@ const char* shapeid_contact_name(const shapeid_identifier* identifier, size_t pl
 }
 const char* shapeid_free_link_name(const shapeid_identifier* identifier, size_t place) {
   return identifier != nullptr ? name_at(identifier->free_links, place) : nullptr;
+}
+
+void shapeid_set_base(const shapeid_identifier* identifier, const double gyro[3],
+                      const double gyro_derivative[3], const double accelerometer[3],
+                      shapeid_sample* sample) {
+  if (identifier == nullptr || gyro == nullptr || gyro_derivative == nullptr ||
+      accelerometer == nullptr || sample == nullptr) {
+    return;
+  }
+  Sample base;
+  shapeid::set_base(identifier->imu, Eigen::Vector3d(gyro), Eigen::Vector3d(gyro_derivative),
+                    Eigen::Vector3d(accelerometer), base);
+  std::copy_n(base.base_angular_velocity.data(), 3, sample->base_angular_velocity);
+  std::copy_n(base.base_angular_acceleration.data(), 3, sample->base_angular_acceleration);
+  std::copy_n(base.base_specific_force.data(), 3, sample->base_specific_force);
+}
+
+void shapeid_forget_samples(shapeid_identifier* identifier) {
+  if (identifier != nullptr) identifier->identifier.forget_samples();
 }
 
 shapeid_status shapeid_feed(shapeid_identifier* identifier, const shapeid_sample* sample) {

@@ -102,12 +102,10 @@ Identifier::Fed Identifier::feed(const Sample& sample) noexcept {
     slowest_ = std::max(slowest_, spent);
     return Fed::kept;
   }
-  if (solved) {
-    answer_.time = sample.time;
-    answer_.seconds = spent_;
-    answer_.slowest_sample = slowest_;
-    answer_.last_call = spent;
-  }
+  if (solved) answer_.time = sample.time;
+  answer_.seconds = spent_;
+  answer_.slowest_sample = slowest_;
+  answer_.last_call = spent;
   since_last_ = 0;
   spent_ = 0.0;
   slowest_ = 0.0;

@@ -26,7 +26,8 @@ struct IdentifierSettings {
   std::size_t stride = 10;     ///< samples from one window to the next: 10 at 500 Hz is 20 ms
   double alpha = 0.5;          ///< equation (17), in (0, 1]
   double expected_mass = 0.0;  ///< M0, kg, of all free shapes together: 1e-6 to 1e6
-  /// Default: computed from the first window with nonzero forces, then fixed.
+  /// Default: computed from the first window with nonzero forces, then fixed. If that may be one of
+  /// motors that are off, give it: of hardly any force it is too small to choose among masses.
   std::optional<double> lambda = {};
   std::optional<double> mass_bound = {};  ///< kg, for the gap; default: ten times M0
   /// Windows start at the masses of the one before. If not, an answer depends on its window alone,
@@ -36,7 +37,8 @@ struct IdentifierSettings {
   DivisionOptions division{.most_divisions = 0};
 };
 
-/// One window's answer, besides masses and parameters.
+/// One window's answer, besides masses and parameters; times are of the last window that was
+/// complete, answered or declined.
 struct WindowAnswer {
   double time = 0.0;  ///< s, of the window's last sample
   Objective value;    ///< f of the present shapes, before the filter
@@ -48,14 +50,17 @@ struct WindowAnswer {
   Division::Stop stopped_by = Division::Stop::limit;  ///< what ended the divisions
   double seconds = 0.0;         ///< of all calls since the last window, solve and divisions
   double slowest_sample = 0.0;  ///< s, of the calls that only kept a sample
-  double last_call = 0.0;       ///< s, of the call that gave this answer
+  double last_call = 0.0;       ///< s, of the call that completed the window
 };
 
 /// What `reference::OnlineIdentifier` does, on compressed windows. After construction nothing
-/// throws or allocates (but see PartTree for polyhedra), and the work of a call is bounded. A
-/// division by zero may happen in it and be put right: traps of floating-point must be off. Unlike
-/// there, a window is declined whose forces and torques are, as a root mean square, beyond a
-/// hundred times the weight of all links (torques: at a metre): it would leave its scale to lambda.
+/// throws or allocates, and the work of a call is bounded, both but for the division of polyhedra
+/// (PartTree), whose parts have more corners with every cut. Torques are those of the links: what
+/// rotors take is taken off before (rotor_inertias() times ddq), as a log's reader does. Can be
+/// neither copied nor moved. A division by zero may happen in it and be put right: traps of
+/// floating-point must be off. Unlike there, a window is declined whose forces and torques are, as
+/// a root mean square, beyond a hundred times the weight of all links (torques: at a metre): it
+/// would leave its scale to lambda.
 class Identifier {
  public:
   /// Copies what it needs. Throws InputError for settings that make no sense, and for a model that
@@ -73,8 +78,8 @@ class Identifier {
   /// Takes a sample; every `stride` samples, once `window` are there, solves.
   Fed feed(const Sample& sample) noexcept;
 
-  /// As if no sample had been fed since the last window, which need not have been complete: for
-  /// when the next sample does not follow the last. lambda and filter (17) stay.
+  /// As if no sample had been fed so far: for when the next does not follow the last. The last
+  /// answer, lambda, filter (17) and the masses to start at stay.
   void forget_samples() noexcept;
 
   /// The compressed rows of the last window that was complete; until the next feed.

@@ -48,15 +48,18 @@ typedef struct shapeid_settings {
   /** Diagonal of W, 1 / sigma^2 of each equation: base force (3), base moment (3) (floating root
    * only), then a number for each joint; positive, and within twelve decades of each other
    * (docs/derivations/projection.md). NULL (default): ones, whatever robot.yaml says of noise. Read
-   * by shapeid_create() alone. */
+   * by shapeid_create() alone. Joints have the order of shapeid_joint_name(): ask an identifier
+   * made without weights, or count on the URDF's. */
   const double* weight;
-  size_t weight_count;   /**< numbers there: 6 + joints, or joints for a fixed root; 0 for NULL */
-  size_t window;         /**< samples a window: 10 */
-  size_t stride;         /**< samples from one window to the next: 10, at 500 Hz 20 ms */
-  double alpha;          /**< of filter (17), in (0, 1]: 0.5; 1 does not smooth */
-  double expected_mass;  /**< kg, of all free links, 1e-6 to 1e6; 0 (default): from robot.yaml, else
-                              the URDF */
-  double lambda;         /**< density term, >= 0; negative (default): from the first forces */
+  size_t weight_count;  /**< numbers there: 6 + joints, or joints for a fixed root; 0 for NULL */
+  size_t window;        /**< samples a window: 10 */
+  size_t stride;        /**< samples from one window to the next: 10, at 500 Hz 20 ms */
+  double alpha;         /**< of filter (17), in (0, 1]: 0.5; 1 does not smooth */
+  double expected_mass; /**< kg, of all free links, 1e-6 to 1e6; 0 (default): from robot.yaml, else
+                             the URDF */
+  /** Density term, >= 0; negative (default): computed from the first window with forces, and kept.
+   * If that may be one of motors that are off, give it. */
+  double lambda;
   double mass_bound;     /**< kg, for the gap; 0 (default): ten times the expected mass */
   int most_divisions;    /**< in every window: 0 (default) divides nothing */
   double division_step;  /**< divisions end when a step is below this: 1e-3 */
@@ -69,9 +72,10 @@ void shapeid_default_settings(shapeid_settings* settings);
 /** Reads the files and makes an identifier, or returns NULL and says in `error` why: one line that
  * names the file and what is wrong with it, cut off at `error_size` bytes and ended by a zero.
  *
- * robot_yaml: contacts, rotors and expected masses (docs/formats/robot-yaml.md); NULL: nothing ever
- * touches. shapes_yaml: which links are sought (docs/formats/shapes-yaml.md); NULL: the floating
- * base, made of its collision bodies. settings: NULL for the defaults. error: may be NULL. */
+ * robot_yaml: contacts, rotors, the IMU's pose (for shapeid_set_base()) and expected masses
+ * (docs/formats/robot-yaml.md); NULL: nothing ever touches, and the IMU is the base frame.
+ * shapes_yaml: which links are sought (docs/formats/shapes-yaml.md); NULL: the floating base, made
+ * of its collision bodies. settings: NULL for the defaults. error: may be NULL. */
 shapeid_identifier* shapeid_create(const char* urdf, const char* robot_yaml,
                                    const char* shapes_yaml, const shapeid_settings* settings,
                                    char* error, size_t error_size);
@@ -92,11 +96,11 @@ const char* shapeid_joint_name(const shapeid_identifier* identifier, size_t plac
 const char* shapeid_contact_name(const shapeid_identifier* identifier, size_t place);
 const char* shapeid_free_link_name(const shapeid_identifier* identifier, size_t place);
 
-/** One instant of the motion. Base quantities are in base-frame axes at the base link's origin; for
- * a fixed root they are (0, 0, 0), (0, 0, 0) and (0, 0, 9.81). Arrays are read during the call
- * only. */
+/** One instant of the motion. Base quantities are in base-frame axes at the base link's origin
+ * (shapeid_set_base() makes them of an IMU's); for a fixed root they are (0, 0, 0), (0, 0, 0) and
+ * (0, 0, 9.81). Arrays are read during the call only. */
 typedef struct shapeid_sample {
-  double time;                         /**< s */
+  double time;                         /**< s; handed through: after a gap, forget samples */
   double base_angular_velocity[3];     /**< rad/s, the gyro */
   double base_angular_acceleration[3]; /**< rad/s^2 */
   double base_specific_force[3];       /**< m/s^2, an accelerometer: (0, 0, 9.81) at rest */
@@ -123,7 +127,20 @@ typedef enum shapeid_status {
   SHAPEID_WRONG_ARGUMENT /**< a NULL, or counts that are not the robot's: as if not called */
 } shapeid_status;
 
-/** Takes a sample; when a window is complete, solves. Bounded work. */
+/** Writes the three base quantities of a sample from what the IMU of robot.yaml measures, in its
+ * own axes: gyro (rad/s), its derivative (rad/s^2) and accelerometer (m/s^2). Does nothing if one
+ * of them is NULL. */
+void shapeid_set_base(const shapeid_identifier* identifier, const double gyro[3],
+                      const double gyro_derivative[3], const double accelerometer[3],
+                      shapeid_sample* sample);
+
+/** For when the next sample does not follow the last: as if none had been fed so far. The last
+ * answer, lambda, filter (17) and the masses to start at stay. Does nothing for NULL. */
+void shapeid_forget_samples(shapeid_identifier* identifier);
+
+/** Takes a sample; when a window is complete, solves. Bounded work, but for the division of
+ * polyhedra, whose parts have more corners with every cut: seconds after dozens of cuts. Needs some
+ * 40 kB of stack. */
 shapeid_status shapeid_feed(shapeid_identifier* identifier, const shapeid_sample* sample);
 
 /** How the last window that was complete ended. */
@@ -153,7 +170,8 @@ typedef enum shapeid_stop {
   SHAPEID_STOP_DECLINED
 } shapeid_stop;
 
-/** About the last window that was answered; zeros before the first. */
+/** About the last window that was answered, but for its three times, which are of the last window
+ * that was complete; zeros before the first. */
 typedef struct shapeid_answer {
   double time;      /**< s, of the window's last sample */
   double objective; /**< f of (15) for the present shapes, before the filter */
@@ -165,7 +183,7 @@ typedef struct shapeid_answer {
   shapeid_stop stopped_by;       /**< what ended them */
   double window_seconds;         /**< of all calls since the last window, solve and divisions */
   double slowest_sample_seconds; /**< of the calls that only kept a sample */
-  double last_call_seconds;      /**< of the call that gave this answer */
+  double last_call_seconds;      /**< of the call that completed the window */
 } shapeid_answer;
 
 /** Copies it to `answer`. SHAPEID_ANSWERED, SHAPEID_KEPT if no window was answered yet, or

@@ -188,5 +188,9 @@ int main(int argc, char** argv) {
   free(next.numbers);
   free(next.in_contact);
   shapeid_destroy(identifier);
+  if (fflush(stdout) != 0 || ferror(stdout)) {
+    fprintf(stderr, "standard output cannot be written\n");
+    return bad_input;
+  }
   return status;
 }

@@ -11,6 +11,7 @@
 
 #include "shapeid/fast/identifier.hpp"
 #include "shapeid/fast/shapeid.h"
+#include "shapeid/models/robot_yaml.hpp"
 #include "shapeid/models/version.hpp"
 #include "shapeid/tests/fast/allocations.hpp"
 #include "shapeid/tests/fast/cases.hpp"
@@ -172,6 +173,36 @@ TEST(CInterface, RotorsAreTakenOffTheTorque) {
   EXPECT_GT(answers, 1);
 }
 
+/// The bundled IMU is turned and off the base's origin.
+TEST(CInterface, BaseQuantitiesAreMadeOfTheImus) {
+  const Handle c = bundled(defaults());
+  Robot robot = test::bundled_quadruped();
+  const Eigen::Isometry3d imu = read_robot_yaml(test::bundled_file("robot.yaml"), robot).imu;
+  ASSERT_GT(imu.translation().norm(), 0.0);
+  const Eigen::Vector3d gyro(0.3, -0.7, 1.1), derivative(5.0, -2.0, 3.0), accel(1.0, 9.0, -2.0);
+  shapeid_sample sample{};
+  shapeid_set_base(c.get(), gyro.data(), derivative.data(), accel.data(), &sample);
+  const Eigen::Matrix3d R = imu.linear();
+  const Eigen::Vector3d r = imu.translation(), omega = R * gyro, alpha = R * derivative;
+  const Eigen::Vector3d at_base = R * accel - alpha.cross(r) - omega.cross(omega.cross(r));
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(sample.base_angular_velocity[k], omega[k], 1e-15);
+    EXPECT_NEAR(sample.base_angular_acceleration[k], alpha[k], 1e-14);
+    EXPECT_NEAR(sample.base_specific_force[k], at_base[k], 1e-14);
+  }
+}
+
+TEST(CInterface, SamplesAreForgottenAcrossAGap) {
+  const Handle c = bundled(defaults());
+  std::vector<unsigned char> flags;
+  const std::vector<Sample> samples = trot_of(19);
+  for (std::size_t k = 0; k < 19; ++k) {
+    if (k == 9) shapeid_forget_samples(c.get());
+    const shapeid_sample sample = plain(samples[k], flags);
+    EXPECT_EQ(shapeid_feed(c.get(), &sample), k == 18 ? SHAPEID_ANSWERED : SHAPEID_KEPT) << k;
+  }
+}
+
 TEST(CInterface, NoSettingsAreTheDefaults) {
   const Handle without = bundled_with(nullptr), with = bundled(defaults());
   std::vector<unsigned char> flags;
@@ -329,6 +360,12 @@ TEST(CInterface, NothingButPlacesThatExist) {
   EXPECT_EQ(shapeid_free_link_name(c.get(), 1), nullptr);
   EXPECT_EQ(shapeid_parameters(c.get(), 1), nullptr);
   EXPECT_EQ(shapeid_filtered_parameters(c.get(), 1), nullptr);
+  // What C makes of -1, and of what ten times is too large to count.
+  for (const size_t far : {SIZE_MAX, SIZE_MAX / 10 + 1, SIZE_MAX / 2 + 1}) {
+    EXPECT_EQ(shapeid_parameters(c.get(), far), nullptr);
+    EXPECT_EQ(shapeid_filtered_parameters(c.get(), far), nullptr);
+    EXPECT_EQ(shapeid_free_link_name(c.get(), far), nullptr);
+  }
   EXPECT_EQ(ten(shapeid_parameters(c.get(), 0)), std::vector<double>(10, 0.0));
   shapeid_answer answer;
   EXPECT_EQ(shapeid_get_answer(c.get(), &answer), SHAPEID_KEPT);
@@ -338,8 +375,15 @@ TEST(CInterface, NullIsAnswered) {
   const Handle c = bundled(defaults());
   shapeid_sample sample{};
   shapeid_answer answer;
+  const double zero[3] = {};
   shapeid_default_settings(nullptr);
   shapeid_destroy(nullptr);
+  shapeid_forget_samples(nullptr);
+  shapeid_set_base(nullptr, zero, zero, zero, &sample);
+  shapeid_set_base(c.get(), nullptr, zero, zero, &sample);
+  shapeid_set_base(c.get(), zero, nullptr, zero, &sample);
+  shapeid_set_base(c.get(), zero, zero, nullptr, &sample);
+  shapeid_set_base(c.get(), zero, zero, zero, nullptr);
   EXPECT_EQ(shapeid_feed(nullptr, &sample), SHAPEID_WRONG_ARGUMENT);
   EXPECT_EQ(shapeid_feed(c.get(), nullptr), SHAPEID_WRONG_ARGUMENT);
   EXPECT_EQ(shapeid_get_answer(nullptr, &answer), SHAPEID_WRONG_ARGUMENT);
@@ -470,8 +514,11 @@ TEST(CInterface, AllocatesNothingAfterCreation) {
   double sum = 0.0;
   EXPECT_EQ(test::allocations_during([&] {
               for (const Sample& s : samples) {
-                const shapeid_sample sample = plain(s, flags);
+                shapeid_sample sample = plain(s, flags);
                 shapeid_answer answer;
+                shapeid_set_base(c.get(), s.base_angular_velocity.data(),
+                                 s.base_angular_acceleration.data(), s.base_specific_force.data(),
+                                 &sample);
                 if (shapeid_feed(c.get(), &sample) != SHAPEID_ANSWERED) continue;
                 shapeid_get_answer(c.get(), &answer);
                 sum += answer.objective + *shapeid_parameters(c.get(), 0) +

@@ -326,6 +326,10 @@ TEST(FastIdentifier, RefusesSettingsThatMakeNoSense) {
     s.weight = Eigen::VectorXd::Ones(18);
     s.weight[9] = 1e100;
   });
+  for (const double alike : {9e-101, 1.1e100}) {  // their squares would be none
+    refused("the weight's numbers are not from 1e-100 to 1e100",
+            [&](auto& s) { s.weight = Eigen::VectorXd::Constant(18, alike); });
+  }
   refused("", [](auto& s) { s.division.k1 = -1.0; });
   // What is just allowed.
   fast::IdentifierSettings settings;
