@@ -271,10 +271,10 @@ void add_solver_options(CLI::App& verb, reference::IdentifySettings& settings) {
       ->check(zero_or_above())
       ->capture_default_str();
   verb.add_option("--k1", division.k1, "equation (16): weight of large heavy shapes")
-      ->check(zero_or_above())
+      ->check(weight_of_criterion())
       ->capture_default_str();
   verb.add_option("--k2", division.k2, "equation (16): weight of dense shapes")
-      ->check(zero_or_above())
+      ->check(weight_of_criterion())
       ->capture_default_str();
   verb.add_option("--eps", division.step, "stop when a division changes Phi by less, relatively")
       ->check(zero_or_above())

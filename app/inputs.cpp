@@ -39,7 +39,17 @@ bool has_imu(const LogTable& log, const std::optional<Mapping>& mapping) {
   return std::any_of(log.columns().begin(), log.columns().end(), is_of_base);
 }
 
-/// robot.yaml beside the URDF, under the URDF's name or plainly, if there is one.
+void check_measured(const Robot& robot) {
+  std::set<std::string> names;
+  for (const Contact& contact : robot.contacts) {
+    if (names.insert(contact.name).second) continue;
+    throw InputError(fmt::format("--contacts measured, but {} has several contacts", contact.name),
+                     "one contact for a measured force, at the place where it acts");
+  }
+}
+
+}  // namespace
+
 std::string robot_yaml_beside(const std::string& urdf) {
   const std::filesystem::path path(urdf);
   for (const auto& name : {path.stem().string() + ".robot.yaml", std::string("robot.yaml")}) {
@@ -52,17 +62,6 @@ std::string robot_yaml_beside(const std::string& urdf) {
   }
   return {};
 }
-
-void check_measured(const Robot& robot) {
-  std::set<std::string> names;
-  for (const Contact& contact : robot.contacts) {
-    if (names.insert(contact.name).second) continue;
-    throw InputError(fmt::format("--contacts measured, but {} has several contacts", contact.name),
-                     "one contact for a measured force, at the place where it acts");
-  }
-}
-
-}  // namespace
 
 void MotionInputs::add_robot_to(CLI::App& verb) {
   verb.add_option("--robot", robot, "URDF file")->required();
@@ -264,15 +263,18 @@ std::vector<int> moving_links(const Robot& robot) {
   return links;
 }
 
+void check_forces(const std::string& log, ContactTreatment contacts, bool are_logged) {
+  if (contacts != ContactTreatment::measured || are_logged) return;
+  throw InputError({log}, "--contacts measured, but there are no force.* columns",
+                   "log force.<link>.x, .y, .z for every contact, or choose another treatment");
+}
+
 LogSamples::LogSamples(const std::string& path, const RobotInputs& robot,
                        const MotionInputs& inputs)
     : reader_(path, robot.robot, robot.notes, robot.mapping, motion_options(inputs, robot.robot)),
       contacts_(contact_treatment(inputs, robot.robot)),
       quiet_(inputs.quiet || ::isatty(STDERR_FILENO) == 0) {
-  if (contacts_ == ContactTreatment::measured && !reader_.report().forces_logged) {
-    throw InputError({path}, "--contacts measured, but there are no force.* columns",
-                     "log force.<link>.x, .y, .z for every contact, or choose another treatment");
-  }
+  check_forces(path, contacts_, reader_.report().forces_logged);
 }
 
 std::optional<Sample> LogSamples::next() {

@@ -80,6 +80,12 @@ void check_no_stream(const std::string& log);
 /// and "base.moment" (N m); ones where robot.yaml says nothing.
 [[nodiscard]] Eigen::VectorXd weight(const RobotInputs& inputs);
 
+/// robot.yaml beside the URDF, under the URDF's name or plainly; empty if there is none.
+[[nodiscard]] std::string robot_yaml_beside(const std::string& urdf);
+
+/// Throws InputError where contact forces are to be used that the log does not have.
+void check_forces(const std::string& log, ContactTreatment contacts, bool are_logged);
+
 /// Indices of the links that `--free` names, in the robot's order, each once. Throws InputError for
 /// a name that is not there.
 [[nodiscard]] std::vector<int> named_links(const std::vector<std::string>& names,

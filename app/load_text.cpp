@@ -54,8 +54,8 @@ std::string load_text(const Result& result, const Robot& robot) {
   const Eigen::Vector3d c = load.centre_of_mass();
   const double mass_error = result.found.standard_error[0];
   return fmt::format(
-      "\nload on {}: {:.4g} kg (s.e. {:.2g}) at ({:.4f}, {:.4f}, {:.4f}) m of the link's frame\n",
-      carrier(result, robot), load.mass(), mass_error, c.x(), c.y(), c.z());
+      "\nload on {}: {:.4g} kg (s.e. {:.2g}) at ({:.4f}, {:.4f}, {:.4f}) m of {}'s frame\n",
+      carrier(result, robot), load.mass(), mass_error, c.x(), c.y(), c.z(), carrier(result, robot));
 }
 
 }  // namespace shapeid::app

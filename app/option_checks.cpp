@@ -41,6 +41,10 @@ CLI::Validator zero_or_above() {
   return number_that([](double x) { return x >= 0.0; }, "at least 0");
 }
 
+CLI::Validator weight_of_criterion() {
+  return number_that([](double x) { return x >= 0.0 && x <= 1e100; }, "from 0 to 1e100");
+}
+
 CLI::Validator share_above_zero() {
   return number_that([](double x) { return x > 0.0 && x <= 1.0; }, "above 0 and at most 1");
 }

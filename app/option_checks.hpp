@@ -14,6 +14,8 @@ namespace shapeid::app {
 [[nodiscard]] CLI::Validator above_zero();
 /// A finite number, zero or above.
 [[nodiscard]] CLI::Validator zero_or_above();
+/// k1 and k2 of (16), whose sum is a number.
+[[nodiscard]] CLI::Validator weight_of_criterion();
 /// A finite number above zero, at most one.
 [[nodiscard]] CLI::Validator share_above_zero();
 /// A mass of robots and of what they carry, kg.

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "shapeid/app/bundled.hpp"
+#include "shapeid/app/inputs.hpp"
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/recording.hpp"
@@ -49,7 +50,13 @@ void simulate_log(SimulateArguments& options) {
   }
   Robot robot = read_urdf(options.robot).robot;
   if (options.robot_yaml.empty()) {
-    throw InputError("--robot without --robot-yaml", "its contacts must be named: give both");
+    options.robot_yaml = robot_yaml_beside(options.robot);
+    if (options.robot_yaml.empty()) {
+      throw InputError("--robot without --robot-yaml", "its contacts must be named: give both");
+    }
+    tell(fmt::format(
+        "note: {} stands beside the URDF and is used (--robot-yaml names another one)\n",
+        options.robot_yaml));
   }
   const RobotNotes notes = read_robot_yaml(options.robot_yaml, robot);
   if (!options.load.empty()) {

@@ -18,6 +18,14 @@ double travel(const Joint& joint) {
   return std::isfinite(most) ? most : 0.0;
 }
 
+/// m: a link of one piece is as large as its inertia says, wherever its origin is.
+double gyration(const Link& link) {
+  const double mass = link.inertia.mass();
+  if (!(mass > 0.0)) return 0.0;
+  const double squared = 0.5 * link.inertia.tensor_about_centre().trace() / mass;
+  return squared > 0.0 && std::isfinite(squared) ? std::sqrt(squared) : 0.0;
+}
+
 }  // namespace
 
 double size_of(const Robot& robot) {
@@ -29,7 +37,7 @@ double size_of(const Robot& robot) {
       origin[i] = origin[static_cast<std::size_t>(link.parent)] +
                   link.joint.placement.translation().norm() + travel(link.joint);
     }
-    size = std::max(size, origin[i] + link.inertia.centre_of_mass().norm());
+    size = std::max(size, origin[i] + link.inertia.centre_of_mass().norm() + gyration(link));
     for (const Member& member : link.members) {
       size = std::max(size, origin[i] + member.pose.translation().norm());
     }

@@ -8,8 +8,9 @@
 
 namespace shapeid {
 
-/// m: the longest way from the base through joints' origins to a centre of mass or a frame that is
-/// fixed to a link, sliding joints at the ends of their travel.
+/// m: the longest way from the base through joints' origins to a centre of mass, and the radius of
+/// gyration beyond it, or to a frame that is fixed to a link; sliding joints at the ends of their
+/// travel.
 [[nodiscard]] double size_of(const Robot& robot);
 
 /// Empty if a point so far (m) from its link's origin may belong to the robot, else what it is

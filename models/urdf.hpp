@@ -28,7 +28,7 @@ struct UrdfOptions {
   /// no log speaks of. A name that is no joint of the file throws InputError.
   std::map<std::string, double> locked;
   /// A <mimic> joint is no coordinate of its own, and its coupling is not modelled: it is refused,
-  /// or with this option locked where its master stands at zero.
+  /// or with this option locked where its master stands where that is `locked`, else at zero.
   bool lock_mimic = false;
   bool reject_impossible = true;  ///< throw InputError at the first fatal finding
 };

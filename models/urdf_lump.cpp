@@ -85,9 +85,31 @@ class Lumper {
                       j.mimic->joint),
           "make it fixed in the URDF, or remove <mimic> if this joint moves on its own");
     }
-    check_position(j, j.mimic->offset);
-    notes_.add(fmt::format("mimic joints locked at {:g}", j.mimic->offset), j.joint.name);
-    return j.mimic->offset;
+    const double position = position_of_mimic(j);
+    check_position(j, position);
+    notes_.add(fmt::format("mimic joints locked at {:g}", position), j.joint.name);
+    return position;
+  }
+
+  /// Where it is when its master stands where that is locked, or else at zero; masters may be
+  /// mimics.
+  double position_of_mimic(const DocumentJoint& j) const {
+    double position = 0.0, factor = 1.0;
+    const DocumentJoint* at = &j;
+    // Mimics that follow each other in a circle stand nowhere: it ends after as many as there are.
+    for (std::size_t steps = 0; at != nullptr && at->mimic && steps < document_.joints.size();
+         ++steps) {
+      position += factor * at->mimic->offset;
+      factor *= at->mimic->multiplier;
+      const std::string& master = at->mimic->joint;
+      const auto locked = options_.locked.find(master);
+      if (locked != options_.locked.end()) return position + factor * locked->second;
+      const auto found =
+          std::find_if(document_.joints.begin(), document_.joints.end(),
+                       [&](const DocumentJoint& other) { return other.joint.name == master; });
+      at = found != document_.joints.end() ? &*found : nullptr;
+    }
+    return position;
   }
 
   void check_position(const DocumentJoint& j, double position) const {

@@ -34,8 +34,16 @@ std::vector<bool> detect_contacts(const Robot& robot, const Sample& sample,
   for (int i = 0; i < robot.link_count(); ++i) mass += Phi[Eigen::Index{10} * i];
   constexpr double gravity = 9.81;
   const Eigen::VectorXd force = supporting_forces(robot, sample, Phi);
+  // How a link's force is shared among its points no torque tells.
+  Eigen::VectorXd on_link = Eigen::VectorXd::Zero(robot.link_count());
+  for (std::size_t c = 0; c < robot.contacts.size(); ++c) {
+    on_link[robot.contacts[c].link] += force[static_cast<Eigen::Index>(c)];
+  }
   std::vector<bool> touching;
-  for (const double f : force) touching.push_back(f > share * mass * gravity);
+  touching.reserve(robot.contacts.size());
+  for (const Contact& contact : robot.contacts) {
+    touching.push_back(on_link[contact.link] > share * mass * gravity);
+  }
   return touching;
 }
 

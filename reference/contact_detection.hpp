@@ -12,11 +12,13 @@ namespace shapeid::reference {
 
 /// Force along the specific force (up, when the base does not accelerate much) at each contact, N:
 /// least squares of the joint rows alone, J_joints^T f = Y Phi - S^T tau, as though all contacts
-/// touched. Depends on the model that is given, so the labels are derived, not measured.
+/// touched; of several at one link, which torques do not tell apart, those of least norm. Depends
+/// on the model that is given, so the labels are derived, not measured.
 [[nodiscard]] Eigen::VectorXd supporting_forces(const Robot& robot, const Sample& sample,
                                                 const Eigen::VectorXd& Phi);
 
-/// Contacts whose supporting force exceeds `share` of the robot's weight.
+/// Contacts of links on which the supporting forces of all contacts together exceed `share` of the
+/// robot's weight.
 [[nodiscard]] std::vector<bool> detect_contacts(const Robot& robot, const Sample& sample,
                                                 const Eigen::VectorXd& Phi, double share);
 

@@ -66,7 +66,8 @@ struct CompressedRows {
 /// Identifies the free links of `model` from at least two blocks, whose spread is what errors are
 /// judged by. Throws Refusal "torque-scale" if the rows ask for more than a hundred times the
 /// expected mass, "not-excited" if they determine no parameter at all, "too-short" if the blocks
-/// are so few or so unlike that nothing tells, "not-finite" as solve_masses() does;
+/// are so few or so unlike that nothing tells, "disagree" if they contradict each other so far that
+/// nothing is determined, "not-finite" as solve_masses() does;
 /// std::invalid_argument for division options, or an expected mass, that make no sense.
 [[nodiscard]] Identification identify(const BodyModel& model, const CompressedRows& rows,
                                       const IdentifySettings& settings,

@@ -116,7 +116,8 @@ bool StandingFeet::Comparison::tells(std::size_t standing_count) const {
   return is_clear && (feet.gained > standing_count / one_in || blocks.gained >= many_blocks);
 }
 
-void StandingFeet::judge() const {
+void StandingFeet::judge() {
+  close_block();
   if (standing_count_ < enough) return;
   judge_gyro();
   judge_labels();
@@ -127,6 +128,9 @@ void StandingFeet::judge_gyro() const {
       std::distance(still_.begin(), std::max_element(still_.begin(), still_.end())));
   const Comparison& from_logged = from_logged_[best];
   if (!from_logged.tells(standing_count_) || !from_none_[best].tells(standing_count_)) return;
+  // Feet in the air that count as standing, as near a touch, are still for a moment by any reading.
+  constexpr std::size_t one_in = 30;
+  if (still_[best] * one_in < standing_count_) return;
   const auto percent = [&](std::size_t reading) {
     return 1e2 * static_cast<double>(still_[reading]) / static_cast<double>(standing_count_);
   };

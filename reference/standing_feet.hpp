@@ -24,10 +24,10 @@ class StandingFeet {
   /// Throws Refusal, where enough was seen to say so:
   ///  * "imu-axes": standing feet that stand still by the gyro as it is, or without any, and not by
   ///    one of another unit or with other axes, are few beside those of which it is the other way
-  ///    round, which are a part of all, or are many stances;
+  ///    round, which are a part of all, or are many stances, in which some of all stand still;
   ///  * "contact-labels": while others are in the air, feet that are declared to stand move against
   ///    each other about as fast as these.
-  void judge() const;
+  void judge();
 
  private:
   /// Ways to read a gyro: the 48 exchanges and signs of axes, as logged first, in rad/s and then in

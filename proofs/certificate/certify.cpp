@@ -26,7 +26,7 @@ Eigen::Index group_of(std::size_t parameter) {
 /// A number for people to read, which may be larger than a double can be.
 std::string words(const Rational& x) {
   const double nearest = x.get_d();
-  if (std::isfinite(nearest)) return fmt::format("{:g}", nearest);
+  if (std::isfinite(nearest)) return fmt::format("{}", nearest);
   return sgn(x) > 0 ? "larger than any double" : "below any double";
 }
 
@@ -121,7 +121,7 @@ class Certifier {
     for (std::size_t i = 0; i < Phi_.size(); ++i) {
       if (abs(exact(claimed(i)) - Phi_[i]) <= rounding * terms[i]) continue;
       reject(
-          "parameter {} is said to be {:g}, {} {}", i, claimed(i),
+          "parameter {} is said to be {}, {} {}", i, claimed(i),
           answer_.masses.size() > 0 ? "the masses make it" : "the nearest body of the shapes has",
           words(Phi_[i]));
     }
@@ -131,7 +131,7 @@ class Certifier {
     const Rational root = root_above(zero_objective_) * rounding;
     const Rational allowed = 2 * root_above(f_) * root + root * root;
     if (abs(exact(answer_.objective) - f_) > allowed) {
-      reject("the objective is said to be {:g}, the answer's is {}", answer_.objective, words(f_));
+      reject("the objective is said to be {}, the answer's is {}", answer_.objective, words(f_));
     }
   }
 

@@ -24,7 +24,7 @@ std::string disagreement(const MassProblem& p, Eigen::Index j, const Region& reg
   const std::array<Enclosure, 10>& u = moments->parameters;
   const Rational square = (u[4].lower + u[7].lower + u[9].lower) / 2;  // of the distance, mean
   if (distance(exact(p.V[j]), moments->volume) > rounding * moments->volume.lower) {
-    return fmt::format("volume {} is said to be {:g}, its shape has {:g}", j, p.V[j],
+    return fmt::format("volume {} is said to be {}, its shape has {}", j, p.V[j],
                        moments->volume.lower.get_d());
   }
   for (Eigen::Index i = 0; i < p.U.rows(); ++i) {
@@ -40,7 +40,7 @@ std::string disagreement(const MassProblem& p, Eigen::Index j, const Region& reg
                         : k < 4 ? off * off <= rounding * rounding * square
                                 : off <= rounding * square;
     if (!agrees) {
-      return fmt::format("parameter {} of column {} is said to be {:g}, its shape has {:g}", k, j,
+      return fmt::format("parameter {} of column {} is said to be {}, its shape has {}", k, j,
                          written, made.lower.get_d());
     }
   }

@@ -83,8 +83,8 @@ void expect_found(const Answer& answer, const std::string& carrier, const Vector
   // In words.
   const auto c = load.at("centre").get<std::vector<double>>();
   EXPECT_TRUE(answer.text.ends_with(fmt::format(
-      "\nload on {}: {:.4g} kg (s.e. {:.2g}) at ({:.4f}, {:.4f}, {:.4f}) m of the link's frame\n",
-      carrier, body.mass(), link.at("standard_error")[0].get<double>(), c[0], c[1], c[2])))
+      "\nload on {}: {:.4g} kg (s.e. {:.2g}) at ({:.4f}, {:.4f}, {:.4f}) m of {}'s frame\n",
+      carrier, body.mass(), link.at("standard_error")[0].get<double>(), c[0], c[1], c[2], carrier)))
       << answer.text;
 }
 

@@ -57,6 +57,15 @@ TEST_F(Options, WindowsComeAtTheirStride) {
   EXPECT_NE(of_ten[0]["parameters"], of_forty[0]["parameters"]);
 }
 
+/// Behind a slow filter swinging feet count as standing for long; that hardly any stands still, and
+/// by chance a few more by other axes of the gyro, is no fault of the gyro.
+TEST_F(Options, ASlowFilterAccusesNoGyro) {
+  simulated_log("long.csv", "--seconds 20 --seed 5");
+  const CommandRun run = shapeid(fmt::format("identify {} --log long.csv {} --json --cutoff 6",
+                                             quadruped_files, quadruped_shapes));
+  EXPECT_EQ(run.status, 0) << run.err;
+}
+
 /// Equation (17) with this alpha, from the line before.
 TEST_F(Options, AlphaIsTheFilters) {
   for (const double alpha : {0.5, 0.125, 1.0}) {

@@ -190,5 +190,26 @@ TEST(ContactDetection, AgreesWithTheGround) {
   EXPECT_GT(share, 0.9);
 }
 
+/// Of a foot's points none carries all that the foot does.
+TEST(ContactDetection, AFootOfSeveralPointsTouchesWhereTheFootDoes) {
+  const test::Quadruped q = test::bundled_quadruped();
+  const Eigen::VectorXd Phi = stacked_parameters(q.robot);
+  Robot many = q.robot;
+  constexpr std::size_t times = 4;
+  for (std::size_t more = 1; more < times; ++more) {
+    many.contacts.insert(many.contacts.end(), q.robot.contacts.begin(), q.robot.contacts.end());
+  }
+  std::size_t touching = 0;
+  for (const Sample& sample : trot_samples(q, 1.0, 0.0)) {
+    constexpr double threshold = 0.05;
+    const std::vector<bool> once = reference::detect_contacts(q.robot, sample, Phi, threshold);
+    const std::vector<bool> found = reference::detect_contacts(many, sample, Phi, threshold);
+    ASSERT_EQ(found.size(), times * once.size());
+    for (std::size_t c = 0; c < found.size(); ++c) EXPECT_EQ(found[c], once[c % once.size()]) << c;
+    touching += static_cast<std::size_t>(std::count(once.begin(), once.end(), true));
+  }
+  EXPECT_GT(touching, 100U);
+}
+
 }  // namespace
 }  // namespace shapeid

@@ -37,7 +37,7 @@ class StandingFeetOfATrot : public testing::Test {
     }
     return said_by(feet);
   }
-  static std::string said_by(const StandingFeet& feet) {
+  static std::string said_by(StandingFeet& feet) {
     try {
       feet.judge();
     } catch (const Refusal& refusal) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "shapeid/models/urdf.hpp"
 
 namespace shapeid {
@@ -36,7 +38,7 @@ TEST(RobotSize, IsTheLongestWayThroughJointsAndTravel) {
 TEST(RobotSize, OfAShortChainIsThatOfItsBase) {
   Robot robot = crane(R"(lower="-1" upper="1")");
   robot.links.resize(1);
-  EXPECT_DOUBLE_EQ(size_of(robot), 9.0);
+  EXPECT_DOUBLE_EQ(size_of(robot), 9.0 + std::sqrt(1.5));  // tensors of 1 kg m^2, 1 kg
 }
 
 TEST(RobotSize, ThirtyTimesAsFarIsTooFar) {
@@ -45,10 +47,21 @@ TEST(RobotSize, ThirtyTimesAsFarIsTooFar) {
   EXPECT_EQ(why_too_far(331.0, robot), "331 m from the link's origin, on a robot of 11 m");
 }
 
+/// Wherever its origin is, a body of one piece is as large as its inertia says.
+TEST(RobotSize, OfOneBodyAboutItsCentreIsItsRadiusOfGyration) {
+  Robot robot = crane(R"(lower="-1" upper="1")");
+  robot.links.resize(1);
+  robot.links[0].members.clear();
+  robot.links[0].inertia = from_centre(2.0, Eigen::Vector3d(0.002, 0.0, 0.0),
+                                       Eigen::Vector3d(0.02, 0.03, 0.04).asDiagonal());
+  EXPECT_DOUBLE_EQ(size_of(robot), 0.002 + std::sqrt(0.5 * 0.09 / 2.0));
+  EXPECT_FALSE(why_too_far(0.3, robot));
+}
+
 TEST(RobotSize, OfAPointMassNothingIsTooFar) {
   Robot robot = crane(R"(lower="-1" upper="1")");
   robot.links.resize(1);
-  robot.links[0].inertia = from_centre(1.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
+  robot.links[0].inertia = from_centre(1.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero());
   robot.links[0].members.clear();
   EXPECT_FALSE(why_too_far(1e3, robot));
 }

@@ -155,7 +155,8 @@ constexpr const char* gripper = R"(<robot name="gripper">
 </robot>)";
 
 // At close = 90 degrees the finger's x axis is the hand's y axis. By hand: finger's centre at
-// (0, 0.1, 1); tip slid 0.05 along finger y, at finger (0.2, 0.05, 0), hand (-0.05, 0.2, 1).
+// (0, 0.1, 1); tip slid s = 0.05 + 0.1 close along finger y, at finger (0.2, s, 0), hand (-s, 0.2,
+// 1).
 TEST(UrdfLump, LockedJointsStandWhereTheyAreTold) {
   UrdfOptions options;
   options.lock_mimic = true;
@@ -163,11 +164,11 @@ TEST(UrdfLump, LockedJointsStandWhereTheyAreTold) {
   const Robot robot = parse_urdf(gripper, "gripper.urdf", options).robot;
   ASSERT_EQ(robot.link_count(), 1);
   EXPECT_EQ(robot.links[0].inertia.mass(), 3.0);
-  const Eigen::Vector3d expected(-0.05, 0.2 + 2 * 0.1, 3.0);
+  const Eigen::Vector3d expected(-0.05 - 0.1 * std::acos(0.0), 0.2 + 2 * 0.1, 3.0);
   EXPECT_LT(scaled_difference(robot.links[0].inertia.first_moment(), expected, 3), few_hundred_eps);
   EXPECT_EQ(robot.notes, (std::vector<std::string>{
                              "axis scaled to length one: slide", "joints locked at 1.5708: close",
-                             "mimic joints locked at 0.05: slide",
+                             "mimic joints locked at 0.20708: slide",
                              "hand also carries what is fixed to it: finger, tip"}));
 }
 
@@ -183,6 +184,31 @@ TEST(UrdfLump, SlowJointsAndMimicsWithoutAnOffset) {
   EXPECT_EQ(robot.joint(0).velocity, 0.25);
   ASSERT_GE(robot.notes.size(), 2u);
   EXPECT_EQ(robot.notes[1], "mimic joints locked at 0: slide");
+}
+
+/// A mimic of a mimic, whose master is locked, and two that follow each other.
+TEST(UrdfLump, MimicsOfMimics) {
+  const auto locked_at = [](const std::string& last_master, const std::string& first_master) {
+    const auto joint = [](int i, const std::string& mimic) {
+      return fmt::format(
+          R"(<joint name="j{0}" type="prismatic"><parent link="l{0}"/><child link="l{1}"/>
+<axis xyz="1 0 0"/><limit lower="-9" upper="9" effort="1" velocity="1"/>{2}</joint>)",
+          i, i + 1, mimic);
+    };
+    std::string text = R"(<robot name="r">)";
+    for (int i = 0; i < 4; ++i) text += fmt::format(R"(<link name="l{}"/>)", i);
+    text +=
+        joint(0, first_master) + joint(1, R"(<mimic joint="j0" multiplier="2" offset="0.25"/>)") +
+        joint(2, fmt::format(R"(<mimic joint="{}" multiplier="-3" offset="0.5"/>)", last_master));
+    UrdfOptions options;
+    options.lock_mimic = true;
+    if (first_master.empty()) options.locked = {{"j0", 0.75}};
+    const Robot robot = parse_urdf(text + "</robot>", "r.urdf", options).robot;
+    return robot.links[0].members.back().pose.translation().x();
+  };
+  // j0 + (0.25 + 2 j0) + (0.5 - 3 (0.25 + 2 j0)) with j0 = 0.75.
+  EXPECT_DOUBLE_EQ(locked_at("j1", ""), 0.75 + 1.75 + 0.5 - 3.0 * 1.75);
+  EXPECT_TRUE(std::isfinite(locked_at("j1", R"(<mimic joint="j2"/>)")));
 }
 
 TEST(UrdfLump, MembersKnowTheirLines) {
