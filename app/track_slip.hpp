@@ -20,7 +20,7 @@ class SlipWatch {
   static constexpr double fastest = 0.25;  ///< m/s; a foot that rolls on its rim stays below
   /// s. Longer than the filter and the margin around a lift-off let a leaving foot count as
   /// touching.
-  static constexpr double shortest = 0.06;
+  static constexpr double shortest = 0.08;
 
   SlipWatch(const Robot& robot, double rate);
 

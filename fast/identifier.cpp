@@ -29,17 +29,10 @@ const IdentifierSettings& checked(const IdentifierSettings& settings, const Robo
   return settings;
 }
 
-/// || b ||^2 beyond which forces are none of a robot's, see Identifier. Legs carry and throw some
-/// weights of their robot; the rest is for links whose masses are unknown or expected wrongly.
-double most_squares(const Robot& robot, const BodyModel& model,
-                    const IdentifierSettings& settings) {
-  constexpr double times = 100.0, gravity = 9.81;
-  double mass = settings.expected_mass;
-  for (Eigen::Index i = 0; i < model.known.size(); i += 10) mass += std::abs(model.known[i]);
-  const double force = times * gravity * mass;
-  return force * force * static_cast<double>(settings.window) *
-         online_weight(settings.weight, robot.dof()).sum();
-}
+/// Squares of the weight beyond which forces are none of a robot's, see Identifier. Legs carry and
+/// throw some weights of their robot; the rest is for links whose masses are unknown or expected
+/// wrongly.
+constexpr double most_share_of_weight = 100.0 * 100.0;
 
 DivisionOptions options_of(const IdentifierSettings& settings) {
   DivisionOptions options = settings.division;
@@ -65,7 +58,8 @@ Identifier::Identifier(const Robot& robot, const BodyModel& model,
       expected_mass_(settings.expected_mass),
       mass_bound_(settings.mass_bound.value_or(10.0 * settings.expected_mass)),
       lambda_(settings.lambda),
-      most_(most_squares(robot, model, settings)),
+      squares_of_weight_(squares_of_weight(model, settings.expected_mass, settings.window,
+                                           online_weight(settings.weight, robot.dof()))),
       volume_(shape_volumes(model).sum()),
       rows_(robot, model, settings.contacts, online_weight(settings.weight, robot.dof())),
       last_window_(10 * static_cast<Eigen::Index>(model.free_links.size())),
@@ -123,7 +117,7 @@ void Identifier::forget_samples() noexcept {
 bool Identifier::solve(const Eigen::MatrixXd& R) noexcept {
   // || b ||^2 is the sum of squares of the triangle's last column.
   const double squares = R.col(R.cols() - 1).squaredNorm();
-  if (!(squares <= most_)) {
+  if (!(squares <= most_share_of_weight * squares_of_weight_)) {
     outcome_ = Outcome::out_of_scale;
     return false;
   }
@@ -133,7 +127,7 @@ bool Identifier::solve(const Eigen::MatrixXd& R) noexcept {
   division_.set_lambda(lambda);
   outcome_ = division_.start(R, warm_ ? Division::Start::last_masses : Division::Start::no_masses);
   if (outcome_ != Outcome::solved) return false;
-  if (squares > 0.0) lambda_ = lambda;  // of no forces there is no scale
+  if (squares >= least_share_of_weight * squares_of_weight_) lambda_ = lambda;
   int iterations = division_.masses().iterations();
   answer_.stopped_by = division_.run();
   for (const Division::Cut& cut : division_.history()) iterations += cut.iterations;

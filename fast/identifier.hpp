@@ -26,8 +26,8 @@ struct IdentifierSettings {
   std::size_t stride = 10;     ///< samples from one window to the next: 10 at 500 Hz is 20 ms
   double alpha = 0.5;          ///< equation (17), in (0, 1]
   double expected_mass = 0.0;  ///< M0, kg, of all free shapes together: 1e-6 to 1e6
-  /// Default: computed from the first window with nonzero forces, then fixed. If that may be one of
-  /// motors that are off, give it: of hardly any force it is too small to choose among masses.
+  /// Default: computed from each window until one's forces are a thousandth of the weight of all
+  /// links (squares_of_weight()), then fixed.
   std::optional<double> lambda = {};
   std::optional<double> mass_bound = {};  ///< kg, for the gap; default: ten times M0
   /// Windows start at the masses of the one before. If not, an answer depends on its window alone,
@@ -96,7 +96,7 @@ class Identifier {
   [[nodiscard]] const Eigen::VectorXd& filtered() const noexcept { return filtered_; }
   /// How the last window's solve ended.
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
-  /// lambda in use; empty before the first answer to forces.
+  /// lambda in use; empty until it is fixed.
   [[nodiscard]] std::optional<double> lambda() const noexcept { return lambda_; }
   /// The divided shapes of the last window.
   [[nodiscard]] const Division& division() const noexcept { return division_; }
@@ -132,7 +132,7 @@ class Identifier {
   Outcome outcome_ = Outcome::solved;
   double alpha_, expected_mass_, mass_bound_;
   std::optional<double> lambda_;
-  double most_;  ///< of || b ||^2
+  double squares_of_weight_;  ///< of || b ||^2
   double volume_ = 0.0;
   Window rows_;                             ///< of the present block
   std::optional<SlidingTriangle> sliding_;  ///< the last blocks, if windows overlap

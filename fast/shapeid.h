@@ -57,8 +57,8 @@ typedef struct shapeid_settings {
   double alpha;         /**< of filter (17), in (0, 1]: 0.5; 1 does not smooth */
   double expected_mass; /**< kg, of all free links, 1e-6 to 1e6; 0 (default): from robot.yaml, else
                              the URDF */
-  /** Density term, >= 0; negative (default): computed from the first window with forces, and kept.
-   * If that may be one of motors that are off, give it. */
+  /** Density term, >= 0; negative (default): computed from each window until one has forces of a
+   * thousandth of the weight of all links (drives are on), then kept. */
   double lambda;
   double mass_bound;     /**< kg, for the gap; 0 (default): ten times the expected mass */
   int most_divisions;    /**< in every window: 0 (default) divides nothing */

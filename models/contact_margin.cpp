@@ -4,6 +4,13 @@
 #include <utility>
 
 namespace shapeid {
+namespace {
+
+/// s: a margin is often a whole number of steps, and times are rounded. Which flags a sample gets
+/// must not depend on when the log was begun.
+constexpr double time_rounding = 1e-6;
+
+}  // namespace
 
 // In periods of the cutoff. What one pass makes of an event comes after it; before, only a flag
 // that is late matters.
@@ -16,7 +23,8 @@ void ContactMargin::push(FlaggedSample sample) {
   if (sample.starts_segment) finish();
   const double newest = sample.sample.time;
   near_.push_back(std::move(sample));
-  while (decided_ < near_.size() && newest >= near_[decided_].sample.time + margin_.before)
+  while (decided_ < near_.size() &&
+         newest >= near_[decided_].sample.time + margin_.before - time_rounding)
     decide();
 }
 
@@ -29,7 +37,7 @@ void ContactMargin::finish() {
 /// The next sample: all changes that it may be near are in near_.
 void ContactMargin::decide() {
   const double time = near_[decided_].sample.time;
-  while (near_.front().sample.time < time - margin_.after) {
+  while (near_.front().sample.time < time - margin_.after - time_rounding) {
     near_.pop_front();
     --decided_;
   }
@@ -38,7 +46,7 @@ void ContactMargin::decide() {
   std::vector<bool> touches(flags.size(), false);
   bool wanted = std::find(flags.begin(), flags.end(), -1) == flags.end();
   for (const FlaggedSample& other : near_) {
-    if (other.sample.time > time + margin_.before) break;
+    if (other.sample.time > time + margin_.before + time_rounding) break;
     if (change_ == ContactChange::drop && other.contacts != flags) wanted = false;
     for (std::size_t c = 0; c < flags.size(); ++c) {
       if (other.contacts[c] != 0) touches[c] = true;

@@ -46,6 +46,15 @@ Eigen::VectorXd online_weight(const Eigen::VectorXd& given, Eigen::Index dof) {
   return weight;
 }
 
+double squares_of_weight(const BodyModel& model, double expected_mass, std::size_t window,
+                         const Eigen::VectorXd& weight) {
+  constexpr double gravity = 9.81;
+  double mass = expected_mass;
+  for (Eigen::Index i = 0; i < model.known.size(); i += 10) mass += std::abs(model.known[i]);
+  const double force = gravity * mass;
+  return force * force * static_cast<double>(window) * weight.sum();
+}
+
 void check_sought(const Robot& robot, const BodyModel& model) {
   if (const Violation reason = why_malformed(model, robot)) {
     throw InputError("the model is not this robot's: " + *reason,

@@ -29,4 +29,14 @@ void check_sought(const Robot& robot, const BodyModel& model);
 /// rounding of one equation is more than all of another (docs/derivations/projection.md).
 [[nodiscard]] Eigen::VectorXd online_weight(const Eigen::VectorXd& given, Eigen::Index dof);
 
+/// || b ||^2 of a window in which all generalised forces are the weight of all links, the free ones
+/// as expected (torques: that weight at a metre). `weight`: online_weight().
+[[nodiscard]] double squares_of_weight(const BodyModel& model, double expected_mass,
+                                       std::size_t window, const Eigen::VectorXd& weight);
+
+/// Share of that from which on a window gives lambda a scale: forces of a thousandth of the weight.
+/// What noise makes of drives that are off is less, and would leave masses that no row tells apart
+/// to rounding.
+inline constexpr double least_share_of_weight = 1e-6;
+
 }  // namespace shapeid

@@ -22,6 +22,8 @@ OnlineIdentifier::OnlineIdentifier(const Robot& robot, BodyModel model, OnlineSe
       settings_(checked(std::move(settings), robot, model_)),
       rows_(robot, model_, settings_.contacts, online_weight(settings_.weight, robot.dof())),
       filter_(settings_.alpha),
+      squares_of_weight_(squares_of_weight(model_, settings_.expected_mass, settings_.window,
+                                           online_weight(settings_.weight, robot.dof()))),
       masses_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model_.shapes.size()))) {}
 
 std::optional<OnlineResult> OnlineIdentifier::feed(const Sample& sample) {
@@ -38,7 +40,8 @@ std::optional<OnlineResult> OnlineIdentifier::feed(const Sample& sample) {
       settings_.lambda ? *settings_.lambda : default_lambda(problem, settings_.expected_mass);
 
   OnlineResult result{sample.time, solve_masses(problem, masses_), {}};
-  if (!problem.F.isZero(0.0)) settings_.lambda = problem.lambda;  // no forces give no scale
+  const double squares = problem.F.dot(problem.W.cwiseProduct(problem.F));
+  if (squares >= least_share_of_weight * squares_of_weight_) settings_.lambda = problem.lambda;
   masses_ = result.solution.m;
   result.filtered = filter_.update(result.solution.Phi);
   return result;

@@ -23,7 +23,8 @@ struct OnlineSettings {
   std::size_t stride = 10;     ///< samples from one window to the next: 10 at 500 Hz is 20 ms
   double alpha = 0.5;          ///< equation (17)
   double expected_mass = 0.0;  ///< M0 > 0, kg
-  /// Default: computed from the first window with nonzero forces, then fixed.
+  /// Default: computed from each window until one's forces are a thousandth of the weight of all
+  /// links (squares_of_weight()), then fixed.
   std::optional<double> lambda;
 };
 
@@ -49,6 +50,7 @@ class OnlineIdentifier {
   ParameterFilter filter_;
   std::deque<Sample> recent_;
   std::size_t since_last_ = 0;
+  double squares_of_weight_;  ///< of || b ||^2
   Eigen::VectorXd masses_;
 };
 

@@ -44,7 +44,7 @@ Robot table(Root root) {
 }
 
 constexpr double rate = 100.0;
-constexpr int samples = 6;  // 0.06 s
+constexpr int samples = 8;  // 0.08 s
 
 /// At these speeds of the joints, all feet down: who slips after so many samples.
 std::vector<int> after(SlipWatch& watch, int count, const Eigen::Vector4d& speeds,

@@ -5,6 +5,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "shapeid/tests/motion/example.hpp"
 #include "shapeid/tests/support/scratch_folder.hpp"
@@ -100,6 +103,32 @@ RC_GTEST_PROP(ContactMargin, EqualsALookUpInTheWholeLog, ()) {
   collect();
   RC_ASSERT(out == expected);
   RC_ASSERT(tested.dropped() + out.size() == log.size());
+}
+
+/// A margin of whole steps ends at a sample, whose time is rounded otherwise every day.
+TEST(ContactMargin, TheTimeOfDayChangesNoFlag) {
+  constexpr double step = 0.002;
+  constexpr int rows = 200;
+  const auto flags_from = [](double begins) {
+    ContactMargin margin(ContactChange::widen, {12 * step, 20 * step});
+    std::vector<bool> touches;
+    for (int k = 0; k < rows; ++k) {
+      FlaggedSample sample;
+      sample.sample.time = begins + step * k;
+      sample.contacts = {k >= 80 && k < 100 ? 1 : 0};
+      margin.push(std::move(sample));
+    }
+    margin.finish();
+    while (const std::optional<Sample> sample = margin.next()) {
+      touches.push_back(sample->in_contact.front());
+    }
+    return touches;
+  };
+  std::vector<bool> expected(rows, false);
+  std::fill(expected.begin() + 80 - 12, expected.begin() + 100 + 20, true);
+  for (const double begins : {0.0, 0.1, 4.1, 1234.567, 86399.9, 1.7e9}) {
+    EXPECT_EQ(flags_from(begins), expected) << begins;
+  }
 }
 
 // A foot that touched before a gap says nothing about the samples after it.
