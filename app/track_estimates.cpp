@@ -113,18 +113,18 @@ double left_of(const Eigen::MatrixXd& R) {
 
 Estimates::Estimates(const Robot& robot, const BodyModel& model, const EstimateSettings& settings,
                      double rate)
-    : robot_(robot),
+    : solver_(static_cast<int>(model.free_links.size()), static_cast<int>(model.shapes.size())),
+      identifier_(robot, model, settings.identifier),
+      robot_(robot),
       settings_(settings),
       window_seconds_(static_cast<double>(settings.identifier.window) / rate),
       correlation_(std::max(1.0, rate * stance)),
       windows_in_recent_(recent_windows(settings, window_seconds_)),
       noise_(windows_in(noise_memory, window_seconds_)),
-      identifier_(robot, model, settings.identifier),
       recent_block_(settings.natural_size.size()),
       sliding_(settings.natural_size.size(), windows_in_recent_),
       tracker_(Eigen::VectorXd::Zero(settings.natural_size.size()), settings.natural_size,
                settings.wander * settings.natural_size),
-      solver_(static_cast<int>(model.free_links.size()), static_cast<int>(model.shapes.size())),
       recent_(Eigen::VectorXd::Zero(settings.natural_size.size())),
       tracked_(recent_) {
   append_shapes(model, solver_);

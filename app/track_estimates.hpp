@@ -122,26 +122,26 @@ class Estimates {
     }
   };
 
+  fast::MassSolver solver_;
+  fast::Identifier identifier_;
   const Robot& robot_;
   EstimateSettings settings_;
   double window_seconds_;
   double correlation_;  ///< samples that say as much as one
   std::size_t windows_in_recent_;
   TrackNoise noise_;
-  fast::Identifier identifier_;
   fast::Triangle recent_block_;  ///< the last window as sliding_ got it
   fast::SlidingTriangle sliding_;
   fast::ParameterTracker tracker_;
-  fast::MassSolver solver_;
   Eigen::VectorXd recent_, tracked_;
   double mass_variance_;            ///< kg^2, mass_error()
   std::size_t windows_ = 0;         ///< that were answered
   double mean_square_ = 0.0;        ///< of the pulls of windows, running: learn_correlation()
   std::deque<double> pulls_;        ///< of the windows of a stance, newest first
   double rows_ = 0.0;               ///< free of contact forces, since the window began
-  std::deque<double> recent_rows_;  ///< of each of the windows in sliding_
   std::deque<Past> past_;           ///< of as many windows as the longer one has
   std::size_t disagreeing_ = 0;     ///< windows in a row
+  std::deque<double> recent_rows_;  ///< of each of the windows in sliding_
   std::optional<Found> found_;
   std::size_t settles_in_ = 0;  ///< windows
   std::optional<LoadChange> change_;
