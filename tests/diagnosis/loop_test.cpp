@@ -182,6 +182,27 @@ TEST(Candidates, HaveTheMomentFromWhichALoadExplainsMost) {
   }));
 }
 
+/// A ripple at every joint was chosen among as many periods as that of any.
+TEST(Candidates, AGroupPaysForThePeriodsOfItsMembers) {
+  const Robot robot = arm();
+  const LoopSettings settings = arm_settings();
+  const Recording log = record({});
+  LoopState state(robot, log, nullptr, settings);
+  const BlockFits fits = state.tallied(all_hypotheses(robot));
+  CandidateRule rule;
+  rule.excluded = [](const AppliedEffect&) { return false; };
+  rule.choices = [](const AppliedEffect& a) { return is_ripple(a) ? 3.0 + a.site : 1.0; };
+  int ripples = 0, others = 0;
+  for (const Candidate& group : candidates(robot, fits, rule)) {
+    if (group.members.empty()) continue;
+    ++(is_ripple(group.effect) ? ripples : others);
+    const double most = is_ripple(group.effect) ? 2.0 + robot.joint_count() : 1.0;
+    EXPECT_EQ(group.choices, most) << group.term.id;
+  }
+  EXPECT_EQ(ripples, 1);
+  EXPECT_GT(others, 3);
+}
+
 TEST(Loop, LoadThatComesIsFoundBesideAReferenceLog) {
   ComesBetween log;
   const LoopResult result = close_loop(arm(), log.with(), &log.without, arm_settings());
