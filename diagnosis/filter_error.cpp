@@ -145,7 +145,6 @@ std::vector<Eigen::VectorXd> filter_error(const Viewer& viewer, const RichModel&
       Sample filtered = std::move(seen[i - begin].sample);
       set_channels(row->head(row->size() - slots.size() - dof), filtered);
       filtered.in_contact = smooth[at].in_contact;
-      filtered.tau = smooth[at].tau;  // loads of a floating base are told by it
       Surroundings surroundings = smooth.surroundings(at);
       surroundings.elapsed = seen[i - begin].elapsed;
       const View view = viewer.view(std::move(filtered), std::move(surroundings));
