@@ -63,6 +63,11 @@ std::string robot_yaml_beside(const std::string& urdf) {
   return {};
 }
 
+std::string remark_beside(const std::string& robot_yaml) {
+  return fmt::format("{} stands beside the URDF and is used (--robot-yaml names another one)",
+                     robot_yaml);
+}
+
 void MotionInputs::add_robot_to(CLI::App& verb) {
   verb.add_option("--robot", robot, "URDF file")->required();
   verb.add_option("--mapping", mapping, "mapping.yaml, for a log with foreign names or units");
@@ -183,9 +188,7 @@ RobotInputs read_robot(const MotionInputs& inputs, const LogTable& log) {
   if (!result.robot_yaml.empty()) {
     result.notes = read_robot_yaml(result.robot_yaml, result.robot);
     if (inputs.robot_yaml.empty()) {
-      result.remarks.push_back(
-          fmt::format("{} stands beside the URDF and is used (--robot-yaml names another one)",
-                      result.robot_yaml));
+      result.remarks.push_back(remark_beside(result.robot_yaml));
     }
     const std::string unused = result.of_floating_base();
     if (options.root == Root::fixed && !unused.empty()) {

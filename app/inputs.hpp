@@ -82,6 +82,8 @@ void check_no_stream(const std::string& log);
 
 /// robot.yaml beside the URDF, under the URDF's name or plainly; empty if there is none.
 [[nodiscard]] std::string robot_yaml_beside(const std::string& urdf);
+/// That such a file is used, for people to read.
+[[nodiscard]] std::string remark_beside(const std::string& robot_yaml);
 
 /// Throws InputError where contact forces are to be used that the log does not have.
 void check_forces(const std::string& log, ContactTreatment contacts, bool are_logged);

@@ -54,9 +54,7 @@ void simulate_log(SimulateArguments& options) {
     if (options.robot_yaml.empty()) {
       throw InputError("--robot without --robot-yaml", "its contacts must be named: give both");
     }
-    tell(fmt::format(
-        "note: {} stands beside the URDF and is used (--robot-yaml names another one)\n",
-        options.robot_yaml));
+    tell(fmt::format("note: {}\n", remark_beside(options.robot_yaml)));
   }
   const RobotNotes notes = read_robot_yaml(options.robot_yaml, robot);
   if (!options.load.empty()) {
