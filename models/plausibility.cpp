@@ -56,17 +56,18 @@ void Plausibility::Range::add(double value, int at) {
   most = std::max(most, value);
 }
 
-void Plausibility::Slope::add(double t, double position, double velocity, double longest_step) {
-  if (std::isnan(position) || std::isnan(velocity)) return;
+bool Plausibility::Slope::add(double t, double position, double velocity, double longest_step) {
+  if (std::isnan(position) || std::isnan(velocity)) return false;
   const bool follows = in_span > 0 && t > time && t - time <= longest_step;
   if (follows) integral += 0.5 * (velocity + dq) * (t - time);
-  if (follows && in_span == span) {
-    const double change = position - start;
-    xx += change * change;
-    xy += change * integral;
-    yy += integral * integral;
+  const bool ends = follows && in_span == span;
+  if (ends) {
+    change = position - start;
+    whole = integral;
+    changes += change * change;
+    integrals += whole * whole;
   }
-  if (!follows || in_span == span) {
+  if (!follows || ends) {
     in_span = 0;
     start = position;
     integral = 0.0;
@@ -74,6 +75,7 @@ void Plausibility::Slope::add(double t, double position, double velocity, double
   ++in_span;
   time = t;
   dq = velocity;
+  return ends;
 }
 
 Plausibility::Plausibility(std::string path, const Robot& robot, const ChannelPlan& plan,
@@ -84,6 +86,7 @@ Plausibility::Plausibility(std::string path, const Robot& robot, const ChannelPl
       options_(options),
       ranges_(plan.channels.size()),
       slopes_(static_cast<std::size_t>(robot.joint_count())),
+      products_(Eigen::MatrixXd::Zero(robot.joint_count(), robot.joint_count())),
       steps_(slopes_.size()) {}
 
 Place Plausibility::place(int channel, int line) const {
@@ -94,15 +97,26 @@ void Plausibility::add(const MeasuredRow& row) {
   for (std::size_t c = 0; c < ranges_.size(); ++c) {
     ranges_[c].add(row.values[static_cast<Eigen::Index>(c)], row.line);
   }
-  if (plan_.dq >= 0) {
-    for (int j = 0; j < robot_.joint_count(); ++j) {
-      slopes_[static_cast<std::size_t>(j)].add(row.time, row.values[plan_.q + j],
-                                               row.values[plan_.dq + j], options_.longest_step);
-    }
-  }
+  if (plan_.dq >= 0) add_slopes(row);
   for (int j = 0; options_.refuse_readings && j < robot_.joint_count(); ++j) add_step(j, row);
   if (plan_.floating()) add_gravity(row);
   if (++rows_ == block) judge();
+}
+
+void Plausibility::add_slopes(const MeasuredRow& row) {
+  // Nothing of a joint whose span goes on.
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(robot_.joint_count());
+  Eigen::RowVectorXd integral = Eigen::RowVectorXd::Zero(robot_.joint_count());
+  bool any = false;
+  for (int j = 0; j < robot_.joint_count(); ++j) {
+    Slope& s = slopes_[static_cast<std::size_t>(j)];
+    if (!s.add(row.time, row.values[plan_.q + j], row.values[plan_.dq + j], options_.longest_step))
+      continue;
+    any = true;
+    change[j] = s.change;
+    integral[j] = s.whole;
+  }
+  if (any) products_.noalias() += change * integral;
 }
 
 /// What one reading of many does to a motion that is differentiated twice no sum of squares
@@ -189,6 +203,7 @@ void Plausibility::judge() {
   force_sum_ = 0.0;
   ranges_.assign(ranges_.size(), {});
   slopes_.assign(slopes_.size(), {});
+  products_.setZero();
 }
 
 void Plausibility::judge_length(int j) const {
@@ -252,20 +267,44 @@ bool Plausibility::moves(int j) const {
   return range(plan_.q + j).width() > moved;
 }
 
+double Plausibility::slope(int position, int velocity) const {
+  return products_(position, velocity) / slopes_[static_cast<std::size_t>(position)].changes;
+}
+
+/// Zero where either is.
+double Plausibility::correlation(int position, int velocity) const {
+  const double squares = slopes_[static_cast<std::size_t>(position)].changes *
+                         slopes_[static_cast<std::size_t>(velocity)].integrals;
+  return squares > 0.0 ? products_(position, velocity) / std::sqrt(squares) : 0.0;
+}
+
+/// A velocity that has little to do with its own position, and is another's.
+void Plausibility::judge_other_slopes(int j) const {
+  constexpr double little = 0.5;
+  if (std::abs(correlation(j, j)) > little) return;
+  for (int other = 0; other < robot_.joint_count(); ++other) {
+    if (!moves(other) || !(correlation(other, j) > correlated) || !near(slope(other, j), 1.0)) {
+      continue;
+    }
+    throw InputError(place(plan_.dq + j),
+                     fmt::format("is the derivative of {}, and not of {}",
+                                 place(plan_.q + other).column, place(plan_.q + j).column),
+                     "give position, velocity and torque of the same joint one name (mapping)");
+  }
+}
+
 void Plausibility::judge_slope(int j) const {
-  const Slope& s = slopes_[static_cast<std::size_t>(j)];
   if (plan_.dq < 0 || !moves(j)) return;
-  if (!(s.xy * s.xy > correlated * correlated * s.xx * s.yy)) return;
-  const double slope = s.xy / s.xx;
-  if (near(slope, 1.0)) return;
-  std::string wrong = fmt::format(
-      "is {:.3g} times the derivative of {}", slope,
-      plan_.channels[static_cast<std::size_t>(plan_.q) + static_cast<std::size_t>(j)].from);
+  if (!(std::abs(correlation(j, j)) > correlated)) return judge_other_slopes(j);
+  const double factor = slope(j, j);
+  if (near(factor, 1.0)) return;
+  std::string wrong =
+      fmt::format("is {:.3g} times the derivative of {}", factor, place(plan_.q + j).column);
   std::string right = "give rad/s and rad (m/s and m) of the same joint, and seconds";
-  if (near(slope, -1.0)) right = "give both the same sign (mapping: sign: -1)";
-  if (near(slope, 1.0 / degree)) wrong += ": its unit looks like degrees per second";
-  if (near(slope, degree)) wrong += ": the position's unit looks like degrees";
-  if (near(slope, 1e3)) wrong += ": the clock looks like milliseconds taken for seconds";
+  if (near(factor, -1.0)) right = "give both the same sign (mapping: sign: -1)";
+  if (near(factor, 1.0 / degree)) wrong += ": its unit looks like degrees per second";
+  if (near(factor, degree)) wrong += ": the position's unit looks like degrees";
+  if (near(factor, 1e3)) wrong += ": the clock looks like milliseconds taken for seconds";
   throw InputError(place(plan_.dq + j), wrong, right);
 }
 

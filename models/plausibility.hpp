@@ -1,6 +1,7 @@
 // Units and signs that cannot be right are refused before they become inertias.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -20,8 +21,8 @@ void check_grid(double grid_rate, double logged_rate);
 
 /// Watches the measured rows of a log, block by block:
 ///  * positions far outside the joint's limits, which fit them in radians if they are degrees;
-///  * logged dq that follows the slope of q with another factor than one (degrees, milliseconds) or
-///    with the opposite sign;
+///  * logged dq that follows the slope of q with another factor than one (degrees, milliseconds),
+///    with the opposite sign, or the slope of another joint's q;
 ///  * an accelerometer whose mean magnitude is not gravity (g as unit, mm/s^2, gravity removed);
 ///  * channels that never change while the joints move, and torques of which none does;
 ///  * readings that no robot has, by orders of magnitude;
@@ -53,13 +54,15 @@ class Plausibility {
     [[nodiscard]] double width() const { return most - least; }
     [[nodiscard]] bool frozen() const { return least == most && least != 0.0; }
   };
-  /// Sums over short spans of the change of q (x) and the integral of dq (y).
+  /// Short spans of the change of q and the integral of dq.
   struct Slope {
-    double xx = 0.0, xy = 0.0, yy = 0.0;
+    double changes = 0.0, integrals = 0.0;  ///< sums of squares over spans
+    double change = 0.0, whole = 0.0;       ///< of q and the integral, of the span that ended last
     int in_span = 0;
     double start = 0.0, integral = 0.0;  ///< of the present span
     double time = 0.0, dq = 0.0;         ///< last row
-    void add(double t, double position, double velocity, double longest_step);
+    /// Whether a span ends here.
+    bool add(double t, double position, double velocity, double longest_step);
   };
 
   /// The last rows of a position.
@@ -75,11 +78,15 @@ class Plausibility {
   }
   [[nodiscard]] Place place(int channel, int line = 0) const;
   void add_gravity(const MeasuredRow& row);
+  void add_slopes(const MeasuredRow& row);
   void add_step(int joint, const MeasuredRow& row);
   void judge_size() const;
   void judge_angle(int joint) const;
   void judge_length(int joint) const;
   void judge_slope(int joint) const;
+  void judge_other_slopes(int joint) const;
+  [[nodiscard]] double slope(int position, int velocity) const;
+  [[nodiscard]] double correlation(int position, int velocity) const;
   void judge_gravity() const;
   [[nodiscard]] bool moves(int j) const;
   void judge_frozen() const;
@@ -91,7 +98,9 @@ class Plausibility {
   std::size_t rows_ = 0;
   std::vector<Range> ranges_;  ///< one a channel
   std::vector<Slope> slopes_;  ///< one a joint
-  std::vector<Steps> steps_;   ///< likewise
+  /// Sums over spans of the change of a position (row) times the integral of a velocity (column).
+  Eigen::MatrixXd products_;
+  std::vector<Steps> steps_;  ///< likewise
   double force_sum_ = 0.0;
   std::size_t force_count_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/tests/motion/example.hpp"
@@ -94,6 +95,19 @@ TEST(Plausibility, UnitsAndSignsThatCannotBeAreNamed) {
   for (const Case& wrong : table) {
     EXPECT_EQ(reception(wrong.spoil, chain(3, Root::fixed)), wrong.message);
   }
+}
+
+TEST(Plausibility, AVelocityOfAnotherJointIsNamed) {
+  const Robot robot = chain(3, Root::fixed);
+  EXPECT_EQ(reception([](Sample& s) { std::swap(s.q[0], s.q[2]); }, robot),
+            "x.csv, column dq.j0: is the derivative of q.j2, and not of q.j0; give position, "
+            "velocity and torque of the same joint one name (mapping)");
+  EXPECT_EQ(reception([](Sample& s) { s.dq[0] = s.dq[2]; }, robot),
+            "x.csv, column dq.j0: is the derivative of q.j2, and not of q.j0; give position, "
+            "velocity and torque of the same joint one name (mapping)");
+  // Legs that move alike tell nothing, nor does a velocity that is none of the joints'.
+  EXPECT_EQ(reception([](Sample& s) { s.q[2] = s.q[0], s.dq[2] = s.dq[0]; }, robot), "accepted");
+  EXPECT_EQ(reception([](Sample& s) { s.dq[1] = std::sin(40.0 * s.time); }, robot), "accepted");
 }
 
 TEST(Plausibility, LengthsAndTurnsThatCannotBeAreNamed) {
