@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -67,36 +66,72 @@ struct KktPoint {
   Vector x;  ///< one entry a passive shape, of any sign
 };
 
-/// The dense KKT system of one step, with m_j = 0 for every shape that is not passive:
+/// (K), the KKT system of one step, with m_j = 0 for every shape that is not passive:
 ///     [ I      B_P ] [ r ]   [ b ]
 ///     [ B_P^T  -I  ] [ x ] = [ 0 ]
-/// Its eigenvalues are +-sqrt(1 + sigma^2), so it is never singular, and B^T B is never formed.
+/// Its eigenvalues are +-sqrt(1 + sigma^2), so it is never singular. It is that of two
+/// least-squares problems, || B_P x - b ||^2 + || x ||^2 in x and || B_P^T r ||^2 + || r - b ||^2
+/// in r; the one with fewer unknowns is factored, and B^T B is never formed.
+class KktSystem {
+ public:
+  explicit KktSystem(const Eigen::MatrixXd& B) : B_is_wide_(B.cols() > B.rows()) {
+    const Eigen::Index unknowns = std::min(B.rows(), B.cols());
+    Eigen::MatrixXd stacked(B.rows() + B.cols(), unknowns);
+    stacked << (B_is_wide_ ? Eigen::MatrixXd(B.transpose()) : B),
+        Eigen::MatrixXd::Identity(unknowns, unknowns);
+    qr_.compute(stacked);
+  }
+
+  /// Solves K [r; x] = [b1; b2].
+  void solve(const Eigen::VectorXd& b1, const Eigen::VectorXd& b2, Eigen::VectorXd& r,
+             Eigen::VectorXd& x) const {
+    if (B_is_wide_) {
+      x = -solve_least_squares(b2, b1, r);
+    } else {
+      r = solve_least_squares(b1, -b2, x);
+    }
+  }
+
+ private:
+  /// Of the stacked matrix's least-squares problem for [top; bottom]: its unknowns, and what it
+  /// leaves of `top`.
+  Eigen::VectorXd solve_least_squares(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom,
+                                      Eigen::VectorXd& unknowns) const {
+    Eigen::VectorXd c(top.size() + bottom.size());
+    c << top, bottom;
+    c.applyOnTheLeft(qr_.householderQ().adjoint());
+    auto head = c.head(bottom.size());
+    unknowns = qr_.matrixQR().topRows(bottom.size()).triangularView<Eigen::Upper>().solve(head);
+    head.setZero();
+    c.applyOnTheLeft(qr_.householderQ());
+    return c.head(top.size());
+  }
+
+  bool B_is_wide_;
+  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
+};
+
 KktPoint solve_kkt(const ScaledProblem& s, const Places& passive) {
   const Eigen::Index k = s.b.size(), p = static_cast<Eigen::Index>(passive.size());
   const Matrix B = s.B(Eigen::all, passive);
-  Eigen::MatrixXd K = Eigen::MatrixXd::Identity(k + p, k + p);
-  K.topRightCorner(k, p) = B.cast<double>();
-  K.bottomLeftCorner(p, k) = K.topRightCorner(k, p).transpose();
-  K.bottomRightCorner(p, p) *= -1;
 
   // Factors in double, residuals in long double: each round gains the digits that the condition
   // leaves (six or more), so a handful reaches the last one. It ends when it no longer gains.
   constexpr int most_rounds = 8;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(K);
+  const KktSystem K(B.cast<double>());
   KktPoint at{Vector::Zero(k), Vector::Zero(p)};
-  Vector rest(k + p);
+  Eigen::VectorXd dr, dx;
   Real last = std::numeric_limits<Real>::infinity();
   for (int round = 0; round < most_rounds; ++round) {
-    rest.head(k) = s.b - at.r - B * at.x;
-    rest.tail(p) = at.x - B.transpose() * at.r;
-    const Vector correction = factors.solve(rest.cast<double>()).cast<Real>();
-    const Real size = correction.norm();
+    const Vector b1 = s.b - at.r - B * at.x, b2 = at.x - B.transpose() * at.r;
+    K.solve(b1.cast<double>(), b2.cast<double>(), dr, dx);
+    const Real size = std::hypot(dr.norm(), dx.norm());
     if (!std::isfinite(size)) {
       throw Refusal("not-finite", "the mass problem's numbers are none, or too large to be solved");
     }
     if (!(size < last / 2)) break;
-    at.r += correction.head(k);
-    at.x += correction.tail(p);
+    at.r += dr.cast<Real>();
+    at.x += dx.cast<Real>();
     last = size;
     if (size <= eps * std::hypot(at.r.norm(), at.x.norm())) break;
   }

@@ -1,5 +1,5 @@
-// Claim C3. The mass problem (15), solved by a primal active-set method whose every step is one
-// dense KKT system. Slow and plain on purpose.
+// Claim C3. The mass problem (15), solved by a primal active-set method whose every step is one KKT
+// system, factored anew. Slow and plain on purpose.
 #pragma once
 
 #include <Eigen/Core>

@@ -157,11 +157,21 @@ struct PartOfCell {
   }
 };
 
-bool lies_in(const Shape& part, const Shape& region, const Rational& rounding) {
-  if (std::visit(PartOfCell{}, part, region)) return true;
-  const std::vector<Vector> corners = std::visit(Corners{}, part);
-  return !corners.empty() && std::all_of(corners.begin(), corners.end(), [&](const Vector& x) {
-    return std::visit(Holds{x, rounding}, region);
+bool lies_in_one(const Region& part, const std::vector<Region>& regions, const Rational& rounding) {
+  const auto is_in = [&](const auto& holds) {
+    return std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
+      return region.link == part.link && holds(region.shape);
+    });
+  };
+  // Most are parts of cells, and comparing bounds costs next to nothing.
+  if (is_in([&](const Shape& whole) { return std::visit(PartOfCell{}, part.shape, whole); })) {
+    return true;
+  }
+  const std::vector<Vector> corners = std::visit(Corners{}, part.shape);
+  return !corners.empty() && is_in([&](const Shape& region) {
+    return std::all_of(corners.begin(), corners.end(), [&](const Vector& x) {
+      return std::visit(Holds{x, rounding}, region);
+    });
   });
 }
 
@@ -174,10 +184,7 @@ Geometry check_geometry(const StatedProblem& p, const Rational& rounding) {
     ++geometry.declared;
     if (why.empty()) ++geometry.agree;
     if (geometry.first_disagreement.empty()) geometry.first_disagreement = why;
-    const bool inside = std::any_of(p.regions.begin(), p.regions.end(), [&](const Region& region) {
-      return region.link == shape.link && lies_in(shape.shape, region.shape, rounding);
-    });
-    if (inside) ++geometry.inside;
+    if (lies_in_one(shape, p.regions, rounding)) ++geometry.inside;
   }
   return geometry;
 }

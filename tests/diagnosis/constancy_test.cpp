@@ -29,13 +29,13 @@ Tally of_a_number_that_follows_the_position(const AppliedEffect& hypothesis) {
     block.reference = b < 40;
     block.samples = 50;
     block.freedom = 50.0;
-    Eigen::MatrixXd rows(50, 4);
-    for (auto row : rows.rowwise()) {
+    Eigen::MatrixXd M(50, 4);
+    for (auto row : M.rowwise()) {
       const double column = 1.0 + 0.1 * normal(random), position = normal(random);
       row << normal(random), column, column * position,
           0.1 * normal(random) + (block.reference ? 0.0 : 0.4 * column * position);
     }
-    block.sums = rows.transpose() * rows;
+    block.sums = M.transpose() * M;
     tally.blocks.push_back(block);
   }
   return tally;
