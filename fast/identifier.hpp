@@ -54,13 +54,12 @@ struct WindowAnswer {
 };
 
 /// What `reference::OnlineIdentifier` does, on compressed windows. After construction nothing
-/// throws or allocates, and the work of a call is bounded, both but for the division of polyhedra
-/// (PartTree), whose parts have more corners with every cut. Torques are those of the links: what
-/// rotors take is taken off before (rotor_inertias() times ddq), as a log's reader does. Can be
-/// neither copied nor moved. A division by zero may happen in it and be put right: traps of
-/// floating-point must be off. Unlike there, a window is declined whose forces and torques are, as
-/// a root mean square, beyond a hundred times the weight of all links (torques: at a metre): it
-/// would leave its scale to lambda.
+/// throws, nothing allocates but the division of polyhedra (PartTree), and the work of a call is
+/// bounded. Torques are those of the links: what rotors take is taken off before (rotor_inertias()
+/// times ddq), as a log's reader does. Can be neither copied nor moved. A division by zero may
+/// happen in it and be put right: traps of floating-point must be off. Unlike there, a window is
+/// declined whose forces and torques are, as a root mean square, beyond a hundred times the weight
+/// of all links (torques: at a metre): it would leave its scale to lambda.
 class Identifier {
  public:
   /// Copies what it needs. Throws InputError for settings that make no sense, and for a model that

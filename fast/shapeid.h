@@ -138,9 +138,7 @@ void shapeid_set_base(const shapeid_identifier* identifier, const double gyro[3]
  * answer, lambda, filter (17) and the masses to start at stay. Does nothing for NULL. */
 void shapeid_forget_samples(shapeid_identifier* identifier);
 
-/** Takes a sample; when a window is complete, solves. Bounded work, but for the division of
- * polyhedra, whose parts have more corners with every cut: seconds after dozens of cuts. Needs some
- * 40 kB of stack. */
+/** Takes a sample; when a window is complete, solves. Bounded work. Needs some 40 kB of stack. */
 shapeid_status shapeid_feed(shapeid_identifier* identifier, const shapeid_sample* sample);
 
 /** How the last window that was complete ended. */

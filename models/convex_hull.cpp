@@ -31,20 +31,9 @@ class Hull {
 
   /// The hull's faces, on the points that they use.
   [[nodiscard]] Polyhedron polyhedron() const {
-    Polyhedron result;
-    std::vector<int> index(points_.size(), -1);
-    for (Face face : faces_) {
-      for (int& v : face) {
-        int& known = index[static_cast<std::size_t>(v)];
-        if (known < 0) {
-          known = static_cast<int>(result.vertices.size());
-          result.vertices.push_back(at(v));
-        }
-        v = known;
-      }
-      result.faces.push_back(face);
-    }
-    return result;
+    Polyhedron result{points_, {}};
+    for (const Face& face : faces_) result.sides.emplace_back(face.begin(), face.end());
+    return without_unused_vertices(result);
   }
 
  private:

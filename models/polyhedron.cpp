@@ -15,18 +15,43 @@ namespace {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-/// The corners of face `f` as seen from `origin`.
-Triangle corners(const Polyhedron& p, std::size_t f, const Eigen::Vector3d& origin) {
+/// The corners of a triangle as seen from `origin`.
+Triangle corners(const Polyhedron& p, const std::array<int, 3>& face,
+                 const Eigen::Vector3d& origin) {
   const auto at = [&](int i) -> Eigen::Vector3d {
     return p.vertices[static_cast<std::size_t>(i)] - origin;
   };
-  return {at(p.faces[f][0]), at(p.faces[f][1]), at(p.faces[f][2])};
+  return {at(face[0]), at(face[1]), at(face[2])};
 }
 
 /// Six times the volume of the tetrahedron between a triangle and the origin.
 double six_volumes(const Triangle& t) { return t[0].dot(t[1].cross(t[2])); }
 
 }  // namespace
+
+std::vector<std::array<int, 3>> triangles(const Polyhedron& p) {
+  std::vector<std::array<int, 3>> faces;
+  for (const std::vector<int>& side : p.sides) {
+    for (std::size_t i = 2; i < side.size(); ++i) faces.push_back({side[0], side[i - 1], side[i]});
+  }
+  return faces;
+}
+
+Polyhedron without_unused_vertices(const Polyhedron& p) {
+  Polyhedron result{{}, p.sides, p.convex};
+  std::vector<int> index(p.vertices.size(), -1);
+  for (std::vector<int>& side : result.sides) {
+    for (int& v : side) {
+      int& known = index[static_cast<std::size_t>(v)];
+      if (known < 0) {
+        known = static_cast<int>(result.vertices.size());
+        result.vertices.push_back(p.vertices[static_cast<std::size_t>(v)]);
+      }
+      v = known;
+    }
+  }
+  return result;
+}
 
 Eigen::Vector3d vertex_mean(const std::vector<Eigen::Vector3d>& vertices) {
   // As seen from the first one, so that a small solid far away keeps its digits.
@@ -61,19 +86,23 @@ std::vector<std::pair<int, int>> open_edges(const std::vector<std::array<int, 3>
 }
 
 Violation why_malformed(const Polyhedron& p) {
-  if (p.faces.size() < 4) return "a closed surface has at least four faces";
+  if (p.sides.size() < 4) return "a closed surface has at least four faces";
   for (const Eigen::Vector3d& v : p.vertices) {
     if (!v.allFinite()) return "a vertex is not finite";
   }
+  for (const std::vector<int>& side : p.sides) {
+    if (side.size() < 3) return "a face has fewer than three vertices";
+  }
   const int count = static_cast<int>(p.vertices.size());
-  for (const auto& [a, b, c] : p.faces) {
+  const auto faces = triangles(p);
+  for (const auto& [a, b, c] : faces) {
     if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= count) {
       return fmt::format("a face names a vertex that is none of the {}", count);
     }
     if (a == b || b == c || c == a)
       return fmt::format("a face names vertex {} twice", a == b ? a : c);
   }
-  if (const auto open = open_edges(p.faces); !open.empty()) {
+  if (const auto open = open_edges(faces); !open.empty()) {
     return fmt::format(
         "the surface is open or inconsistently oriented at {} edges, first between vertices {} and "
         "{}",
@@ -84,8 +113,8 @@ Violation why_malformed(const Polyhedron& p) {
   const Eigen::Vector3d o = vertex_mean(p.vertices);
   double sum = 0.0;
   double size = 0.0;
-  for (std::size_t f = 0; f < p.faces.size(); ++f) {
-    const Triangle t = corners(p, f, o);
+  for (const auto& face : faces) {
+    const Triangle t = corners(p, face, o);
     sum += six_volumes(t);
     size += t[0].norm() * t[1].norm() * t[2].norm();
   }
@@ -101,11 +130,12 @@ Violation why_malformed(const Polyhedron& p) {
 }
 
 Moments moments(const Polyhedron& p) {
+  const auto faces = triangles(p);
   Eigen::Vector3d o = vertex_mean(p.vertices);
   double six = 0.0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  for (std::size_t f = 0; f < p.faces.size(); ++f) {
-    const Triangle t = corners(p, f, o);
+  for (const auto& face : faces) {
+    const Triangle t = corners(p, face, o);
     const double w = six_volumes(t);
     six += w;
     first += w * (t[0] + t[1] + t[2]) / 4.0;
@@ -114,8 +144,8 @@ Moments moments(const Polyhedron& p) {
 
   // A second round about the centroid itself: nothing has to be shifted, so nothing cancels.
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  for (std::size_t f = 0; f < p.faces.size(); ++f) {
-    const Triangle t = corners(p, f, o);
+  for (const auto& face : faces) {
+    const Triangle t = corners(p, face, o);
     const Eigen::Vector3d s = t[0] + t[1] + t[2];
     second += six_volumes(t) / 20.0 *
               (s * s.transpose() + t[0] * t[0].transpose() + t[1] * t[1].transpose() +
@@ -128,10 +158,11 @@ bool is_convex(const Polyhedron& p) {
   // Mesh files carry single precision: facets that were drawn plane are bent by so much.
   const double slack = 1e-6 * extent(p.vertices);
 
+  const auto faces = triangles(p);
   std::map<std::pair<int, int>, std::size_t> face_of;  // directed edge -> the face left of it
-  for (std::size_t f = 0; f < p.faces.size(); ++f) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!face_of.emplace(std::pair(p.faces[f][i], p.faces[f][(i + 1) % 3]), f).second) {
+      if (!face_of.emplace(std::pair(faces[f][i], faces[f][(i + 1) % 3]), f).second) {
         return false;  // more than two faces meet in an edge
       }
     }
@@ -139,17 +170,17 @@ bool is_convex(const Polyhedron& p) {
 
   // No neighbour's far corner may rise above a face, and neighbours must lead to every face; to the
   // first one as well, which starts.
-  std::vector<bool> reached(p.faces.size(), false);
+  std::vector<bool> reached(faces.size(), false);
   std::vector<std::size_t> waiting = {0};
   while (!waiting.empty()) {
     const std::size_t f = waiting.back();
     waiting.pop_back();
-    const Eigen::Vector3d& a = p.vertices[static_cast<std::size_t>(p.faces[f][0])];
-    const Triangle t = corners(p, f, a);
+    const Eigen::Vector3d& a = p.vertices[static_cast<std::size_t>(faces[f][0])];
+    const Triangle t = corners(p, faces[f], a);
     const Eigen::Vector3d normal = t[1].cross(t[2]).normalized();
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t g = face_of.at({p.faces[f][(i + 1) % 3], p.faces[f][i]});
-      for (const Eigen::Vector3d& v : corners(p, g, a)) {
+      const std::size_t g = face_of.at({faces[f][(i + 1) % 3], faces[f][i]});
+      for (const Eigen::Vector3d& v : corners(p, faces[g], a)) {
         if (normal.dot(v) > slack) return false;
       }
       if (!reached[g]) waiting.push_back(g);

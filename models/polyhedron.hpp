@@ -1,4 +1,4 @@
-// Solids bounded by triangles: integrals, topology, cuts. Private to the shapes.
+// Solids bounded by plane sides: integrals, topology, cuts. Private to the shapes.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ namespace shapeid {
 /// Empty if indices, numbers, closure, orientation and volume are in order.
 [[nodiscard]] Violation why_malformed(const Polyhedron& polyhedron);
 
-/// Exact integrals over the tetrahedra between the faces and a point amid the solid.
+/// Exact integrals over the tetrahedra between the triangles and a point amid the solid.
 [[nodiscard]] Moments moments(const Polyhedron& polyhedron);
 
 /// Whether no edge is re-entrant by more than single precision of the size, in one piece.
@@ -28,8 +28,8 @@ namespace shapeid {
 /// lowest axis. Its largest component is positive.
 [[nodiscard]] Eigen::Vector3d longest_direction(const Polyhedron& polyhedron);
 
-/// Cuts a convex solid across `direction` so that the lower part holds `fraction` of the volume.
-/// Empty if the solid is too thin for that.
+/// Cuts a convex solid across the unit vector `direction` so that the lower part holds `fraction`
+/// of the volume. Empty if the solid is too thin for that.
 [[nodiscard]] std::optional<std::pair<Polyhedron, Polyhedron>> cut(const Polyhedron& polyhedron,
                                                                    const Eigen::Vector3d& direction,
                                                                    double fraction);
@@ -38,6 +38,9 @@ namespace shapeid {
 /// for a closed surface, once for each time that an edge is missing its way back.
 [[nodiscard]] std::vector<std::pair<int, int>> open_edges(
     const std::vector<std::array<int, 3>>& faces);
+
+/// The same without the vertices that no side names; the others in the order in which sides do.
+[[nodiscard]] Polyhedron without_unused_vertices(const Polyhedron& polyhedron);
 
 /// The mean of the vertices: a point amid the solid, from where its numbers are small.
 [[nodiscard]] Eigen::Vector3d vertex_mean(const std::vector<Eigen::Vector3d>& vertices);

@@ -37,7 +37,7 @@ double distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
 bool contains(const Polyhedron& p, const Eigen::Vector3d& point, double slack) {
   double wound = 0.0;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& face : p.faces) {
+  for (const auto& face : triangles(p)) {
     const Eigen::Vector3d a = p.vertices[static_cast<std::size_t>(face[0])] - point;
     const Eigen::Vector3d b = p.vertices[static_cast<std::size_t>(face[1])] - point;
     const Eigen::Vector3d c = p.vertices[static_cast<std::size_t>(face[2])] - point;

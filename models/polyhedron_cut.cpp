@@ -12,22 +12,18 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// A part and the area of the plane section that closes it, m^2.
-struct Part {
-  Polyhedron solid;
-  double section = 0.0;
-};
-
-/// Builds the part of `whole` whose vertices have negative height.
+/// Builds the part of `whole` whose vertices have negative height. Sides are clipped whole, not in
+/// triangles: the next cut would meet the edges between those and leave corners on them.
 class Clipper {
  public:
   Clipper(const Polyhedron& whole, const std::vector<double>& height)
       : whole_(whole), height_(height), copy_of_(whole.vertices.size(), -1) {}
 
-  Part clip() {
-    for (const auto& face : whole_.faces) clip_face(face);
+  Polyhedron clip() {
+    for (const std::vector<int>& side : whole_.sides) clip_side(side);
     close();
-    return std::move(part_);
+    drop_vertices_of_two_sides();
+    return without_unused_vertices(part_);
   }
 
  private:
@@ -40,7 +36,7 @@ class Clipper {
     return index;
   }
 
-  /// Where edge ab meets the plane: once for both faces of the edge, and computed from its lower
+  /// Where edge ab meets the plane: once for both sides of the edge, and computed from its lower
   /// vertex, so that the parts on both sides agree to the last bit.
   int crossing(int a, int b) {
     const std::pair<int, int> edge = std::minmax(a, b);
@@ -53,36 +49,30 @@ class Clipper {
   }
 
   int add(const Eigen::Vector3d& vertex) {
-    part_.solid.vertices.push_back(vertex);
-    return static_cast<int>(part_.solid.vertices.size()) - 1;
+    part_.vertices.push_back(vertex);
+    return static_cast<int>(part_.vertices.size()) - 1;
   }
 
-  void clip_face(const std::array<int, 3>& face) {
-    // A face that only touches the plane from above leaves nothing.
-    if (std::none_of(face.begin(), face.end(), [&](int v) { return height(v) < 0.0; })) return;
-    std::vector<int> polygon;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const int a = face[i];
-      const int b = face[(i + 1) % 3];
-      if (height(a) <= 0.0) polygon.push_back(copy(a));
+  void clip_side(const std::vector<int>& side) {
+    // A side that only touches the plane from above leaves nothing.
+    if (std::none_of(side.begin(), side.end(), [&](int v) { return height(v) < 0.0; })) return;
+    std::vector<int> clipped;
+    for (std::size_t i = 0; i < side.size(); ++i) {
+      const int a = side[i];
+      const int b = side[(i + 1) % side.size()];
+      if (height(a) <= 0.0) clipped.push_back(copy(a));
       if ((height(a) < 0.0 && height(b) > 0.0) || (height(a) > 0.0 && height(b) < 0.0)) {
-        polygon.push_back(crossing(a, b));
+        clipped.push_back(crossing(a, b));
       }
     }
-    fan(polygon);
-  }
-
-  void fan(const std::vector<int>& polygon) {
-    for (std::size_t i = 2; i < polygon.size(); ++i) {
-      part_.solid.faces.push_back({polygon[0], polygon[i - 1], polygon[i]});
-    }
+    part_.sides.push_back(std::move(clipped));
   }
 
   /// The edges that clipping left open run around the section. Closing follows them backwards, by
   /// index alone: whatever the roundings are, the result is closed.
   void close() {
     std::multimap<int, int> next;
-    for (const auto& [a, b] : open_edges(part_.solid.faces)) next.emplace(b, a);
+    for (const auto& [a, b] : open_edges(triangles(part_))) next.emplace(b, a);
     while (!next.empty()) {
       std::vector<int> loop = {next.begin()->first};
       for (auto step = next.find(loop.back()); step != next.end(); step = next.find(loop.back())) {
@@ -90,28 +80,64 @@ class Clipper {
         next.erase(step);
       }
       loop.pop_back();  // the first vertex again
-      fan(loop);
-      part_.section += area(loop);
+      part_.sides.push_back(std::move(loop));
     }
   }
 
-  [[nodiscard]] double area(const std::vector<int>& loop) const {
-    const auto at = [&](int v) -> const Eigen::Vector3d& {
-      return part_.solid.vertices[static_cast<std::size_t>(v)];
-    };
-    Eigen::Vector3d twice = Eigen::Vector3d::Zero();
-    for (std::size_t i = 2; i < loop.size(); ++i) {
-      twice += (at(loop[i - 1]) - at(loop[0])).cross(at(loop[i]) - at(loop[0]));
+  /// A side that rounding leaves in the plane but for a corner has edge after edge in common with
+  /// the section, and no third side ends between these. Both go without such vertices, which moves
+  /// the surface by roundings.
+  void drop_vertices_of_two_sides() {
+    std::vector<int> sides_at(part_.vertices.size(), 0);
+    for (const std::vector<int>& side : part_.sides) {
+      for (const int v : side) ++sides_at[static_cast<std::size_t>(v)];
     }
-    return 0.5 * twice.norm();
+    for (std::vector<int>& side : part_.sides) {
+      std::erase_if(side, [&](int v) { return sides_at[static_cast<std::size_t>(v)] == 2; });
+    }
   }
 
   const Polyhedron& whole_;
   const std::vector<double>& height_;
   std::vector<int> copy_of_;
   std::map<std::pair<int, int>, int> crossing_of_;
-  Part part_;
+  Polyhedron part_;
 };
+
+/// What lies below a plane: its volume, m^3, and the area of the section that bounds it, m^2.
+struct Below {
+  double volume;
+  double section;
+};
+
+/// Without building the part. Seen from a point of the plane the section adds no volume; and the
+/// area vectors of a closed surface sum to zero, so that the other sides tell the section's.
+Below below(const Polyhedron& whole, const std::vector<double>& height, double level,
+            const Eigen::Vector3d& direction, const Eigen::Vector3d& on_plane) {
+  double six = 0.0;
+  Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> clipped;
+  for (const std::vector<int>& side : whole.sides) {
+    clipped.clear();
+    for (std::size_t i = 0; i < side.size(); ++i) {
+      const auto a = static_cast<std::size_t>(side[i]);
+      const auto b = static_cast<std::size_t>(side[(i + 1) % side.size()]);
+      const double from = height[a] - level;
+      const double to = height[b] - level;
+      const Eigen::Vector3d corner = whole.vertices[a] - on_plane;
+      if (from < 0.0) clipped.push_back(corner);
+      if ((from < 0.0) != (to < 0.0)) {
+        clipped.push_back(corner + from / (from - to) * (whole.vertices[b] - whole.vertices[a]));
+      }
+    }
+    for (std::size_t i = 2; i < clipped.size(); ++i) {
+      const Eigen::Vector3d triangle = (clipped[i - 1] - clipped[0]).cross(clipped[i] - clipped[0]);
+      six += clipped[0].dot(triangle);
+      twice_area += triangle;
+    }
+  }
+  return {six / 6.0, -0.5 * direction.dot(twice_area)};
+}
 
 /// Heights of vertices above a plane, zero where the distance is no more than their own rounding.
 std::vector<double> above(const std::vector<double>& height, double level, double rounding) {
@@ -134,9 +160,6 @@ std::optional<std::pair<Polyhedron, Polyhedron>> cut(const Polyhedron& p,
     reach = std::max(reach, v.cwiseAbs().maxCoeff());
   }
   const double rounding = 2.0 * eps * reach;
-  const auto below = [&](double level) {
-    return Clipper(p, above(height, level, rounding)).clip();
-  };
   const auto [lowest, highest] = std::minmax_element(height.begin(), height.end());
   double low = *lowest;
   double high = *highest;
@@ -149,12 +172,11 @@ std::optional<std::pair<Polyhedron, Polyhedron>> cut(const Polyhedron& p,
   double level = low + fraction * (high - low);
   double last_step = high - low;
   for (int i = 0; i < most_steps; ++i) {
-    const Part part = below(level);
-    const double held = part.solid.faces.empty() ? 0.0 : moments(part.solid).volume;
-    const double excess = held - fraction * volume;
+    const Below held = below(p, height, level, direction, o + level * direction);
+    const double excess = held.volume - fraction * volume;
     if (std::abs(excess) <= eps * volume) break;
     (excess > 0.0 ? high : low) = level;
-    double next = level - excess / part.section;
+    double next = level - excess / held.section;
     if (!(low < next && next < high) || std::abs(next - level) > 0.5 * std::abs(last_step)) {
       next = 0.5 * (low + high);
     }
@@ -164,11 +186,11 @@ std::optional<std::pair<Polyhedron, Polyhedron>> cut(const Polyhedron& p,
   }
 
   std::vector<double> upward = above(height, level, rounding);
-  Part lower = Clipper(p, upward).clip();
+  Polyhedron lower = Clipper(p, upward).clip();
   for (double& h : upward) h = -h;
-  Part upper = Clipper(p, upward).clip();
-  if (why_malformed(lower.solid) || why_malformed(upper.solid)) return std::nullopt;
-  return std::pair(std::move(lower.solid), std::move(upper.solid));
+  Polyhedron upper = Clipper(p, upward).clip();
+  if (why_malformed(lower) || why_malformed(upper)) return std::nullopt;
+  return std::pair(std::move(lower), std::move(upper));
 }
 
 }  // namespace shapeid

@@ -174,7 +174,8 @@ Shape make_ellipsoid(const Eigen::Vector3d& semi_axes, const Eigen::Isometry3d& 
 Shape make_mesh(std::vector<Eigen::Vector3d> vertices, std::vector<std::array<int, 3>> faces,
                 const Eigen::Isometry3d& pose) {
   for (Eigen::Vector3d& v : vertices) v = pose * v;
-  Polyhedron polyhedron{std::move(vertices), std::move(faces)};
+  Polyhedron polyhedron{std::move(vertices), {}};
+  for (const auto& face : faces) polyhedron.sides.emplace_back(face.begin(), face.end());
   if (const Violation why = why_malformed(polyhedron)) {
     throw std::invalid_argument(fmt::format("mesh: {}", *why));
   }

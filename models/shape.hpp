@@ -47,11 +47,13 @@ struct Ellipsoid {
   Cell cell;
 };
 
-/// A closed surface of triangles, counter-clockwise seen from outside, in link coordinates (m).
-/// Convex solids divide; a closed mesh that is not convex is allowed, and refuses to divide.
+/// A closed surface of plane sides, each a loop of vertices, counter-clockwise seen from outside,
+/// in link coordinates (m). A mesh and a hull have a side for each triangle; a cut shortens sides
+/// or takes them away, and adds one. Convex solids divide; a closed mesh that is not convex is
+/// allowed, and refuses to divide.
 struct Polyhedron {
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<std::array<int, 3>> faces;
+  std::vector<std::vector<int>> sides;
   bool convex = true;
 };
 
@@ -99,6 +101,9 @@ struct Moments {
 /// Equations (10)-(13): the ten parameters of the shape with unit mass and uniform density, about
 /// the link origin in link axes. Times its mass this is the shape's share of the link's Phi (14).
 [[nodiscard]] InertialParameters unit_parameters(const Shape& shape);
+
+/// The surface in triangles: each side fanned from its first vertex.
+[[nodiscard]] std::vector<std::array<int, 3>> triangles(const Polyhedron& polyhedron);
 
 /// Whether a point of the link frame lies inside or on the boundary. With slack (m), also whether
 /// the point of the shape with the nearest coordinates of its cell is no farther away than that.

@@ -19,7 +19,7 @@ struct Writer {
   json operator()(const Polyhedron& s) const {
     json vertices = json::array();
     for (const Eigen::Vector3d& v : s.vertices) vertices.push_back(vector_json(v));
-    return {{"vertices", vertices}, {"faces", s.faces}, {"convex", s.convex}};
+    return {{"vertices", vertices}, {"faces", triangles(s)}, {"convex", s.convex}};
   }
   json operator()(const Point& s) const {
     return {{"position", vector_json(s.position)}, {"nominal_volume", s.nominal_volume}};
@@ -54,11 +54,11 @@ Shape polyhedron(const json& object, const std::string& key, const JsonSource& s
     if (!face.is_array() || face.size() != 3) {
       throw InputError({source.name, 0, "faces"}, "not three numbers", "indices of three vertices");
     }
-    std::array<int, 3> corners{};
+    std::vector<int> corners(3);
     for (std::size_t i = 0; i < 3; ++i) {
       corners[i] = static_cast<int>(count(face[i], V.rows() - 1, "faces", source));
     }
-    shape.faces.push_back(corners);
+    shape.sides.push_back(std::move(corners));
   }
   const json& convex = member(object, "convex", source);
   if (!convex.is_boolean()) throw InputError({source.name, 0, "convex"}, "no", "true or false");

@@ -114,7 +114,7 @@ struct Integrals {
   /// determinant, 1/6, s/24 and (s s^T + a a^T + b b^T + c c^T)/120.
   std::optional<Second> operator()(const Polyhedron& s) const {
     std::array<std::array<Rational, 4>, 4> M;
-    for (const auto& face : s.faces) {
+    for (const auto& face : triangles(s)) {
       std::array<Vector, 3> x;
       for (std::size_t i = 0; i < 3; ++i) {
         x[i] = exact(Eigen::VectorXd(s.vertices[static_cast<std::size_t>(face[i])]));

@@ -128,7 +128,7 @@ struct Holds {
       for (std::size_t i = 0; i < 3; ++i) inner[i] += corner[i] / Rational(s.vertices.size());
     }
     for (std::size_t i = 0; i < 3; ++i) y[i] += rounding * (inner[i] - x[i]);
-    for (const auto& face : s.faces) {
+    for (const auto& face : triangles(s)) {
       const auto corner = [&](std::size_t i) {
         return exact3(s.vertices[static_cast<std::size_t>(face[i])]);
       };
@@ -148,7 +148,7 @@ struct PartOfCell {
            (part.cell.upper.array() <= whole.cell.upper.array()).all();
   }
   bool operator()(const Polyhedron& part, const Polyhedron& whole) const {
-    return part.vertices == whole.vertices && part.faces == whole.faces;
+    return part.vertices == whole.vertices && part.sides == whole.sides;
   }
   bool operator()(const Point&, const Point&) const { return false; }
   template <class Part, class Whole>

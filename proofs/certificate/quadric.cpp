@@ -160,7 +160,7 @@ Surface prism(const Rational& radius, const Rational& lower, const Rational& upp
 Surface surface_of(const Polyhedron& s) {
   Surface surface;
   for (const Eigen::Vector3d& vertex : s.vertices) surface.corners.push_back(exact3(vertex));
-  for (const auto& f : s.faces) {
+  for (const auto& f : triangles(s)) {
     surface.triangles.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) {
       surface.triangles.back()[i] = static_cast<std::size_t>(f[i]);

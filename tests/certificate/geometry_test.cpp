@@ -127,7 +127,7 @@ TEST(Geometry, AMeshHoldsItself) {
                        Eigen::Isometry3d::Identity()));
   star.convex = false;
   Polyhedron other = star;
-  std::swap(other.faces[0], other.faces[1]);
+  std::swap(other.sides[0], other.sides[1]);
   EXPECT_EQ(check_geometry(of_shapes({star}, star), rounding).inside, 1);
   EXPECT_EQ(check_geometry(of_shapes({star}, other), rounding).inside, 0);
   other = star;

@@ -4,9 +4,13 @@
 #include <rapidcheck/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "shapeid/models/shape.hpp"
 #include "shapeid/tests/support/generators.hpp"
@@ -65,7 +69,7 @@ RC_GTEST_PROP(Polyhedron, HullOfABoxIsTheCuboid, ()) {
   const Shape hull = make_convex_hull(box_points(sides, *rc::gen::inRange(1, 4)), pose);
   check_same(hull, make_cuboid(sides, pose));
   RC_ASSERT(std::get<Polyhedron>(hull).vertices.size() == 8U);
-  RC_ASSERT(std::get<Polyhedron>(hull).faces.size() == 12U);
+  RC_ASSERT(std::get<Polyhedron>(hull).sides.size() == 12U);
 }
 
 RC_GTEST_PROP(Polyhedron, PartsOfABoxAreCuboids, ()) {
@@ -97,7 +101,7 @@ RC_GTEST_PROP(Polyhedron, DefaultDivisionOfABoxIsTheCuboids, ()) {
 RC_GTEST_PROP(Polyhedron, MeshAndHullOfTheSameBodyAgree, ()) {
   const Shape hull = *test::convex_polyhedron();
   const auto& solid = std::get<Polyhedron>(hull);
-  const Shape mesh = make_mesh(solid.vertices, solid.faces, Eigen::Isometry3d::Identity());
+  const Shape mesh = make_mesh(solid.vertices, triangles(solid), Eigen::Isometry3d::Identity());
   RC_ASSERT(divisible(mesh));
   check_same(mesh, hull);
   check_same(make_convex_hull(solid.vertices, Eigen::Isometry3d::Identity()), hull);
@@ -129,6 +133,60 @@ RC_GTEST_PROP(Polyhedron, DivisionKeepsVertices, ()) {
   for (const Eigen::Vector3d& v : std::get<Polyhedron>(whole).vertices) {
     RC_ASSERT(holds(lower, v) || holds(upper, v));
   }
+}
+
+// Halves of halves to the end of doubles, some 150 of them: a part has no sides but those of the
+// whole and one for each cut, and three of them or more meet in every vertex, so that there are no
+// more vertices than Euler allows.
+RC_GTEST_PROP(Polyhedron, CutsAddOneSideAndNoCornersElsewhere, ()) {
+  const Shape whole = *test::convex_polyhedron();
+  const auto turns = *rc::gen::container<std::vector<bool>>(200, rc::gen::arbitrary<bool>());
+  std::size_t most_sides = std::get<Polyhedron>(whole).sides.size();
+  std::optional<std::pair<Shape, Shape>> parts = parts_if_any(whole);
+  for (std::size_t cuts = 0; parts; ++cuts) {
+    ++most_sides;
+    for (const Shape& part : {parts->first, parts->second}) {
+      const auto& solid = std::get<Polyhedron>(part);
+      RC_ASSERT(solid.sides.size() <= most_sides);
+      RC_ASSERT(solid.vertices.size() <= 2 * (solid.sides.size() - 2));
+    }
+    parts = parts_if_any(turns.at(cuts) ? parts->second : parts->first);
+  }
+}
+
+// The largest part is halved again and again, as where mass is everywhere: vertices are rounded by
+// every cut, and the parts still make up the whole.
+RC_GTEST_PROP(Polyhedron, PartsOfManyCutsAddUp, ()) {
+  constexpr int cuts = 60;
+  const Shape whole = *test::convex_polyhedron();
+  std::vector<Shape> parts = {whole};
+  for (int cut = 0; cut < cuts; ++cut) {
+    const auto largest =
+        std::max_element(parts.begin(), parts.end(),
+                         [](const Shape& a, const Shape& b) { return volume(a) < volume(b); });
+    auto [lower, upper] = divide(*largest);
+    *largest = std::move(lower);
+    parts.push_back(std::move(upper));
+  }
+
+  const Moments m = moments(whole);
+  double sum = 0.0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  for (const Shape& part : parts) {
+    const Moments p = moments(part);
+    const double share = p.volume / m.volume;
+    const Eigen::Vector3d offset = p.centroid - m.centroid;
+    sum += share;
+    first += share * offset;
+    second += share * (p.covariance + offset * offset.transpose());
+  }
+  const double size = own_size(whole);
+  const double rounding = test::volume_rounding(whole);
+  RC_ASSERT(scaled(std::abs(sum - 1.0), rounding, cuts) < few_hundred_eps);
+  RC_ASSERT(scaled(first.norm(), reach(whole) * rounding, cuts) < few_hundred_eps);
+  RC_ASSERT(scaled((second - m.covariance).norm(), size * (size + reach(whole)) * rounding, cuts) <
+            few_hundred_eps);
 }
 
 // Every direction ties, in any pose: link axis x wins.
@@ -166,7 +224,7 @@ RC_GTEST_PROP(Polyhedron, PartsScaleWithTheSolid, ()) {
        {std::pair(parts.first, others.first), std::pair(parts.second, others.second)}) {
     const auto& a = std::get<Polyhedron>(part);
     const auto& b = std::get<Polyhedron>(scaled_part);
-    RC_ASSERT(a.faces == b.faces);
+    RC_ASSERT(a.sides == b.sides);
     RC_ASSERT(a.vertices.size() == b.vertices.size());
     for (std::size_t i = 0; i < a.vertices.size(); ++i) {
       RC_ASSERT(scale * a.vertices[i] == b.vertices[i]);
@@ -212,6 +270,15 @@ Shape notched() {
   return make_mesh(vertices, faces, Eigen::Isometry3d::Identity());
 }
 
+// It has no triangle, so that the surface would be closed without it.
+TEST(Polyhedron, SideOfTwoVerticesIsNone) {
+  auto box = std::get<Polyhedron>(
+      make_convex_hull(box_points({0.2, 0.3, 0.4}, 1), Eigen::Isometry3d::Identity()));
+  EXPECT_FALSE(why_malformed(Shape(box)));
+  box.sides.push_back({0, 1});
+  EXPECT_EQ(why_malformed(Shape(box)), "a face has fewer than three vertices");
+}
+
 TEST(Polyhedron, NotConvexMeshHasMomentsButDoesNotDivide) {
   const Shape mesh = notched();
   EXPECT_FALSE(divisible(mesh));
@@ -250,7 +317,7 @@ TEST(Polyhedron, TwoPiecesAreNotConvex) {
         make_convex_hull(box_points({0.2, 0.3, 0.4}, 1), Eigen::Isometry3d::Identity()));
     const int first = static_cast<int>(vertices.size());
     for (const auto& v : box.vertices) vertices.push_back(v + offset * Eigen::Vector3d::UnitX());
-    for (const auto& [a, b, c] : box.faces) faces.push_back({a + first, b + first, c + first});
+    for (const auto& [a, b, c] : triangles(box)) faces.push_back({a + first, b + first, c + first});
   }
   EXPECT_FALSE(divisible(make_mesh(vertices, faces, Eigen::Isometry3d::Identity())));
 }

@@ -115,7 +115,7 @@ Moments over_surface(const Polyhedron& solid) {
   const Vector origin = solid.vertices.front().cast<Real>();
   const std::vector<Node> line = nodes(4, 0.0L, 1.0L);  // exact to degree seven
   Sums sums;
-  for (const auto& face : solid.faces) {
+  for (const auto& face : triangles(solid)) {
     const auto at = [&](int i) -> Vector {
       return solid.vertices[static_cast<std::size_t>(i)].cast<Real>() - origin;
     };
@@ -144,7 +144,7 @@ Moments integrated(const Shape& shape) {
       [](const auto& s) -> Moments {
         if constexpr (requires { s.cell; }) {
           return over_cell(s);
-        } else if constexpr (requires { s.faces; }) {
+        } else if constexpr (requires { s.sides; }) {
           return over_surface(s);
         } else {
           throw std::invalid_argument("there is nothing to integrate over a point");

@@ -17,9 +17,9 @@ void showValue(const Shape& shape, std::ostream& out) {
           out << "\ncell " << s.cell.lower.transpose() << " to " << s.cell.upper.transpose()
               << "\nframe\n"
               << s.frame.matrix();
-        } else if constexpr (requires { s.faces; }) {
+        } else if constexpr (requires { s.sides; }) {
           for (const auto& v : s.vertices) out << "\nvertex " << v.transpose();
-          for (const auto& f : s.faces) out << "\nface " << f[0] << ' ' << f[1] << ' ' << f[2];
+          for (const auto& f : triangles(s)) out << "\nface " << f[0] << ' ' << f[1] << ' ' << f[2];
         } else {
           out << " at " << s.position.transpose();
         }
@@ -100,8 +100,9 @@ Eigen::Vector3d inside(const Ellipsoid& ellipsoid, const Eigen::Vector3d& where)
 Eigen::Vector3d inside(const Polyhedron& solid, const Eigen::Vector3d& where) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const auto& v : solid.vertices) middle += v / static_cast<double>(solid.vertices.size());
-  const double face_count = static_cast<double>(solid.faces.size());
-  const auto& face = solid.faces[static_cast<std::size_t>(where[0] * face_count)];
+  const auto faces = triangles(solid);
+  const double face_count = static_cast<double>(faces.size());
+  const auto& face = faces[static_cast<std::size_t>(where[0] * face_count)];
   const auto at = [&](int i) { return solid.vertices[static_cast<std::size_t>(i)]; };
   const double s = std::sqrt(where[1]);
   const Eigen::Vector3d on_face =
