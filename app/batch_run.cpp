@@ -266,7 +266,7 @@ void judge_refused(const std::vector<BatchLog>& logs, bool skip) {
                     all ? "every log is refused"
                         : fmt::format("{} of {} logs are refused", reasons.size(), logs.size()),
                     reasons_text(reasons));
-    const std::string right = all ? "give logs that `inspect` finds nothing wrong with"
+    const std::string right = all ? "give logs and options that `inspect` finds nothing wrong with"
                                   : "leave them out, or give --skip-refused";
     if (any_bad) throw InputError(said, right);
     throw Refusal(code, fmt::format("{}; {}", said, right));

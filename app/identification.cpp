@@ -16,6 +16,7 @@
 #include "shapeid/app/tell.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
 #include "shapeid/diagnosis/series.hpp"
+#include "shapeid/models/butterworth.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/proofs/certificate/certificate_json.hpp"
 #include "shapeid/reference/residual.hpp"
@@ -161,6 +162,7 @@ reference::IdentifySettings settings_for(const LogSamples& log, const RobotInput
   settings.contacts = log.contacts();
   if (settings.weight.size() == 0) settings.weight = weight(robot);
   if (inputs.row_cutoff > 0.0) {
+    check_cutoff("--row-cutoff", inputs.row_cutoff, log.report().rate);
     settings.row_filter.emplace();
     settings.row_filter->cutoff = inputs.row_cutoff;
     settings.row_filter->rate = log.report().rate;

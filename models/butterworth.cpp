@@ -17,7 +17,16 @@ using std::numbers::pi;
 /// Damping q of the k-th conjugate pair 1 / (s^2 + q s + 1) of the prototype, k from 1.
 double damping(int order, int k) { return 2.0 * std::sin((2 * k - 1) * pi / (2 * order)); }
 
+bool has_filter(double cutoff, double rate) { return cutoff > 0.0 && cutoff < rate / 2.0; }
+
 }  // namespace
+
+void check_cutoff(const char* option, double cutoff, double rate) {
+  if (has_filter(cutoff, rate)) return;
+  throw InputError(
+      fmt::format("{} {:g}: a filter of {:g} Hz for data at {:g} Hz", option, cutoff, cutoff, rate),
+      fmt::format("choose a cutoff between 0 and {:g} Hz, half the rate", rate / 2.0));
+}
 
 Butterworth::Butterworth(int order, double cutoff, double rate)
     : order_(order), rate_(rate), K_(std::tan(pi * cutoff / rate)) {
@@ -26,7 +35,7 @@ Butterworth::Butterworth(int order, double cutoff, double rate)
     throw InputError(fmt::format("filter of order {}", order),
                      fmt::format("choose an order from 1 to {}", highest_order));
   }
-  if (!(cutoff > 0.0 && cutoff < rate / 2.0)) {
+  if (!has_filter(cutoff, rate)) {
     throw InputError(fmt::format("cutoff of {:g} Hz for data at {:g} Hz", cutoff, rate),
                      fmt::format("choose a cutoff between 0 and {:g} Hz", rate / 2.0));
   }

@@ -37,6 +37,10 @@ class Butterworth {
   std::vector<Section> sections_;
 };
 
+/// Throws InputError that names the option by which the cutoff was chosen if there is no filter
+/// with it; Hz.
+void check_cutoff(const char* option, double cutoff, double rate);
+
 /// Of each of the passes that go over a log.
 inline constexpr int log_filter_order = 2;
 

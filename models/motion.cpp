@@ -143,6 +143,7 @@ struct MotionReader::State {
     const double logged_rate = 1.0 / row_step;
     report.rate = options.rate > 0.0 ? options.rate : logged_rate;
     check_grid(report.rate, logged_rate);
+    check_cutoff("--cutoff", options.cutoff, report.rate);
     const Butterworth design(options.order, options.cutoff, report.rate);
     if (options.smoothing == Smoothing::causal) report.group_delay = design.group_delay(0.0);
     grid.emplace(report.rate, options.gap * steps.cwiseMax(row_step));

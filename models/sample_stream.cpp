@@ -51,6 +51,7 @@ void SampleStream::learn_rate() {
 }
 
 void SampleStream::prepare() {
+  check_cutoff("--cutoff", options_.cutoff, rate_);
   grid_.emplace(rate_, longest_step_);
   segments_.emplace(plan_, robot_, imu_, Butterworth(log_filter_order, options_.cutoff, rate_),
                     SegmentSamples::Options{Smoothing::causal, rate_, false});

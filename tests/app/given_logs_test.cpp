@@ -63,6 +63,24 @@ TEST_F(Given, LogsOfWhichNothingIsFitted) {
   }
 }
 
+/// It is the option that is wrong, whatever the log.
+TEST_F(Given, AFilterThatTheRateDoesNotAllowIsRefusedByTheOptionsName) {
+  const std::string files = quadruped_files + " --log given.csv --out high";
+  for (const char* verb : {"identify", "diagnose", "batch", "load --area base 0 0.1 0 0.1 0 0.1"}) {
+    expect_refused(fmt::format("{} {} --cutoff 250", verb, files),
+                   "--cutoff 250: a filter of 250 Hz for data at 500 Hz; choose a cutoff between 0 "
+                   "and 250 Hz, half the rate");
+  }
+  for (const char* verb : {"identify", "batch", "load --area base 0 0.1 0 0.1 0 0.1"}) {
+    expect_refused(fmt::format("{} {} --row-cutoff 300", verb, files),
+                   "--row-cutoff 300: a filter of 300 Hz for data at 500 Hz");
+  }
+  for (const char* verb : {"track", "inspect"}) {
+    expect_refused(fmt::format("{} {} given.csv --cutoff 1e6", verb, quadruped_files),
+                   "--cutoff 1e+06: a filter of 1e+06 Hz for data at 500 Hz");
+  }
+}
+
 /// A log that is slower than the usual filter is looked at with another.
 TEST_F(Given, SlowLogsCanBeInspected) {
   LogReader log(scratch() + "/given.csv");

@@ -340,8 +340,10 @@ TEST(Motion, SaysWhatItCannotDoWithALog) {
             "noise into the motion");
   options = {};
   options.cutoff = 300.0;
-  EXPECT_EQ(reception(good, options),
-            "cutoff of 300 Hz for data at 500 Hz; choose a cutoff between 0 and 250 Hz");
+  EXPECT_EQ(
+      reception(good, options),
+      "--cutoff 300: a filter of 300 Hz for data at 500 Hz; choose a cutoff between 0 and 250 "
+      "Hz, half the rate");
   options = {};
   options.order = 0;
   EXPECT_EQ(reception(good, options), "filter of order 0; choose an order from 1 to 8");
