@@ -71,6 +71,19 @@ Contact read_contact(const YamlInput& in, const YAML::Node& node, const Robot& r
   return contact;
 }
 
+/// Two at one place would be one force named twice.
+void check_new(const YamlInput& in, const YAML::Node& node, const Contact& contact,
+               const std::vector<Contact>& contacts) {
+  constexpr double same = 1e-6;  // m
+  for (const Contact& other : contacts) {
+    const double apart = (contact.frame.translation() - other.frame.translation()).norm();
+    if (contact.link != other.link || apart > same) continue;
+    in.refuse(node,
+              fmt::format("the contact of {} is where that of {} is", contact.name, other.name),
+              "name a contact once, or its other points");
+  }
+}
+
 /// A channel of the log, or a quantity that stands for all of its channels.
 bool is_channel(const std::string& name, const Robot& robot) {
   const auto begins = [&](std::string_view prefix) { return name.starts_with(prefix); };
@@ -172,7 +185,11 @@ RobotNotes read_robot_yaml(const std::string& path, Robot& robot) {
   std::vector<Contact> contacts;
   if (const YAML::Node list = root["contacts"]) {
     if (!list.IsSequence()) in.refuse(list, "contacts is not a list", "write - {link: NAME}");
-    for (const YAML::Node& node : list) contacts.push_back(read_contact(in, node, robot));
+    for (const YAML::Node& node : list) {
+      const Contact contact = read_contact(in, node, robot);
+      check_new(in, node, contact, contacts);
+      contacts.push_back(contact);
+    }
   }
   if (root["noise"]) read_noise(in, root["noise"], robot, notes);
   std::vector<double> rotors;
