@@ -16,6 +16,7 @@
 #include "shapeid/app/tell.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/robot_size.hpp"
 #include "shapeid/models/urdf.hpp"
 
 namespace shapeid::app {
@@ -67,6 +68,9 @@ void simulate_log(SimulateArguments& options) {
         load.sides[0] > furthest || load.centre.cwiseAbs().maxCoeff() > furthest) {
       throw InputError("--load: no block that a robot could carry",
                        "MASS X Y Z [SIDE], kg and m, mass and side above 0");
+    }
+    if (const auto why = why_too_far(load.centre.norm(), robot)) {
+      throw InputError("--load: the block is " + *why, "metres, in the base's frame");
     }
     options.simulation.load = load;
     if (!(options.simulation.load_from < options.simulation.duration &&

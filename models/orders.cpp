@@ -102,7 +102,12 @@ InertialParameters from_order(Order order, const Eigen::VectorXd& numbers) {
     case Reference::centre:
       return from_centre(mass, centre, moments);
     case Reference::rotated_centre: {
-      const Eigen::Matrix3d R = rotation_from_rpy(numbers.segment<3>(urdf_rpy));
+      const Eigen::Vector3d rpy = numbers.segment<3>(urdf_rpy);
+      if (rpy.cwiseAbs().maxCoeff() > largest_angle) {
+        throw InputError(fmt::format("roll, pitch or yaw turns by {:g}", rpy.cwiseAbs().maxCoeff()),
+                         "radians, a turn at most");
+      }
+      const Eigen::Matrix3d R = rotation_from_rpy(rpy);
       return from_centre(mass, centre, R * moments * R.transpose());
     }
   }

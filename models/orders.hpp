@@ -34,8 +34,8 @@ inline constexpr std::array<std::string_view, 8> order_names = {
 /// Ten numbers, thirteen for urdf.
 [[nodiscard]] Eigen::Index number_count(Order order);
 
-/// from_order throws InputError if the count is wrong or a number is not finite; to_order if a
-/// centre of mass is asked of a massless body that has moments.
+/// from_order throws InputError if the count is wrong, a number is not finite or an angle is more
+/// than a turn; to_order if a centre of mass is asked of a massless body that has moments.
 [[nodiscard]] InertialParameters from_order(Order order, const Eigen::VectorXd& numbers);
 [[nodiscard]] Eigen::VectorXd to_order(Order order, const InertialParameters& body);
 

@@ -70,6 +70,14 @@ TEST(Convert, RefusesWhatOverflows) {
   expect_one_line(run, 2, "too large");
 }
 
+/// As in a URDF.
+TEST(Convert, RefusesAnglesInDegrees) {
+  const std::string urdf = "convert --from urdf --to pinocchio -- 2 0 0 0 0 ";
+  expect_one_line(shapeid(urdf + "-90 0 1 0 0 1 0 1"), 2,
+                  "roll, pitch or yaw turns by 90; radians, a turn at most");
+  EXPECT_EQ(shapeid(urdf + "-6.2831853071795862 0 1 0 0 1 0 1").status, 0);
+}
+
 TEST(Convert, SaysWhetherABodyCanHaveThem) {
   const CommandRun good = shapeid("convert --json --from pinocchio --to idyntree " + pinocchio);
   ASSERT_EQ(good.status, 0) << good.err;

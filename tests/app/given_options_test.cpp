@@ -38,6 +38,8 @@ TEST_F(Given, NumbersThatAreNoneOrBeyondAnyRobot) {
   expect_refused("simulate --out a.csv --seed -1", "--seed");
   expect_refused("simulate --out a.csv --seed 99999999999999999999", "--seed");
   expect_refused("simulate --out a.csv --load 1 1e308 0 0", "--load");
+  expect_refused("simulate --out a.csv --load 1 0 50 0",
+                 "--load: the block is 50 m from the link's origin, on a robot of");
   expect_refused("simulate --out a.csv --load 1 0 0 0 --load-from nan", "--load-from");
   expect_refused("simulate --out a.csv --load 1 0 0 0 --load-from 20", "never there");
   expect_refused("simulate --out a.csv --load 1 0 0 0 --load-from 2 --load-until 1", "never there");
