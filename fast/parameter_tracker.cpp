@@ -35,6 +35,9 @@ Violation why_no_belief(const Eigen::VectorXd& start, const Eigen::VectorXd& spr
   if (!(spread.array() > 0.0).all() || !have_rows(spread.cwiseAbs2())) {
     return "a spread is not positive and finite, or its square is not";
   }
+  if (!can_be_absorbed(start.cwiseQuotient(spread))) {
+    return "a mean is too many spreads from zero";
+  }
   if (!wander.allFinite() || !(wander.array() >= 0.0).all())
     return "a wander is negative or not finite";
   return std::nullopt;
@@ -54,7 +57,10 @@ ParameterTracker::ParameterTracker(const Eigen::VectorXd& start, const Eigen::Ve
                                    const Eigen::VectorXd& wander)
     : spread_(spread), wander_(wander), rows_(start.size()) {
   SHAPEID_CONTRACT(why_no_belief(start, spread, wander));
-  [[maybe_unused]] const bool is_set = set(start, spread.cwiseAbs2().asDiagonal());
+  // Without rows every answer would be no number, in silence.
+  if (!set(start, spread.cwiseAbs2().asDiagonal())) {
+    throw Defect("parameters are believed in that no rows can say");
+  }
 }
 
 bool ParameterTracker::set(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance) {

@@ -11,7 +11,7 @@
 namespace shapeid::fast {
 
 /// What the tracker asks of its caller: as many numbers each, finite; spread > 0, its square a
-/// number above zero too, wander >= 0.
+/// number above zero too, and start / spread one; wander >= 0.
 [[nodiscard]] Violation why_no_belief(const Eigen::VectorXd& start, const Eigen::VectorXd& spread,
                                       const Eigen::VectorXd& wander);
 /// Empty for a time >= 0, s.
@@ -25,6 +25,7 @@ class ParameterTracker {
  public:
   /// `start`: what is believed at first, with standard deviations `spread` (> 0); `wander` (>= 0):
   /// standard deviations after one second without data. As many numbers each as there are unknowns.
+  /// Throws Defect where why_no_belief() has a reason that leaves nothing to start from.
   ParameterTracker(const Eigen::VectorXd& start, const Eigen::VectorXd& spread,
                    const Eigen::VectorXd& wander);
 

@@ -105,6 +105,8 @@ TEST(AskedOfTheTracker, SaysWhatIsWrong) {
     EXPECT_NE(why_no_time(wrong), std::nullopt);
     EXPECT_NE(why_no_variance(wrong), std::nullopt);
   }
+  EXPECT_EQ(why_no_belief(1e140 * ones, 1e-10 * ones, zeros),
+            "a mean is too many spreads from zero");
   for (const double wrong : {0.0, -1.0, 1e-170, 1e170}) {
     EXPECT_EQ(why_no_belief(zeros, wrong * ones, zeros), bad_spread);
   }
