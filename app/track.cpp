@@ -72,8 +72,11 @@ class Source {
       position_.header = next_->text;
       use(*next_);
       next_ = lines_.next();
+    } else if (lines_.unfinished() > 0) {
+      throw InputError({path_, 1}, fmt::format("{} bytes have no line's end", lines_.unfinished()),
+                       "end every line with LF or CRLF");
     } else {
-      throw InputError({options.inputs.log}, "is empty", "begin with a row of column names");
+      throw InputError({path_}, "is empty", "begin with a row of column names");
     }
   }
 

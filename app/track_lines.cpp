@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -51,6 +52,10 @@ std::optional<Line> LineFollower::next() {
       clean_line(line_, {path_, number_});
       return Line{std::exchange(line_, {}), number_, byte_ - (block_.size() - in_block_)};
     }
+    // The last byte may be that of CRLF. Of lines that end with CR alone none would ever come.
+    const std::string_view line = line_;
+    refuse_carriage_returns(line.substr(0, line.size() - std::min<std::size_t>(line.size(), 1)),
+                            {path_, number_ + 1});
     in_block_ = block_.size();
     if (!fill()) return std::nullopt;
   }

@@ -103,6 +103,11 @@ void refuse_long(std::size_t size, const Place& place) {
                    "a log has one row a line");
 }
 
+void refuse_carriage_returns(std::string_view part, const Place& place) {
+  if (part.find('\r') == std::string_view::npos) return;
+  throw InputError(place, "holds a carriage return inside a line", "end lines with LF or CRLF");
+}
+
 void clean_line(std::string& line, const Place& place) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (place.line == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
@@ -110,9 +115,7 @@ void clean_line(std::string& line, const Place& place) {
   if (line.find('\0') != std::string::npos) {
     throw InputError(place, "holds a NUL byte", "a log is text");
   }
-  if (line.find('\r') != std::string::npos) {
-    throw InputError(place, "holds a carriage return inside a line", "end lines with LF or CRLF");
-  }
+  refuse_carriage_returns(line, place);
 }
 
 LogTable::LogTable(std::string path, const std::string& header, int line)

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "shapeid/models/error.hpp"
@@ -22,6 +23,9 @@ struct LogRow {
 
 /// Throws InputError for a line that is longer than any row of a log.
 void refuse_long(std::size_t size, const Place& place);
+
+/// Throws InputError for a carriage return in a part of a line.
+void refuse_carriage_returns(std::string_view part, const Place& place);
 
 /// Takes a byte order mark (of line 1) and the CR of CRLF away. Throws InputError for control
 /// characters that no text has.

@@ -274,6 +274,10 @@ TEST(TrackInput, IsRefusedInOneLine) {
   };
   const Lines& log = trot_log();
   expect_refused("", "is empty");
+  expect_refused(log[0], fmt::format("bad.csv:1: {} bytes have no line's end", log[0].size()));
+  std::string old_lines = joined(log);
+  std::replace(old_lines.begin(), old_lines.end(), '\n', '\r');
+  expect_refused(old_lines, "bad.csv:1: holds a carriage return inside a line");
   expect_refused("\x1f\x8b compressed", "compressed");
   expect_refused("time\n0\n", "has no column");
   expect_refused(log[0] + "\n" + log[1] + ",1\n", "fields where the header has");
