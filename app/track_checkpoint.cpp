@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* format = "shapeid-checkpoint-7";
+constexpr const char* format = "shapeid-checkpoint-8";
 constexpr const char* any_format = "shapeid-checkpoint-";
 constexpr const char* what_is_right = "give a checkpoint that --checkpoint wrote";
 
@@ -96,8 +96,9 @@ std::string bytes_of(const std::string& text) {
 }
 
 /// Tells a damaged file from a whole one. Whoever means to deceive can compute it as well.
-std::string damage_digest(const json& log, const json& state) {
-  return digest(log.dump() + state.dump());
+std::string damage_digest(json document) {
+  document.erase("digest");
+  return digest(document.dump());
 }
 
 }  // namespace
@@ -142,14 +143,10 @@ void write_checkpoint(const std::string& path, TrackRun& run, const LogPosition&
                     {"line", position.line},
                     {"row_byte", position.row_byte},
                     {"row_digest", position.row_digest}};
-  const json state = StateWriter::encode(run);
-  const json document = {{"format", format},
-                         {"software", fmt::format("shapeid {}", version)},
-                         {"setup", setup},
-                         {"lines", run.lines()},
-                         {"log", log},
-                         {"state", state},
-                         {"digest", damage_digest(log, state)}};
+  json document = {{"format", format}, {"software", fmt::format("shapeid {}", version)},
+                   {"setup", setup},   {"lines", run.lines()},
+                   {"log", log},       {"state", StateWriter::encode(run)}};
+  document["digest"] = damage_digest(document);
   write_file(path, document.dump() + "\n");
 }
 
@@ -168,10 +165,10 @@ Checkpoint read_checkpoint(const std::string& path) {
       throw InputError({path}, fmt::format("is not of format {}", format),
                        "give a checkpoint that this version wrote");
     }
-    const json& log = checkpoint.document.at("log");
-    if (checkpoint.document.at("digest") != damage_digest(log, checkpoint.document.at("state"))) {
+    if (checkpoint.document.at("digest") != damage_digest(checkpoint.document)) {
       throw InputError({path}, "is damaged: its digest differs", what_is_right);
     }
+    const json& log = checkpoint.document.at("log");
     checkpoint.position = {bytes_of(log.at("header").get<std::string>()),
                            StateReader::whole<std::uint64_t>(log.at("next_byte")),
                            StateReader::whole<int>(log.at("line")),

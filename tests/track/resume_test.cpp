@@ -248,6 +248,47 @@ TEST(TrackResume, RefusesWhatDoesNotBelongTogether) {
   expect_refused("--checkpoint other.json --resume whole.csv", "format");
 }
 
+/// The smallest change of what stands there.
+nlohmann::json nudged_member(const nlohmann::json& value) {
+  if (value.is_number_unsigned()) return value.get<std::uint64_t>() + 1;
+  if (value.is_string()) return value.get<std::string>() + "0";
+  if (value.is_null()) return 0;
+  return nlohmann::json();
+}
+
+/// Of a part of the checkpoint: each member changed, and each taken away; and one more.
+void expect_that_every_member_counts(const nlohmann::json& good, const std::string& part) {
+  const nlohmann::json::json_pointer place(part);
+  const auto expect_refused = [](const nlohmann::json& forged, const std::string& what) {
+    scratch_file("forged.json", forged.dump());
+    const CommandRun run = shapeid(track("--checkpoint forged.json --resume whole.csv"));
+    EXPECT_EQ(run.status, 2) << what;
+    EXPECT_EQ(run.out, "") << what;
+  };
+  for (const auto& [key, value] : good.at(place).items()) {
+    nlohmann::json forged = good;
+    forged[place][key] = nudged_member(value);
+    expect_refused(forged, part + "/" + key);
+    forged[place].erase(key);
+    expect_refused(forged, part + "/" + key + " taken away");
+  }
+  nlohmann::json forged = good;
+  forged[place]["more"] = 1;
+  expect_refused(forged, part + " with one more");
+}
+
+TEST(TrackResume, EveryFieldOfACheckpointCounts) {
+  scratch_file("whole.csv", joined(trot_log()));
+  fs::remove(scratch() + "/state.json");
+  ASSERT_EQ(shapeid(track("--checkpoint state.json whole.csv")).status, 0);
+  const auto good = nlohmann::json::parse(text_of(scratch() + "/state.json"));
+  for (const char* part : {"", "/log", "/state"}) {
+    expect_that_every_member_counts(good, part);
+  }
+  scratch_file("forged.json", good.dump(1));
+  EXPECT_EQ(shapeid(track("--checkpoint forged.json --resume whole.csv")).status, 0);
+}
+
 /// Names of further columns are what somebody's logger wrote.
 TEST(TrackResume, AHeaderOfAnyBytesIsTheSameWhenItIsReadAgain) {
   for (const std::string& name :
