@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "shapeid/app/division_history.hpp"
+#include "shapeid/app/no_mass.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/problem_json.hpp"
 #include "shapeid/models/student.hpp"
@@ -204,10 +205,9 @@ void check_some_mass(const Result& result, double expected_mass) {
   // Of what is expected: what bounds that are active leave, or shapes a thousand times too large.
   constexpr double nothing = 1e-3;
   if (found > nothing * expected_mass) return;
-  throw Refusal("no-mass",
-                "the log asks for no mass at all where some is sought: the sign of the torques or "
-                "of the accelerometer is wrong, the given inertias are too large, what carries the "
-                "robot is no contact of it, or lengths of shapes or contacts are no metres");
+  throw Refusal(
+      no_mass_code,
+      fmt::format("the log asks for no mass at all where some is sought: {}", causes_of_no_mass));
 }
 
 void choose_written_links(Result& result, const Robot& robot, double least_mass) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "shapeid/app/no_mass.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/sought.hpp"
 #include "shapeid/app/tell.hpp"
@@ -182,6 +183,13 @@ void track(TrackArguments& options) {
   // With a checkpoint more may come, and be gone on with.
   if (run.lines() == 0 && options.checkpoint.empty()) {
     throw Refusal("too-short", fmt::format("{}: {}", options.inputs.log, run.why_no_line()));
+  }
+  // With one, too: what was printed is none, and the state is kept.
+  if (run.never_found_mass()) {
+    throw Refusal(no_mass_code,
+                  fmt::format("{}: no answer foretold anything of the rows, which ask for masses "
+                              "below zero: {}",
+                              options.inputs.log, causes_of_no_mass));
   }
 }
 

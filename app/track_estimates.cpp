@@ -35,6 +35,10 @@ constexpr std::size_t certain_windows = 3;
 // mass of a third of a second wander by a tenth of this (docs/tracking.md).
 constexpr double least_load = 0.08;
 
+// Of the squares of the rows: to foretell no more is to foretell nothing. Robots whose torques are
+// commands and whose contacts are derived foretell a tenth (docs/tracking.md).
+constexpr double least_explained = 0.02;
+
 // Relative, of all that a window's right-hand side went through.
 constexpr double rounding = 100.0 * std::numeric_limits<double>::epsilon();
 
@@ -163,6 +167,7 @@ void Estimates::take_window(double time) {
   // Here and below: what the tracker cannot take is as if it had not been said.
   static_cast<void>(tracker_.drift(window_seconds_));
   learn_correlation();
+  learn_explained();
   measure();
   static_cast<void>(solve(sliding_.triangle().R(), recent_));
   static_cast<void>(solve(tracker_.rows().R(), tracked_));
@@ -221,6 +226,34 @@ void Estimates::learn_correlation() {
 void Estimates::set_correlation() {
   if (static_cast<double>(windows_) * window_seconds_ < correlation_start) return;
   correlation_ = std::max(1.0, mean_square_);
+}
+
+/// By the answer from before the window, which has not seen its rows. Those that are left whatever
+/// the parameters are say nothing here. Windows count alike, however large their forces and noise.
+void Estimates::learn_explained() {
+  const Eigen::MatrixXd& R = identifier_.window().R();
+  const Eigen::Index n = R.cols() - 1;
+  const auto c = R.col(n).head(n);
+  const double asked = c.squaredNorm();
+  if (windows_ <= windows_in_recent_ || !(asked > 0.0)) return;
+  const double left = (R.topLeftCorner(n, n) * tracked_ - c).squaredNorm();
+  const auto learned = static_cast<double>(windows_ - windows_in_recent_);
+  const double steps = std::min(learned, noise_memory / window_seconds_);
+  // One window is worth no more against an answer than for it.
+  explained_ += (std::max(1.0 - left / asked, -1.0) - explained_) / steps;
+  ever_explained_ = ever_explained_ || explains();
+}
+
+bool Estimates::explains() const { return explained_ > least_explained; }
+
+/// Masses that hold to m >= 0 are as far from what the filter believes as its rows say, in standard
+/// deviations. Noise alone takes them so far in each direction by one.
+bool Estimates::finds_no_mass() const {
+  if (windows_ <= windows_in_recent_ || explains()) return false;
+  const Eigen::MatrixXd& R = tracker_.rows().R();
+  const Eigen::Index n = tracked_.size();
+  const double distance = (R.topLeftCorner(n, n) * tracked_ - R.col(n).head(n)).norm();
+  return distance > std::sqrt(static_cast<double>(n)) + certain;
 }
 
 /// From no masses on: the answer depends on the rows alone. If the solver declines, the last answer

@@ -57,6 +57,11 @@ class Estimates {
   /// Of the tracked total mass, kg: by the noise of the rows it comes from, and by what the mass
   /// may have wandered while nothing was said about it.
   [[nodiscard]] double mass_error() const { return std::sqrt(mass_variance_); }
+  /// Whether the tracked answer is none (docs/tracking.md): for the last seconds it foretold next
+  /// to nothing of each window's rows, and the rows ask, for certain, for masses that cannot be.
+  [[nodiscard]] bool finds_no_mass() const;
+  /// Whether it foretold more than next to nothing at any time.
+  [[nodiscard]] bool ever_explained() const { return ever_explained_; }
   /// Found at the last window that was answered.
   [[nodiscard]] const std::optional<LoadChange>& load_change() const { return change_; }
 
@@ -80,11 +85,15 @@ class Estimates {
     archive("disagreeing", disagreeing_);
     archive("found", found_);
     archive("settles_in", settles_in_);
+    archive("explained", explained_);
+    archive("ever_explained", ever_explained_);
   }
 
  private:
   void take_window(double time);
   void learn_noise();
+  void learn_explained();
+  [[nodiscard]] bool explains() const;
   void learn_correlation();
   void set_correlation();
   void measure();
@@ -145,6 +154,8 @@ class Estimates {
   std::optional<Found> found_;
   std::size_t settles_in_ = 0;  ///< windows
   std::optional<LoadChange> change_;
+  double explained_ = 0.0;  ///< share of the squares of a window's rows, running mean
+  bool ever_explained_ = false;
 };
 
 /// kg, of all links: 10 parameters each.

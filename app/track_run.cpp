@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "shapeid/app/no_mass.hpp"
+
 namespace shapeid::app {
 namespace {
 
@@ -147,6 +149,10 @@ std::string TrackRun::why_no_line() const {
   return fmt::format("no line: no window of {} samples", settings_.estimates.identifier.window);
 }
 
+bool TrackRun::never_found_mass() const {
+  return estimates_ && estimates_->finds_no_mass() && !estimates_->ever_explained();
+}
+
 void TrackRun::prepare() {
   estimates_.emplace(robot_.robot, model_, settings_.estimates, stream_.rate());
   slip_.emplace(robot_.robot, stream_.rate());
@@ -212,7 +218,9 @@ void TrackRun::print(Why why, double time) {
                {"objective", nullptr},
                {"gap", nullptr},
                {"scale", nullptr},
-               {"load", nullptr}};
+               {"load", nullptr},
+               {"doubt", nullptr}};
+  if (estimates_->finds_no_mass()) line["doubt"] = no_mass_code;
   switch (why) {
     case Why::answered:
       line["objective"] = identifier.answer().value.total();

@@ -60,6 +60,8 @@ class TrackRun {
 
   /// Why there was no line so far, for a log that has ended.
   [[nodiscard]] std::string why_no_line() const;
+  /// Whether no answer so far explained anything, and the last is doubted.
+  [[nodiscard]] bool never_found_mass() const;
 
  private:
   enum class Why { answered, still, no_samples, declined };

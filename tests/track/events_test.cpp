@@ -47,6 +47,7 @@ TEST(TrackEvents, AnOrdinaryTrotHasNone) {
     EXPECT_TRUE(clean(line)) << line.at("rows");
     EXPECT_TRUE(line.at("contacts").at("slipping").empty()) << line.at("time");
     EXPECT_TRUE(line.at("load").is_null()) << line.at("load");
+    EXPECT_TRUE(line.at("doubt").is_null()) << line.at("time");
     EXPECT_EQ(line.at("scale"), "joint rows");
     EXPECT_GE(line.at("gap").get<double>(), 0.0);
   }
