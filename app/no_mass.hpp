@@ -3,9 +3,7 @@
 
 namespace shapeid::app {
 
-inline constexpr const char* no_mass_code = "no-mass";
-
-/// Of the refusal, behind what was seen.
+/// Of the refusal "no-mass", behind what was seen.
 inline constexpr const char* causes_of_no_mass =
     "the sign of the torques or of the accelerometer is wrong, the given inertias are too large, "
     "what carries the robot is no contact of it, or lengths of shapes or contacts are no metres";

@@ -205,9 +205,8 @@ void check_some_mass(const Result& result, double expected_mass) {
   // Of what is expected: what bounds that are active leave, or shapes a thousand times too large.
   constexpr double nothing = 1e-3;
   if (found > nothing * expected_mass) return;
-  throw Refusal(
-      no_mass_code,
-      fmt::format("the log asks for no mass at all where some is sought: {}", causes_of_no_mass));
+  throw Refusal("no-mass", fmt::format("the log asks for no mass at all where some is sought: {}",
+                                       causes_of_no_mass));
 }
 
 void choose_written_links(Result& result, const Robot& robot, double least_mass) {

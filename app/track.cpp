@@ -186,7 +186,7 @@ void track(TrackArguments& options) {
   }
   // With one, too: what was printed is none, and the state is kept.
   if (run.never_found_mass()) {
-    throw Refusal(no_mass_code,
+    throw Refusal("no-mass",
                   fmt::format("{}: no answer foretold anything of the rows, which ask for masses "
                               "below zero: {}",
                               options.inputs.log, causes_of_no_mass));

@@ -7,8 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "shapeid/app/no_mass.hpp"
-
 namespace shapeid::app {
 namespace {
 
@@ -220,7 +218,7 @@ void TrackRun::print(Why why, double time) {
                {"scale", nullptr},
                {"load", nullptr},
                {"doubt", nullptr}};
-  if (estimates_->finds_no_mass()) line["doubt"] = no_mass_code;
+  if (estimates_->finds_no_mass()) line["doubt"] = "no-mass";
   switch (why) {
     case Why::answered:
       line["objective"] = identifier.answer().value.total();
