@@ -78,8 +78,7 @@ void check_new(const YamlInput& in, const YAML::Node& node, const Contact& conta
   for (const Contact& other : contacts) {
     const double apart = (contact.frame.translation() - other.frame.translation()).norm();
     if (contact.link != other.link || apart > same) continue;
-    in.refuse(node,
-              fmt::format("the contact of {} is where that of {} is", contact.name, other.name),
+    in.refuse(node, fmt::format("{} has a contact at this place already", other.name),
               "name a contact once, or its other points");
   }
 }

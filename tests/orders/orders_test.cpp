@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/text.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -127,6 +128,11 @@ TEST(Orders, EveryExchangeOfTwoNumbersShows) {
         if (both_angles) continue;
         Eigen::VectorXd wrong = right;
         std::swap(wrong[i], wrong[j]);
+        const bool turns = order == Order::urdf && wrong.segment<3>(4).maxCoeff() > largest_angle;
+        if (turns) {  // more than once: no angle
+          EXPECT_THROW(static_cast<void>(from_order(order, wrong)), InputError);
+          continue;
+        }
         EXPECT_NE(from_order(order, wrong).values, golden_body().values)
             << name_of(order) << " numbers " << i << " and " << j;
       }

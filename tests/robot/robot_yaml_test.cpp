@@ -157,10 +157,9 @@ TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
       {"contacts:\n  - {link: leg, point: [0, 0, -200]}\n",
        ":2: point is 200 m from the link's origin, on a robot of 3.7 m; metres, on the robot"},
       {"contacts:\n  - {link: leg}\n  - {link: plate}\n  - {link: leg}\n",
-       ":4: the contact of leg is where that of leg is; name a contact once, or its other points"},
+       ":4: leg has a contact at this place already; name a contact once, or its other points"},
       {"contacts:\n  - {link: plate}\n  - {link: plate, kind: plane, point: [0, 0, 0]}\n",
-       ":3: the contact of plate is where that of plate is; name a contact once, or its other "
-       "points"},
+       ":3: plate has a contact at this place already; name a contact once, or its other points"},
       {"imu: {xyz: [120, 0, 0]}\n",
        ":1: imu xyz is 120 m from the link's origin, on a robot of 3.7 m; metres, on the robot"},
       {"noise: {tau.ankle: 1}\n",
