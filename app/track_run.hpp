@@ -85,7 +85,6 @@ class TrackRun {
   TrackSettings settings_;
   RowMeaning meaning_;
   RowGuard guard_;
-  std::size_t rows_of_units_ = 0;  ///< that were looked at
   SampleStream stream_;
   std::optional<Estimates> estimates_;  ///< once the rate is known
   std::optional<SlipWatch> slip_;
@@ -97,6 +96,7 @@ class TrackRun {
   std::size_t calm_ = 0;               ///< samples in a row in which nothing moves
   std::size_t held_back_ = 0;          ///< still samples since the last line
   std::size_t lines_ = 0;
+  std::size_t rows_of_units_ = 0;  ///< that were looked at
   std::vector<nlohmann::json> due_;
   std::string path_;
   std::optional<Plausibility> units_;  ///< of the first rows; in no checkpoint
