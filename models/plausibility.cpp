@@ -56,18 +56,18 @@ void Plausibility::Range::add(double value, int at) {
   most = std::max(most, value);
 }
 
-bool Plausibility::Slope::add(double t, double position, double velocity, double longest_step) {
-  if (std::isnan(position) || std::isnan(velocity)) return false;
+std::optional<Plausibility::Span> Plausibility::Slope::add(double t, double position,
+                                                           double velocity, double longest_step) {
+  if (std::isnan(position) || std::isnan(velocity)) return std::nullopt;
   const bool follows = in_span > 0 && t > time && t - time <= longest_step;
   if (follows) integral += 0.5 * (velocity + dq) * (t - time);
-  const bool ends = follows && in_span == span;
-  if (ends) {
-    change = position - start;
-    whole = integral;
-    changes += change * change;
-    integrals += whole * whole;
+  std::optional<Span> ended;
+  if (follows && in_span == span) {
+    ended = {position - start, integral};
+    changes += ended->change * ended->change;
+    integrals += ended->integral * ended->integral;
   }
-  if (!follows || ends) {
+  if (!follows || ended) {
     in_span = 0;
     start = position;
     integral = 0.0;
@@ -75,7 +75,7 @@ bool Plausibility::Slope::add(double t, double position, double velocity, double
   ++in_span;
   time = t;
   dq = velocity;
-  return ends;
+  return ended;
 }
 
 Plausibility::Plausibility(std::string path, const Robot& robot, const ChannelPlan& plan,
@@ -109,12 +109,12 @@ void Plausibility::add_slopes(const MeasuredRow& row) {
   Eigen::RowVectorXd integral = Eigen::RowVectorXd::Zero(robot_.joint_count());
   bool any = false;
   for (int j = 0; j < robot_.joint_count(); ++j) {
-    Slope& s = slopes_[static_cast<std::size_t>(j)];
-    if (!s.add(row.time, row.values[plan_.q + j], row.values[plan_.dq + j], options_.longest_step))
-      continue;
+    const auto ended = slopes_[static_cast<std::size_t>(j)].add(
+        row.time, row.values[plan_.q + j], row.values[plan_.dq + j], options_.longest_step);
+    if (!ended) continue;
     any = true;
-    change[j] = s.change;
-    integral[j] = s.whole;
+    change[j] = ended->change;
+    integral[j] = ended->integral;
   }
   if (any) products_.noalias() += change * integral;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,15 +55,17 @@ class Plausibility {
     [[nodiscard]] double width() const { return most - least; }
     [[nodiscard]] bool frozen() const { return least == most && least != 0.0; }
   };
-  /// Short spans of the change of q and the integral of dq.
+  /// Of a short span: the change of q, and the integral of dq.
+  struct Span {
+    double change = 0.0, integral = 0.0;
+  };
   struct Slope {
     double changes = 0.0, integrals = 0.0;  ///< sums of squares over spans
-    double change = 0.0, whole = 0.0;       ///< of q and the integral, of the span that ended last
     int in_span = 0;
     double start = 0.0, integral = 0.0;  ///< of the present span
     double time = 0.0, dq = 0.0;         ///< last row
-    /// Whether a span ends here.
-    bool add(double t, double position, double velocity, double longest_step);
+    /// The span, if one ends here.
+    std::optional<Span> add(double t, double position, double velocity, double longest_step);
   };
 
   /// The last rows of a position.
