@@ -17,7 +17,7 @@ constexpr std::array<std::pair<const char*, CurveSignal>, 4> prefixes = {
 
 bool can_follow(const Effect& effect) {
   return effect.site == SiteKind::joint && effect.parameters.size() == 1 &&
-         effect.columns != nullptr && !effect.needs_load_rate && !effect.code.torque.empty();
+         effect.columns != nullptr && !effect.filters_load && !effect.code.torque.empty();
 }
 
 std::string variable_name(const CurveVariable& variable, const Robot& robot) {

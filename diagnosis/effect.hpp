@@ -61,7 +61,9 @@ struct Instant {
   /// Predicted joint torques of the rigid links, n, with contact forces from the base's balance.
   /// Measured torque is only in what that leaves open (predicted_load()).
   const Eigen::VectorXd& load;
-  const Eigen::VectorXd& load_rate;  ///< its change a second, n (Effect::needs_load_rate)
+  /// Its change a second, n (Effect::filters_load): about the time constant ago of the filter that
+  /// the model has at the joint, now where it has none (load_rates()).
+  const Eigen::VectorXd& load_rate;
   const Surroundings& surroundings;
 };
 
@@ -107,7 +109,7 @@ struct TorqueCode {
   std::string motion;  ///< before the rigid links: changes q, dq, ddq
   std::string link;    ///< between: `at` (torque_header.cpp) has the links' motion and wrenches
   /// After them: changes tau; load[j] holds what the rigid links ask for, load_rate[j] its change a
-  /// second (Effect::needs_load_rate).
+  /// second (Effect::filters_load).
   std::string torque;
 };
 
@@ -134,8 +136,9 @@ struct Effect {
   /// Fitted as a rule, whatever the drive: what the found model is compared with (usual.hpp), and
   /// where a second search for causes begins.
   bool is_usual = false;
-  /// The columns use Instant::load_rate, which costs two more instants each.
-  bool needs_load_rate = false;
+  /// Its one value is the time constant of a filter of the load, s, and its column uses
+  /// Instant::load_rate, which costs two more instants.
+  bool filters_load = false;
   /// Instead of columns.
   Transformation transform;
   /// The columns are the link's own ten of Y, at all times or from the onset (its shape number) on.
@@ -151,6 +154,8 @@ struct AppliedEffect {
   Eigen::VectorXd value;  ///< one for each of Effect::parameters
   /// Came since the reference log, on top of what was at its place already.
   bool since_reference = false;
+  /// Of what filters the load (Effect::filters_load): as far as it is linear in its time constant.
+  bool to_first_order = false;
   /// Whether it is there from some moment of the log on.
   [[nodiscard]] bool begins() const { return effect->is_payload && !effect->shape.empty(); }
   /// Whether it is no part of a reference log.

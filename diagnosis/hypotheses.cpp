@@ -64,9 +64,7 @@ std::vector<AppliedEffect> all_hypotheses(const Robot& robot) {
 
 HypothesisColumns::HypothesisColumns(const Robot& robot, RowSource source, const RichModel& model,
                                      const std::vector<AppliedEffect>& hypotheses)
-    : model_(model),
-      hypotheses_(hypotheses),
-      viewer_(robot, source, model.effects, needs_load_rate(hypotheses)) {
+    : model_(model), hypotheses_(hypotheses), viewer_(robot, source, model.effects, hypotheses) {
   for (const AppliedEffect& h : hypotheses_) {
     first_.push_back(count_);
     count_ += h.value.size();

@@ -11,6 +11,7 @@
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/exchange.hpp"
+#include "shapeid/diagnosis/filter_order.hpp"
 #include "shapeid/diagnosis/large_transformation.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/names.hpp"
@@ -38,16 +39,17 @@ class Loop {
   void find_causes() {
     try_quarter_turns(state_);
     state_.fit_masses();
-    seek_until_all_stay();
+    seek_all();
   }
 
   /// What these are called, and what is said of them.
   LoopResult run() {
     question_names(state_);
     while (ban_mere_moments()) {
-      seek_until_all_stay();
+      seek_all();
       question_names(state_);
     }
+    add_names_to_first_order(filters_, result_.found);
     for (Found& f : result_.found) {
       std::vector<std::string>& names = f.ambiguous_with;
       names.insert(names.end(), f.exchangeable.begin(), f.exchangeable.end());
@@ -82,6 +84,16 @@ class Loop {
     Eigen::VectorXd error = state_.held_out_of_model();
     result_.weight = own;
     return error;
+  }
+
+  /// With filters of the load to first order, and once some are found with these as they are.
+  void seek_all() {
+    seek_until_all_stay();
+    if (!state_.filters_to_first_order) return;
+    filters_ = filters_among(result_.found);
+    if (filters_.empty()) return;
+    take_filters_as_they_are(state_);
+    seek_until_all_stay();
   }
 
   void seek_until_all_stay() {
@@ -398,6 +410,7 @@ class Loop {
   LoopResult& result_ = state_.result;
   bool from_usual_;
   Memory memory_;
+  std::vector<Found> filters_;             ///< of the load, as found to first order
   std::vector<AppliedEffect> remainders_;  ///< of other laws' shapes, in this search
   std::optional<Candidate> large_;
   int round_ = 0;

@@ -12,7 +12,8 @@ namespace {
 
 bool needs_refit(const std::vector<Found>& found) {
   return std::any_of(found.begin(), found.end(), [](const Found& f) {
-    return f.effect.effect->transform.any() || f.effect.shape.size() > 0;
+    const bool filters = f.effect.effect->filters_load && !f.effect.to_first_order;
+    return f.effect.effect->transform.any() || f.effect.shape.size() > 0 || filters;
   });
 }
 

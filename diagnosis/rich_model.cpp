@@ -1,8 +1,10 @@
 #include "shapeid/diagnosis/rich_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/reference/contact.hpp"
 #include "shapeid/reference/regressor.hpp"
 
@@ -17,9 +19,42 @@ AppliedEffect at_start(const Effect& effect, int site) {
   return applied;
 }
 
+bool needs_load_rate(const std::vector<AppliedEffect>& effects) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const AppliedEffect& a) { return a.effect->filters_load; });
+}
+
+LoadRate slope_of_filter(const Robot& robot, const AppliedEffect& filter, double reach) {
+  const double step = neighbour_step(robot);
+  const double ago = std::clamp(filter.value[0], 0.0, std::max(reach - step, 0.0));
+  const double longest = std::max(reach - ago, step);
+  const double half = std::clamp(std::sqrt(3.0) * ago, step, longest);
+  return {filter.site, -ago - half, -ago + half};
+}
+
+std::vector<LoadRate> load_rates(const Robot& robot, const std::vector<AppliedEffect>& effects,
+                                 const std::vector<AppliedEffect>& tried) {
+  std::vector<LoadRate> rates;
+  const bool of_now = std::any_of(effects.begin(), effects.end(),
+                                  [](const AppliedEffect& a) { return a.to_first_order; });
+  if (of_now || needs_load_rate(tried)) {
+    const double step = neighbour_step(robot);
+    rates.push_back({LoadRate::all_joints, -step, step});
+  }
+  double reach = largest_shift;
+  for (const AppliedEffect& a : effects) {
+    if (a.effect == find_effect("torque_delay")) reach -= std::abs(a.value[0]);
+  }
+  for (const AppliedEffect& a : effects) {
+    if (!a.effect->filters_load || a.to_first_order) continue;
+    rates.push_back(slope_of_filter(robot, a, reach));
+  }
+  return rates;
+}
+
 Viewer::Viewer(const Robot& robot, RowSource source, const std::vector<AppliedEffect>& effects,
-               bool load_rate)
-    : robot_(robot), source_(source), load_rate_(load_rate || needs_load_rate(effects)) {
+               const std::vector<AppliedEffect>& tried)
+    : robot_(robot), source_(source), load_rates_(diagnosis::load_rates(robot, effects, tried)) {
   for (const AppliedEffect& a : effects) {
     if (!a.effect->transform.any()) continue;
     transforming_.push_back(a);
@@ -47,13 +82,13 @@ Sample Viewer::moved(const Recording& recording, std::size_t index) const {
 View Viewer::view(const Recording& recording, std::size_t index) const {
   View result = view(moved(recording, index), recording.surroundings(index));
   result.correction = recording.correction(index);
-  if (!load_rate_) return result;
-  const double step = neighbour_step(robot_);
-  for (const double dt : {-step, step}) {
-    Sample sample = moved(recording, index, dt, transforming_.size());
-    sample.in_contact = result.sample.in_contact;
-    const View near = view(std::move(sample), result.surroundings);
-    result.around.push_back({logged_force(*this, near), near.Y, near.J, near.carried});
+  for (const LoadRate& over : load_rates_) {
+    for (const double dt : {over.begin, over.end}) {
+      Sample sample = moved(recording, index, dt, transforming_.size());
+      sample.in_contact = result.sample.in_contact;
+      const View near = view(std::move(sample), result.surroundings);
+      result.around.push_back({logged_force(*this, near), near.Y, near.J, near.carried});
+    }
   }
   return result;
 }
@@ -108,11 +143,6 @@ Eigen::VectorXd logged_force(const Viewer& viewer, const View& view) {
   return force;
 }
 
-bool needs_load_rate(const std::vector<AppliedEffect>& effects) {
-  return std::any_of(effects.begin(), effects.end(),
-                     [](const AppliedEffect& a) { return a.effect->needs_load_rate; });
-}
-
 Instant instant_of(const Viewer& viewer, const Scene& scene, const PredictedLoad& load) {
   return {viewer.robot(), scene.sample, scene.motions, load.joint, load.rate, scene.surroundings};
 }
@@ -137,13 +167,19 @@ PredictedLoad load_of(const Viewer& viewer, const View& view, const Eigen::Vecto
                       const RichModel& model) {
   const Eigen::VectorXd applied = logged_force(viewer, view);
   PredictedLoad now = predicted_load(viewer.robot(), applied, links - view.carried, view.J);
-  if (view.around.size() == 2) {
-    const auto load = [&](const Neighbour& near) -> Eigen::VectorXd {
-      const Eigen::VectorXd taken = near.Y * model.Phi - near.carried;
-      return predicted_load(viewer.robot(), near.applied, taken, near.J).joint;
-    };
-    now.rate =
-        (load(view.around[1]) - load(view.around[0])) / (2.0 * neighbour_step(viewer.robot()));
+  const auto load = [&](const Neighbour& near) -> Eigen::VectorXd {
+    const Eigen::VectorXd taken = near.Y * model.Phi - near.carried;
+    return predicted_load(viewer.robot(), near.applied, taken, near.J).joint;
+  };
+  for (std::size_t k = 0; 2 * k < view.around.size(); ++k) {
+    const LoadRate& over = viewer.load_rates()[k];
+    const Eigen::VectorXd rate =
+        (load(view.around[2 * k + 1]) - load(view.around[2 * k])) / over.span();
+    if (over.joint == LoadRate::all_joints) {
+      now.rate = rate;
+    } else {
+      now.rate[over.joint] = rate[over.joint];
+    }
   }
   if (view.J.rows() == 0 || (model.effects.empty() && model.curves.empty())) return now;
   const Eigen::VectorXd E = force_of(model.effects, model.curves, instant_of(viewer, view, now));

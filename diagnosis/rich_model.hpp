@@ -45,7 +45,7 @@ struct Scene {
 struct View : Scene {
   Eigen::MatrixXd Y;           ///< dof x (10 per link), before Transformation::rows
   Eigen::VectorXd correction;  ///< Recording::correction()
-  /// neighbour_step() before and after, or empty if nothing needs the load's rate.
+  /// The begin and the end of each of Viewer::load_rates(); empty of a sample without a log.
   std::vector<Neighbour> around;
 };
 
@@ -57,16 +57,35 @@ struct View : Scene {
   return robot.root == Root::fixed ? 0.02 : 0.002;
 }
 
+/// A span of time over which the load's rate is taken.
+struct LoadRate {
+  int joint;          ///< all_joints: for which there is no other
+  double begin, end;  ///< s from now
+  static constexpr int all_joints = -1;
+  [[nodiscard]] double span() const { return end - begin; }
+};
+
+/// Of one filter of the load: over sqrt(3) time constants to either side of one of them ago, with
+/// which it has the filter's response to third order, but over neighbour_step() at least, and not
+/// further back than `reach` (s).
+[[nodiscard]] LoadRate slope_of_filter(const Robot& robot, const AppliedEffect& filter,
+                                       double reach);
+
+/// For what filters the load among some effects, and what may be tried beside them: the rate of now
+/// for this and those that are to first order, and a slope for each of the others.
+[[nodiscard]] std::vector<LoadRate> load_rates(const Robot& robot,
+                                               const std::vector<AppliedEffect>& effects,
+                                               const std::vector<AppliedEffect>& tried);
+
 /// Whether some of them look at Instant::load_rate.
 [[nodiscard]] bool needs_load_rate(const std::vector<AppliedEffect>& effects);
 
-/// Prepares views of a robot with the transformations among some effects, with neighbours if one of
-/// them needs these or `load_rate` asks for them. The robot must outlive this. Not for several
-/// threads at once.
+/// Prepares views of a robot with the transformations among some effects, and with neighbours for
+/// load_rates(). The robot must outlive this. Not for several threads at once.
 class Viewer {
  public:
   Viewer(const Robot& robot, RowSource source, const std::vector<AppliedEffect>& effects,
-         bool load_rate = false);
+         const std::vector<AppliedEffect>& tried = {});
 
   [[nodiscard]] View view(const Recording& recording, std::size_t index) const;
   /// Of a sample whose own transformations are done already (moved()).
@@ -78,6 +97,7 @@ class Viewer {
   void transform(const Scene& scene, Rows& rows) const;
   [[nodiscard]] const Robot& robot() const { return robot_; }
   [[nodiscard]] const RowSource& source() const { return source_; }
+  [[nodiscard]] const std::vector<LoadRate>& load_rates() const { return load_rates_; }
   /// The sample after all sample transformations.
   [[nodiscard]] Sample moved(const Recording& recording, std::size_t index) const;
 
@@ -90,7 +110,7 @@ class Viewer {
   RowSource source_;
   mutable std::optional<RigidRows> rows_;  ///< of robot_, once it is transformed
   std::vector<AppliedEffect> transforming_;
-  bool load_rate_;
+  std::vector<LoadRate> load_rates_;
 };
 
 /// Refers to all that it is given.

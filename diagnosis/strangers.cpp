@@ -41,7 +41,7 @@ std::vector<AppliedEffect> carriers(const Robot& robot, const std::vector<Applie
   std::vector<AppliedEffect> list;
   for (const AppliedEffect& h : all_hypotheses(robot)) {
     if (h.effect->site != SiteKind::joint) continue;
-    if (h.effect->built_in || h.effect->needs_load_rate) continue;
+    if (h.effect->built_in || h.effect->filters_load) continue;
     if (h.value.size() > 1 || h.shape.size() > 1) continue;
     if (!has_place_of(effects, h)) list.push_back(h);
   }

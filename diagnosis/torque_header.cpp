@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "shapeid/diagnosis/hypotheses.hpp"
 
@@ -223,23 +224,40 @@ std::string load_code(const std::string& motion) {
          "  take_off(contact, load);\n}\n";
 }
 
-std::string prediction_from_three(double step) {
+/// As much of the motion is at hand here as is asked for.
+std::string prediction_from_log(const Robot& robot, const std::vector<AppliedEffect>& effects) {
+  std::vector<double> times;
+  std::string text;
+  for (const AppliedEffect& a : effects) {
+    if (!a.effect->filters_load) continue;
+    const LoadRate over = slope_of_filter(robot, a, std::numeric_limits<double>::infinity());
+    text += fmt::format(
+        "  load_rate[{0}] = (load_at(around[{2}], {0}) - load_at(around[{1}], {0})) / {3};\n",
+        a.site, times.size(), times.size() + 1, over.span());
+    times.insert(times.end(), {over.begin, over.end});
+  }
   return fmt::format(
       R"(
 struct Motion {{
   const double *q, *dq, *ddq, *base, *contact = nullptr;
 }};
 
-/// The same from the motion now, and {0} s before and after: load_rate is their difference.
-inline void predict(const Motion& before, const Motion& now, const Motion& after, double* tau) {{
-  double earlier[joint_count + 1], later[joint_count + 1], load_rate[joint_count + 1];
-  rigid_load(before.q, before.dq, before.ddq, before.base, earlier, before.contact);
-  rigid_load(after.q, after.dq, after.ddq, after.base, later, after.contact);
-  for (int i = 0; i < joint_count; ++i) load_rate[i] = (later[i] - earlier[i]) / (2 * {0});
-  predict(now.q, now.dq, now.ddq, now.base, load_rate, tau, now.contact);
+inline double load_at(const Motion& at, int joint) {{
+  double load[joint_count + 1];
+  rigid_load(at.q, at.dq, at.ddq, at.base, load, at.contact);
+  return load[joint];
+}}
+
+/// When, s from now, the motions are that predict() looks at beside the one of now.
+constexpr double around_times[] = {{{0}}};
+
+/// The same with load_rate from those, in this order.
+inline void predict(const Motion& now, const Motion* around, double* tau) {{
+  double load_rate[joint_count + 1] = {{}};
+{1}  predict(now.q, now.dq, now.ddq, now.base, load_rate, tau, now.contact);
 }}
 )",
-      step);
+      fmt::join(times, ", "), text);
 }
 
 /// Of declared rotors: beside all that was found, since the logged torque was taken without them.
@@ -297,7 +315,7 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
       "(joint_count numbers)\n/// of the contact forces f on the robot, with J where joints and "
       "contact points are found to be\n/// (effects.yaml); null: nothing touches.\n";
   if (rate) {
-    text += "/// load_rate (N m/s): the change of rigid_load() a second.\n";
+    text += "/// load_rate (N m/s): the change of rigid_load() a second, a drive's T ago.\n";
   }
   text +=
       "inline void predict(const double* q_logged, const double* dq, const double* ddq,\n"
@@ -310,7 +328,7 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
       "  Links rigid = at;\n  rigid.torques(load);\n  take_off(contact, load);\n" +
       between + "  at.torques(tau);\n  take_off(contact, tau);\n" + torque + scaling +
       rotor_code(robot) + "}\n";
-  if (rate) text += prediction_from_three(neighbour_step(robot));
+  if (rate) text += prediction_from_log(robot, model.effects);
   text += "\n}  // namespace shapeid_model\n";
   return text;
 }

@@ -17,9 +17,9 @@ namespace shapeid::diagnosis {
 /// own geometry (null: nothing touches). Effects that are not of joints and links, that change the
 /// log's signals or come at some moment are left out, and named in a comment. A model with an
 /// effect that needs the load's rate (torque_lag) has instead
-///   void shapeid_model::predict(const Motion& before, const Motion& now, const Motion& after,
-///                               double* tau);
-/// of the motion now and neighbour_step() to either side, and the same of one motion and the rate.
+///   constexpr double shapeid_model::around_times[];
+///   void shapeid_model::predict(const Motion& now, const Motion* around, double* tau);
+/// of the motion now and at those times, s from now, and the same of one motion and the rate.
 [[nodiscard]] std::string torque_header(const Robot& robot, const RichModel& model);
 
 }  // namespace shapeid::diagnosis

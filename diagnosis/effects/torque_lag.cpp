@@ -4,7 +4,7 @@
 namespace shapeid::diagnosis {
 namespace {
 
-// To first order in T, and of the predicted load: the logged torque is what is to be predicted.
+// Of the predicted load: the logged torque is what is to be predicted.
 Eigen::MatrixXd columns(const Instant& at, int joint, const Eigen::VectorXd&) {
   return joint_column(at, joint, -at.load_rate[joint]);
 }
@@ -15,7 +15,7 @@ Effect torque_lag() {
   Effect e;
   e.id = "torque_lag";
   e.title = "one drive's torque goes through a slow filter of its own";
-  e.equation = "tau_j -= T d(load_j)/dt";
+  e.equation = "tau_j -= T d(load_j)/dt, the rate of T ago";
   e.site = SiteKind::joint;
   e.parameters = {{"T", "s", true, 0.002, 0.05}};
   e.confused_with = {"viscous_friction (under gravity or with an inertia alone)", "torque_delay"};
@@ -25,7 +25,7 @@ Effect torque_lag() {
       "against each other from the torque";
   e.source = "docs/derivations/filtering.md";
   e.columns = columns;
-  e.needs_load_rate = true;
+  e.filters_load = true;
   e.code.torque = "tau[j] -= T * load_rate[j];";
   return e;
 }

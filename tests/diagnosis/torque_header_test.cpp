@@ -5,11 +5,13 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shapeid/tests/diagnosis/arm.hpp"
@@ -57,6 +59,25 @@ Eigen::MatrixXd said_by_header(const std::string& header, const std::string& arr
   EXPECT_TRUE(out);
   return said;
 }
+
+/// The same motion, dt (s) later everywhere.
+Recording later_by(const Recording& recording, double dt) {
+  std::vector<Sample> samples = recording.samples();
+  for (const std::size_t i : recording.usable(1)) samples[i] = recording.shifted(i, dt);
+  return {std::move(samples), recording.rate()};
+}
+
+/// Where the slope of a load begins and ends for a lag of T, s from now.
+struct Slope {
+  Slope(const Robot& robot, double T)
+      : half(std::max(std::sqrt(3.0) * T, neighbour_step(robot))),
+        begin(-T - half),
+        end(-T + half) {}
+  double half, begin, end;
+};
+
+/// Rates divide the rounding of loads by this.
+double magnified(double T, const Robot& robot) { return 1.0 + T / neighbour_step(robot); }
 
 TEST(TorqueHeader, PredictsWhatTheModelPredicts) {
   const Robot robot = test::arm();
@@ -108,7 +129,7 @@ void expect_lag_follows_the_rigid_links(Root root) {
   robot.root = root;
   const std::vector<AppliedEffect> effects = {
       test::effect("torque_gain", 1, {0.1}),
-      test::effect("torque_lag", 1, {0.03}),
+      test::effect("torque_lag", 1, {0.014}),
       test::effect("torque_lag", 2, {0.01}),
       test::effect("load_friction", 0, {0.05}),
       test::effect("encoder_offset", 1, {0.02}),
@@ -130,25 +151,33 @@ void expect_lag_follows_the_rigid_links(Root root) {
   Eigen::MatrixXd wanted(3, std::ssize(instants));
   std::string arrays;
   std::vector<std::string> calls;
-  const double step = neighbour_step(robot);
   for (const std::size_t i : instants) {
-    wanted.col(std::ssize(calls)) =
-        predict(viewer, viewer.view(recording, i), model).force.tail<3>();
-    std::string call;
-    for (const double dt : {-step, 0.0, step}) {
-      call += (call.empty() ? "{" : ", {") +
-              arguments(recording.shifted(i, dt), robot.root, arrays) + "}";
+    const View view = viewer.view(recording, i);
+    PredictedLoad load = predict(viewer, view, model).load;
+    std::string around;
+    for (const AppliedEffect& a : effects) {
+      if (!a.effect->filters_load) continue;
+      const Slope slope(robot, a.value[0]);
+      std::vector<double> loads;
+      for (const double dt : {slope.begin, slope.end}) {
+        const View then = viewer.view(later_by(recording, dt), i);
+        loads.push_back(predict(viewer, then, model).load.joint[a.site]);
+        around += "{" + arguments(recording.shifted(i, dt), robot.root, arrays) + "}, ";
+      }
+      load.rate[a.site] = (loads[1] - loads[0]) / (2.0 * slope.half);
     }
-    calls.push_back(call);
+    wanted.col(std::ssize(calls)) =
+        predict(viewer, view, view.Y * model.Phi, model, load).force.tail<3>();
+    arrays += fmt::format("  const shapeid_model::Motion around{}[] = {{{}}};\n", i, around);
+    calls.push_back(
+        fmt::format("{{{}}}, around{}", arguments(recording[i], robot.root, arrays), i));
   }
   const std::string header = torque_header(robot, model);
   EXPECT_EQ(header.find("not part of this prediction"), std::string::npos);
   const Eigen::MatrixXd got = said_by_header(header, arrays, calls);
-  // The rate divides the rounding of loads by twice the step.
-  const double magnified = 1.0 + 0.03 / step;
   for (Eigen::Index k = 0; k < wanted.cols(); ++k) {
     EXPECT_LT(test::scaled_difference(got.col(k), wanted.col(k), 20),
-              magnified * test::few_hundred_eps);
+              magnified(0.014, robot) * test::few_hundred_eps);
   }
 }
 
@@ -159,6 +188,12 @@ TEST(TorqueHeader, LagOfADriveFollowsTheLoadOfTheRigidLinksInTheAir) {
   expect_lag_follows_the_rigid_links(Root::floating);
 }
 
+/// The contact forces that carry the base.
+Eigen::VectorXd carrying(const Robot& robot, const View& view, const RichModel& model) {
+  return predicted_load(robot, Eigen::VectorXd::Zero(robot.dof()), view.Y * model.Phi, view.J)
+      .force;
+}
+
 /// With what feet carry taken off, where a gain, friction by load and a lag see it as the library
 /// does.
 TEST(TorqueHeader, TakesOffContactForcesBeforeWhatDependsOnThem) {
@@ -167,7 +202,7 @@ TEST(TorqueHeader, TakesOffContactForcesBeforeWhatDependsOnThem) {
   robot.contacts = {{"tip", 3, ContactKind::point, Eigen::Isometry3d::Identity()}};
   robot.contacts[0].frame.translation() = Eigen::Vector3d(0.02, -0.01, -0.2);
   const std::vector<AppliedEffect> effects = {test::effect("torque_gain", 1, {0.3}),
-                                              test::effect("torque_lag", 2, {0.03}),
+                                              test::effect("torque_lag", 2, {0.014}),
                                               test::effect("load_friction", 0, {0.05})};
   const RichModel model{stacked_parameters(robot), effects};
   const Recording recording = test::record({}, [&](std::vector<Sample>& samples) {
@@ -180,29 +215,33 @@ TEST(TorqueHeader, TakesOffContactForcesBeforeWhatDependsOnThem) {
   });
   const Viewer viewer(robot, ContactTreatment::project, effects);
   const std::size_t at = 700;
-  const View view = viewer.view(recording, at);
-  const Prediction predicted = predict(viewer, view, model);
-  const Eigen::VectorXd& f = predicted.load.force;
-  ASSERT_GT(f.norm(), 1.0);
-  const Eigen::VectorXd wanted = (predicted.force - predicted.J.transpose() * f).tail<3>();
-  std::string arrays, call;
-  const double step = neighbour_step(robot);
-  ASSERT_EQ(view.around.size(), 2U);
-  for (const int place : {0, 1, 2}) {
-    const Eigen::MatrixXd& J = place == 1 ? view.J : view.around[place == 0 ? 0 : 1].J;
-    const Eigen::MatrixXd& Y = place == 1 ? view.Y : view.around[place == 0 ? 0 : 1].Y;
-    const Eigen::VectorXd force =
-        predicted_load(robot, Eigen::VectorXd::Zero(robot.dof()), Y * model.Phi, J).force;
-    const Eigen::VectorXd contact = (J.transpose() * force).tail<3>();
-    const std::string name = fmt::format("contact{}", place);
-    call += (call.empty() ? "{" : ", {") +
-            arguments(recording.shifted(at, (place - 1) * step), robot.root, arrays) + ", " + name +
-            "}";
+  const Slope slope(robot, effects[1].value[0]);
+  std::string arrays;
+  const auto motion = [&](const View& view, double dt) {
+    const Eigen::VectorXd contact = (view.J.transpose() * carrying(robot, view, model)).tail<3>();
+    const std::string name = fmt::format("contact{}", arrays.size());
     arrays += fmt::format("  const double {}[] = {{{}}};\n", name, fmt::join(contact, ", "));
+    return "{" + arguments(recording.shifted(at, dt), robot.root, arrays) + ", " + name + "}";
+  };
+  const View view = viewer.view(recording, at);
+  PredictedLoad load = predict(viewer, view, model).load;
+  ASSERT_GT(load.force.norm(), 1.0);
+  std::string around;
+  std::vector<double> loads;
+  for (const double dt : {slope.begin, slope.end}) {
+    const View then = viewer.view(later_by(recording, dt), at);
+    const Eigen::VectorXd f = carrying(robot, then, model);
+    loads.push_back((then.Y * model.Phi - then.J.transpose() * f).tail<3>()[2]);
+    around += motion(then, dt) + ", ";
   }
+  load.rate[2] = (loads[1] - loads[0]) / (2.0 * slope.half);
+  const Prediction predicted = predict(viewer, view, view.Y * model.Phi, model, load);
+  const Eigen::VectorXd wanted = (predicted.force - predicted.J.transpose() * load.force).tail<3>();
+  const std::string call = motion(view, 0.0) + ", around";
+  arrays += "  const shapeid_model::Motion around[] = {" + around + "};\n";
   const Eigen::MatrixXd got = said_by_header(torque_header(robot, model), arrays, {call});
-  const double magnified = (1.0 + 0.03 / step) * (1.0 + f.norm());
-  EXPECT_LT(test::scaled_difference(got.col(0), wanted, 20), magnified * test::few_hundred_eps);
+  EXPECT_LT(test::scaled_difference(got.col(0), wanted, 20),
+            magnified(0.014, robot) * (1.0 + load.force.norm()) * test::few_hundred_eps);
 }
 
 /// What a name says in a comment stays in it.
