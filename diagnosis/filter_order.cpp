@@ -20,7 +20,7 @@ void take_filters_as_they_are(LoopState& state) {
              return g.effect.site == f.effect.site;
            });
   });
-  state.filters_to_first_order = false;
+  state.result.filters_to_first_order = false;
   state.collect_effects();
 }
 

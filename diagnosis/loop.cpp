@@ -89,7 +89,7 @@ class Loop {
   /// With filters of the load to first order, and once some are found with these as they are.
   void seek_all() {
     seek_until_all_stay();
-    if (!state_.filters_to_first_order) return;
+    if (!result_.filters_to_first_order) return;
     filters_ = filters_among(result_.found);
     if (filters_.empty()) return;
     take_filters_as_they_are(state_);

@@ -86,6 +86,9 @@ struct Ranked {
 
 struct LoopResult {
   RichModel model;  ///< least squares with the prior; not yet a consistent body
+  /// What filters the load, of what was found: while causes are sought it must not predict better
+  /// by making less noise, as filters do.
+  bool filters_to_first_order = true;
   std::vector<Found> found;
   std::vector<Ranked> first_ranking;  ///< beside masses alone
   std::vector<Ranked> last_ranking;   ///< of what was left out

@@ -130,7 +130,7 @@ void LoopState::collect_effects() {
   result.model.effects.clear();
   for (Found& f : result.found) {
     if (f.effect.effect->transform.any()) keep_within_limits(f.effect);
-    f.effect.to_first_order = f.effect.effect->filters_load && filters_to_first_order;
+    f.effect.to_first_order = f.effect.effect->filters_load && result.filters_to_first_order;
     result.model.effects.push_back(f.effect);
   }
 }

@@ -23,9 +23,6 @@ struct LoopState {
   Term masses;             ///< columns of the free links
   TallyOptions tally_options;
   RichModel rigid;  ///< masses alone, as fitted before anything was sought
-  /// What filters the load, of what was found: while causes are sought it must not predict better
-  /// by making less noise, as filters do.
-  bool filters_to_first_order = true;
   LoopResult result;
 
   /// Sums of the hypotheses and of modulations of these, beside the present model. Throws Refusal

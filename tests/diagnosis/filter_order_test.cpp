@@ -40,6 +40,12 @@ TEST(FilterOrder, TakesOutGainsOfTheSameDrive) {
             (Names{"torque_gain@joint1", "torque_lag@joint2", "encoder_offset@joint2"}));
   ASSERT_EQ(state.result.model.effects.size(), 3U);
   for (const AppliedEffect& a : state.result.model.effects) EXPECT_FALSE(a.to_first_order);
+
+  // Others go on with the result, of another log or behind another filter.
+  LoopState later(robot, log, nullptr, settings);
+  later.result = state.result;
+  later.collect_effects();
+  for (const AppliedEffect& a : later.result.model.effects) EXPECT_FALSE(a.to_first_order);
 }
 
 /// Names of what was found beside it in the end are no longer in its place.
