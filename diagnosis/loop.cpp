@@ -333,20 +333,41 @@ class Loop {
 
   /// Applied transformations that no longer lower the held-out error, or are of no credible size,
   /// are taken back for good, the least first. That is asked of derivatives: what gains little is
-  /// small, and sums of the log without each would be most of the time that many take.
+  /// small, and sums of the log without each would be most of the time that many take. But beside a
+  /// derivative masses still have the rows that it has changed, and about an upright axis they feel
+  /// weight by a tilt alone: what is to go is asked once more as it is, unless the base turns.
   void prune_transformations() {
+    std::vector<std::string> stay;
     while (std::any_of(result_.found.begin(), result_.found.end(),
                        [](const Found& f) { return f.effect.effect->transform.any(); })) {
       const std::vector<Gain> gains = state_.gains_by_derivative();
       std::optional<std::size_t> worst;
       for (std::size_t i = 0; i < gains.size(); ++i) {
-        const AppliedEffect& a = result_.found[i].effect;
-        if (!a.effect->transform.any() || (is_worth(gains[i]) && !at_limit(a))) continue;
+        const Found& f = result_.found[i];
+        if (!f.effect.effect->transform.any() || std::ranges::count(stay, f.id) > 0) continue;
+        if (is_worth(gains[i]) && !at_limit(f.effect)) continue;
         if (!worst || gains[i].t < gains[*worst].t) worst = i;
       }
       if (!worst) return;
-      take_back(*worst, is_worth(gains[*worst]));
+      const Found& f = result_.found[*worst];
+      if (state_.robot.root == Root::fixed && !at_limit(f.effect) &&
+          is_worth(gain_as_it_is(*worst, state_.held_out_of_model()))) {
+        stay.push_back(f.id);
+      } else {
+        take_back(*worst, is_worth(gains[*worst]));
+      }
     }
+  }
+
+  /// Of an applied transformation, all others in; `with` is the held-out error of them all.
+  [[nodiscard]] Gain gain_as_it_is(std::size_t i, const Eigen::VectorXd& with) {
+    const std::vector<Found> all = result_.found;
+    result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
+    state_.collect_effects();
+    const Gain gain = gain_of(state_.held_out_of_model(), with);
+    result_.found = all;
+    state_.collect_effects();
+    return gain;
   }
 
   [[nodiscard]] static bool is_worth(const Gain& gain) {
@@ -375,12 +396,7 @@ class Loop {
     for (std::size_t i = 0; i < result_.found.size(); ++i) {
       if (!result_.found[i].effect.effect->transform.any()) continue;
       if (!with) with = state_.held_out_of_model();
-      const std::vector<Found> all = result_.found;
-      result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
-      state_.collect_effects();
-      const Gain gain = gain_of(state_.held_out_of_model(), *with);
-      result_.found = all;
-      state_.collect_effects();
+      const Gain gain = gain_as_it_is(i, *with);
       result_.found[i].gain = gain.share;
       result_.found[i].t = gain.t;
       if (is_worth(gain)) continue;
