@@ -349,10 +349,10 @@ class Loop {
         if (!worst || gains[i].t < gains[*worst].t) worst = i;
       }
       if (!worst) return;
-      const Found& f = result_.found[*worst];
-      if (state_.robot.root == Root::fixed && !at_limit(f.effect) &&
-          is_worth(gain_as_it_is(*worst, state_.held_out_of_model()))) {
-        stay.push_back(f.id);
+      const bool asked_again =
+          state_.robot.root == Root::fixed && !at_limit(result_.found[*worst].effect);
+      if (asked_again && is_worth(gain_as_it_is(*worst, state_.held_out_of_model()))) {
+        stay.push_back(result_.found[*worst].id);
       } else {
         take_back(*worst, is_worth(gains[*worst]));
       }
