@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "shapeid/diagnosis/effects.hpp"
@@ -24,12 +25,21 @@ bool needs_load_rate(const std::vector<AppliedEffect>& effects) {
                      [](const AppliedEffect& a) { return a.effect->filters_load; });
 }
 
-LoadRate slope_of_filter(const Robot& robot, const AppliedEffect& filter, double reach) {
+std::vector<LoadRate> slopes_of_filters(const Robot& robot,
+                                        const std::vector<AppliedEffect>& effects, double reach) {
+  std::map<int, double> time_constant;
+  for (const AppliedEffect& a : effects) {
+    if (a.effect->filters_load && !a.to_first_order) time_constant[a.site] += a.value[0];
+  }
   const double step = neighbour_step(robot);
-  const double ago = std::clamp(filter.value[0], 0.0, std::max(reach - step, 0.0));
-  const double longest = std::max(reach - ago, step);
-  const double half = std::clamp(std::sqrt(3.0) * ago, step, longest);
-  return {filter.site, -ago - half, -ago + half};
+  std::vector<LoadRate> slopes;
+  for (const auto& [joint, T] : time_constant) {
+    const double ago = std::clamp(T, 0.0, std::max(reach - step, 0.0));
+    const double longest = std::max(reach - ago, step);
+    const double half = std::clamp(std::sqrt(3.0) * ago, step, longest);
+    slopes.push_back({joint, -ago - half, -ago + half});
+  }
+  return slopes;
 }
 
 std::vector<LoadRate> load_rates(const Robot& robot, const std::vector<AppliedEffect>& effects,
@@ -45,10 +55,8 @@ std::vector<LoadRate> load_rates(const Robot& robot, const std::vector<AppliedEf
   for (const AppliedEffect& a : effects) {
     if (a.effect == find_effect("torque_delay")) reach -= std::abs(a.value[0]);
   }
-  for (const AppliedEffect& a : effects) {
-    if (!a.effect->filters_load || a.to_first_order) continue;
-    rates.push_back(slope_of_filter(robot, a, reach));
-  }
+  const std::vector<LoadRate> slopes = slopes_of_filters(robot, effects, reach);
+  rates.insert(rates.end(), slopes.begin(), slopes.end());
   return rates;
 }
 

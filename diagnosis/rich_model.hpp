@@ -65,11 +65,13 @@ struct LoadRate {
   [[nodiscard]] double span() const { return end - begin; }
 };
 
-/// Of one filter of the load: over sqrt(3) time constants to either side of one of them ago, with
-/// which it has the filter's response to third order, but over neighbour_step() at least, and not
-/// further back than `reach` (s).
-[[nodiscard]] LoadRate slope_of_filter(const Robot& robot, const AppliedEffect& filter,
-                                       double reach);
+/// Of each joint whose load some of the effects filter, not to first order alone: over sqrt(3) time
+/// constants to either side of one of them ago, with which they have the filter's response to third
+/// order, but over neighbour_step() at least, and not further back than `reach` (s). Of two effects
+/// of one joint (one came since a reference log) the time constants add up.
+[[nodiscard]] std::vector<LoadRate> slopes_of_filters(const Robot& robot,
+                                                      const std::vector<AppliedEffect>& effects,
+                                                      double reach);
 
 /// For what filters the load among some effects, and what may be tried beside them: the rate of now
 /// for this and those that are to first order, and a slope for each of the others.

@@ -228,12 +228,11 @@ std::string load_code(const std::string& motion) {
 std::string prediction_from_log(const Robot& robot, const std::vector<AppliedEffect>& effects) {
   std::vector<double> times;
   std::string text;
-  for (const AppliedEffect& a : effects) {
-    if (!a.effect->filters_load) continue;
-    const LoadRate over = slope_of_filter(robot, a, std::numeric_limits<double>::infinity());
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  for (const LoadRate& over : slopes_of_filters(robot, effects, anywhere)) {
     text += fmt::format(
         "  load_rate[{0}] = (load_at(around[{2}], {0}) - load_at(around[{1}], {0})) / {3};\n",
-        a.site, times.size(), times.size() + 1, over.span());
+        over.joint, times.size(), times.size() + 1, over.span());
     times.insert(times.end(), {over.begin, over.end});
   }
   return fmt::format(

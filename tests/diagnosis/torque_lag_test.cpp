@@ -107,9 +107,9 @@ TEST(TorqueLag, HasASlopeOfItsOwn) {
                                            test::effect("torque_lag", 0, {0.0})};
   const Viewer alone(robot, ContactTreatment::ignore, lags);
   ASSERT_EQ(alone.load_rates().size(), 2U);
-  EXPECT_EQ(alone.load_rates()[0].joint, 2);
-  EXPECT_EQ(alone.load_rates()[1].joint, 0);
-  EXPECT_DOUBLE_EQ(alone.load_rates()[1].begin, -neighbour_step(robot));
+  EXPECT_EQ(alone.load_rates()[0].joint, 0);
+  EXPECT_EQ(alone.load_rates()[1].joint, 2);
+  EXPECT_DOUBLE_EQ(alone.load_rates()[0].begin, -neighbour_step(robot));
   const Viewer beside(robot, ContactTreatment::ignore, lags, {test::effect("torque_lag", 1, {0})});
   ASSERT_EQ(beside.load_rates().size(), 3U);
   EXPECT_EQ(beside.load_rates()[0].joint, LoadRate::all_joints);
@@ -126,6 +126,19 @@ TEST(TorqueLag, HasASlopeOfItsOwn) {
   EXPECT_NE(of_all[1], 0.0);
   EXPECT_EQ(of_all[0], of_two[0]);
   EXPECT_EQ(of_all[2], of_two[2]);
+}
+
+/// A drive that filters more than when the reference log was made is one filter.
+TEST(TorqueLag, OfTwoTimesHasTheSlopeOfTheirSum) {
+  const Robot robot = test::arm();
+  AppliedEffect more = test::effect("torque_lag", 2, {0.005});
+  more.since_reference = true;
+  const std::vector<LoadRate> two =
+      load_rates(robot, {test::effect("torque_lag", 2, {0.009}), more}, {});
+  const std::vector<LoadRate> one = load_rates(robot, {test::effect("torque_lag", 2, {0.014})}, {});
+  ASSERT_EQ(two.size(), 1U);
+  EXPECT_DOUBLE_EQ(two[0].begin, one[0].begin);
+  EXPECT_DOUBLE_EQ(two[0].end, one[0].end);
 }
 
 /// As while causes are sought: whatever its time constant.
