@@ -190,8 +190,8 @@ Recording fast_with_filtered_torque(double times, double T) {
   return {std::move(samples), rate};
 }
 
-/// To first order the second looked like other causes: of these logs a gain of -2 and -1 % and a
-/// force of -0.8 and -1.1 N, by several standard errors each.
+/// With the law of first order to the end these logs have a gain of the next joint as well (0.9 %, by
+/// four standard errors); and a gain of -1.3 % and a force of -1.1 N, by nine and six.
 TEST(TorqueLag, OfAFilterIsFoundAlone) {
   struct Case {
     double times, T;
