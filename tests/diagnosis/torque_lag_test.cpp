@@ -190,8 +190,8 @@ Recording fast_with_filtered_torque(double times, double T) {
   return {std::move(samples), rate};
 }
 
-/// With the law of first order to the end these logs have a gain of the next joint as well (0.9 %, by
-/// four standard errors); and a gain of -1.3 % and a force of -1.1 N, by nine and six.
+/// With the law of first order to the end these logs have a gain of the next joint as well (0.9 %,
+/// by four standard errors); and a gain of -1.3 % and a force of -1.1 N, by nine and six.
 TEST(TorqueLag, OfAFilterIsFoundAlone) {
   struct Case {
     double times, T;
