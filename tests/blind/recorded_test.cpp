@@ -160,9 +160,9 @@ TEST(Blind, ADelayIsNotWhatAFrictionLacks) {
   EXPECT_EQ(name_of(judged.outcome), "ambiguous") << judged.said;
 }
 
-/// A tilt of 2.9 mrad, twice the size, of an arm whose first two axes stand upright. At 050614b it was
-/// found, taken back by its derivative (1.3 % of the error, where it is 24), and a force had its
-/// place.
+/// A tilt of 2.9 mrad, twice the size, of an arm whose first two axes stand upright. At 050614b it
+/// was found, taken back by its derivative (1.3 % of the error, where it is 24), and a force had
+/// its place.
 TEST(Blind, ATiltOfAnUprightArmStays) {
   const Judgement judged = judgement_of_drawn_arm(9575, 62);
   EXPECT_EQ(name_of(judged.outcome), "right") << judged.said;
