@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapeid/models/text.hpp"
+
 namespace shapeid::app {
 namespace {
 
 using certificate::Existence;
 using certificate::Proof;
+
+/// Bytes of a reason.
+constexpr std::size_t longest_reason = 400;
 
 std::string bodies_text(const Proof& p) {
   const auto count = [&](Existence wanted) {
@@ -103,14 +108,17 @@ std::string certified_text(const certificate::Certified& certified) {
   if (!p.made_of_shapes) {
     text += p.plane.size() > 0
                 ? "the parameters as written are not made of the shapes: a plane separates them\n"
-                : "the parameters as written are the masses' to rounding, not exactly\n";
+                : "the parameters as written are not exactly the masses', or a mass is negative\n";
   }
   if (p.floor) {
     text += fmt::format("floor of infinitely many divisions: {:.17g}; the answer is {} above it\n",
                         *p.floor, at_most(p.objective_above - *p.floor, ""));
   }
   text += relaxations_text(p);
-  for (const std::string& reason : certified.reasons) text += "reason: " + reason + "\n";
+  // A reason may quote the answer.
+  for (const std::string& reason : certified.reasons) {
+    text += "reason: " + one_line(reason, longest_reason) + "\n";
+  }
   return text;
 }
 

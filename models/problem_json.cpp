@@ -148,7 +148,13 @@ Answer answer_from_json(const std::string& text, const std::string& name) {
       shapeid::text(member(document, "problem_digest", source), "problem_digest", source);
   answer.parameters = numbers(member(document, "parameters", source), "parameters", source);
   answer.objective = number(member(document, "objective", source), "objective", source);
-  if (document.contains("masses")) answer.masses = numbers(document["masses"], "masses", source);
+  if (document.contains("masses")) {
+    answer.masses = numbers(document["masses"], "masses", source);
+    if (answer.masses.size() == 0) {
+      throw InputError({name, 0, "masses"}, "an empty list",
+                       "leave the key out where parameters alone are claimed");
+    }
+  }
   if (document.contains("columns")) answer.others = numbers(document["columns"], "columns", source);
   return answer;
 }

@@ -27,7 +27,8 @@ Violation why_malformed(const StatedProblem& p) {
     return fmt::format("{} columns, {} lower and {} upper bounds", C.values.cols(), C.lower.size(),
                        C.upper.size());
   }
-  if (C.values.cols() > 0 && C.values.rows() != p.masses.F.size()) {
+  // No columns may be written as no rows at all.
+  if (C.values.size() + C.values.rows() > 0 && C.values.rows() != p.masses.F.size()) {
     return fmt::format("columns have {} rows, F {}", C.values.rows(), p.masses.F.size());
   }
   if (!C.values.allFinite()) return "a number of the columns is not finite";

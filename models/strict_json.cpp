@@ -56,6 +56,7 @@ std::optional<double> hexadecimal(std::string_view text) {
   if (negative) text.remove_prefix(1);
   if (!text.starts_with("0x")) return std::nullopt;
   text.remove_prefix(2);
+  if (text.starts_with('-')) return std::nullopt;  // which from_chars would read
   double value = 0.0;
   const auto [end, error] =
       std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::hex);

@@ -189,6 +189,28 @@ Section Duality.
       apply mul_nonneg; [exact hnu | now apply sub_nonneg].
   Qed.
 
+  (** Claim C14. Of all masses that weigh no more than M the terms are least with all of it on the
+      steepest shape, or none: also without a density term. *)
+  Theorem steepest_shape p (a t : nat -> K) M low :
+    well_formed p -> low <= 0 -> (forall j, (j < shapes p)%nat -> low <= a j) ->
+    nonnegative p t -> sum (shapes p) t <= M -> 2 * (M * low) <= mass_terms p a t.
+  Proof.
+    intros wf hlow slopes ht total.
+    unfold mass_terms. replace (2 * (M * low)) with (2 * (M * low) + 0) by ring. apply le_add.
+    - rewrite (sum_ext (shapes p) _ (fun j => 2 * (a j * t j))) by (intros; ring).
+      rewrite sum_scale. apply le_scale; [apply lt_le, two_pos |].
+      apply (le_trans _ (low * sum (shapes p) t)).
+      + apply le_of_sub.
+        replace (low * sum (shapes p) t - M * low) with ((M - sum (shapes p) t) * - low) by ring.
+        apply mul_nonneg; [now apply sub_nonneg | now apply opp_nonneg].
+      + rewrite <- sum_scale. apply sum_le. intros j hj.
+        replace (low * t j) with (t j * low) by ring.
+        replace (a j * t j) with (t j * a j) by ring.
+        apply le_scale; [now apply ht | now apply slopes].
+    - unfold density. apply mul_nonneg; [apply wf |]. apply sum_nonneg. intros j hj.
+      apply div_nonneg; [apply square_nonneg | now apply wf].
+  Qed.
+
   (** Claim C14. At the residual of a KKT point nothing is given away: the terms are least at its
       masses, and the bound is its objective. *)
   Theorem duality_is_tight p m :

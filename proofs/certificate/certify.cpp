@@ -63,13 +63,15 @@ class Certifier {
     result_.reasons.push_back(fmt::format(text, std::forward<Arguments>(arguments)...));
   }
 
+  /// Else the answer is of parameters alone.
+  [[nodiscard]] bool masses_given() const { return answer_.masses.size() > 0 || p_.shapes() == 0; }
+
   /// The answer's masses; or, of parameters alone, the nearest that the shapes can make.
   void find_masses() {
     Proof& proof = result_.proof;
-    const bool given = answer_.masses.size() > 0 || p_.shapes() == 0;
-    if (given) {
+    if (masses_given()) {
       m_ = exact(answer_.masses);
-      proof.made_of_shapes = true;
+      proof.made_of_shapes = std::ranges::all_of(m_, [](const Rational& m) { return sgn(m) >= 0; });
     } else {
       NearestBody nearest = nearest_body(stated_.masses, answer_.parameters);
       m_ = std::move(nearest.m);
@@ -82,7 +84,7 @@ class Certifier {
       }
     }
     Phi_ = p_.U.times(m_);
-    if (given) {
+    if (masses_given()) {
       for (std::size_t i = 0; i < Phi_.size(); ++i) {
         proof.made_of_shapes = proof.made_of_shapes && exact(claimed(i)) == Phi_[i];
       }
@@ -120,13 +122,12 @@ class Certifier {
     const Rational rounding = exact(tolerance_.rounding);
     for (std::size_t i = 0; i < Phi_.size(); ++i) {
       if (abs(exact(claimed(i)) - Phi_[i]) <= rounding * terms[i]) continue;
-      reject(
-          "parameter {} is said to be {}, {} {}", i, claimed(i),
-          answer_.masses.size() > 0 ? "the masses make it" : "the nearest body of the shapes has",
-          words(Phi_[i]));
+      reject("parameter {} is said to be {}, {} {}", i, claimed(i),
+             masses_given() ? "the masses make it" : "the nearest body of the shapes has",
+             words(Phi_[i]));
     }
     // Parameters alone have no density term: which masses they are of is the checker's choice.
-    if (answer_.masses.size() == 0) return;
+    if (!masses_given()) return;
     // A residual that is off by rounding times |W^(1/2) F| changes its square by no more than this.
     const Rational root = root_above(zero_objective_) * rounding;
     const Rational allowed = 2 * root_above(f_) * root + root * root;
@@ -151,7 +152,7 @@ class Certifier {
     Rational gap;
     if (optimum) {
       proof.optimum_known = true;
-      proof.free_set_right = optimum->same;
+      proof.free_set_right = masses_given() && optimum->same;
       proof.lower = rounded_down(optimum->value);
       proof.upper = rounded_up(optimum->value);
       shapes_ = {optimum->value, optimum->value};

@@ -63,7 +63,8 @@ struct Proof {
   double mass_distance = 0;  ///< kg: no mass is farther from the optimum's (0 or inf at lambda = 0)
   /// The same of kg, kg m, kg m^2.
   Eigen::Vector3d parameter_distance = Eigen::Vector3d::Zero();
-  bool made_of_shapes = false;  ///< the parameters claimed are exactly U m for some m >= 0
+  /// The parameters claimed are exactly U m, of the masses that are judged, and m >= 0.
+  bool made_of_shapes = false;
   Eigen::VectorXd plane;  ///< if not: a separating plane, rounded, 10 per free link; else empty
   std::vector<Existence> bodies;  ///< of the free links, U m exactly
   std::optional<double> floor;    ///< of infinitely many divisions; empty: none above zero

@@ -78,15 +78,20 @@ struct Holds {
   Vector x;
   Rational rounding;
 
-  /// Coordinates in the canonical body; the frame is not singular.
-  [[nodiscard]] Vector seen_in(const Eigen::Affine3d& frame) const {
+  /// Coordinates in the canonical body; none if a frame that is singular in exact arithmetic,
+  /// though not in doubles, gives the point none.
+  [[nodiscard]] std::optional<Vector> seen_in(const Eigen::Affine3d& frame) const {
     std::vector<Vector> L;
     Vector right;
     for (Eigen::Index i = 0; i < 3; ++i) {
       L.push_back(exact(Eigen::VectorXd(frame.linear().row(i).transpose())));
       right.emplace_back(x[static_cast<std::size_t>(i)] - exact(frame.translation()[i]));
     }
-    return solve(std::move(L), std::move(right));
+    Vector seen = solve(L, right);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (dot(L[i], seen) != right[i]) return std::nullopt;
+    }
+    return seen;
   }
   [[nodiscard]] bool between(const Rational& y, double lower, double upper) const {
     const Rational slack = rounding * (exact(upper) - exact(lower));
@@ -101,16 +106,19 @@ struct Holds {
   }
 
   bool operator()(const Cuboid& s) const {
-    const Vector y = seen_in(s.frame);
+    const auto y = seen_in(s.frame);
+    if (!y) return false;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto axis = static_cast<Eigen::Index>(i);
-      if (!between(y[i], s.cell.lower[axis], s.cell.upper[axis])) return false;
+      if (!between((*y)[i], s.cell.lower[axis], s.cell.upper[axis])) return false;
     }
     return true;
   }
   bool operator()(const Cylinder& s) const {
     if (s.cell.lower.x() > 0.0 || !whole_turn(s.cell.lower.y(), s.cell.upper.y())) return false;
-    const Vector y = seen_in(s.frame);
+    const auto seen = seen_in(s.frame);
+    if (!seen) return false;
+    const Vector& y = *seen;
     return between(y[2], s.cell.lower.z(), s.cell.upper.z()) &&
            within(y[0] * y[0] + y[1] * y[1], s.cell.upper.x());
   }
@@ -118,17 +126,22 @@ struct Holds {
     const bool whole = s.cell.lower.x() == 0.0 && s.cell.lower.y() == 0.0 &&
                        s.cell.upper.y() >= std::numbers::pi &&
                        whole_turn(s.cell.lower.z(), s.cell.upper.z());
-    return whole && within(dot(seen_in(s.frame), seen_in(s.frame)), s.cell.upper.x());
+    const auto y = seen_in(s.frame);
+    return whole && y && within(dot(*y, *y), s.cell.upper.x());
   }
   bool operator()(const Polyhedron& s) const {
     if (!s.convex) return false;
-    // Toward a point inside by `rounding` of the way.
+    // Toward a point inside by `rounding` of the way. A vertex of no face need not be of the solid.
+    const auto faces = triangles(s);
     Vector inner(3), y = x;
-    for (const Vector& corner : Corners{}(s)) {
-      for (std::size_t i = 0; i < 3; ++i) inner[i] += corner[i] / Rational(s.vertices.size());
+    for (const auto& face : faces) {
+      for (const auto place : face) {
+        const Vector corner = exact3(s.vertices[static_cast<std::size_t>(place)]);
+        for (std::size_t i = 0; i < 3; ++i) inner[i] += corner[i] / Rational(3 * faces.size());
+      }
     }
     for (std::size_t i = 0; i < 3; ++i) y[i] += rounding * (inner[i] - x[i]);
-    for (const auto& face : triangles(s)) {
+    for (const auto& face : faces) {
       const auto corner = [&](std::size_t i) {
         return exact3(s.vertices[static_cast<std::size_t>(face[i])]);
       };

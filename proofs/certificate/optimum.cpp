@@ -13,6 +13,11 @@ using Indices = std::vector<std::size_t>;
 /// Sets of shapes that are tried: the start's, and what exact slopes suggest after it.
 constexpr int most_sets = 6;
 
+/// Parameters of the free links, with a density term: a dense system of integers is solved for
+/// them, at a cost that grows with their cube, a second for a hundred links without a row. Beyond,
+/// no optimum is sought.
+constexpr std::size_t most_parameters = 1000;
+
 struct DyadicProblem {
   explicit DyadicProblem(const StatedProblem& p)
       : Y(p.masses.Y),
@@ -215,6 +220,7 @@ Indices columns_between_bounds(const OtherColumns& others, const Eigen::VectorXd
 
 std::optional<Optimum> prove_optimum(const StatedProblem& stated, const Start& start) {
   const DyadicProblem p(stated);
+  if (!zero_lambda(p) && p.Y.columns > most_parameters) return std::nullopt;
   const Indices columns = columns_between_bounds(stated.others, start.x);
   Indices shapes = shapes_with_mass(start.m);
   for (int set = 0; set < most_sets; ++set) {

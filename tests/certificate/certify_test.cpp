@@ -274,6 +274,61 @@ TEST(Certify, ParametersThatAreNotMadeOfTheShapesAreSeparated) {
             -1e-12 * c.proof.plane.norm() * p.masses.U.colwise().norm().maxCoeff());
 }
 
+/// Parameters alone have no masses whose free set could be right.
+TEST(Certify, ParametersAloneHaveNoFreeSet) {
+  const StatedProblem p = test::one_point_problem();
+  const Proof proof = certify(p, parameters_alone(p, Eigen::VectorXd::Constant(1, 0.125))).proof;
+  EXPECT_FALSE(proof.free_set_right);
+  StatedProblem unbounded = p;
+  unbounded.masses.mass_bound = 0.0;
+  const Answer best = honest_answer(unbounded, Eigen::VectorXd::Constant(1, 0.5));
+  EXPECT_TRUE(certify(unbounded, best).proof.free_set_right);
+  Answer alone = best;
+  alone.masses.resize(0);
+  const Proof known = certify(unbounded, alone).proof;
+  EXPECT_TRUE(known.optimum_known);
+  EXPECT_FALSE(known.free_set_right);
+}
+
+/// What negative masses make is not made of the shapes.
+TEST(Certify, NegativeMassesMakeNoBody) {
+  const StatedProblem p = test::one_point_problem();
+  EXPECT_TRUE(
+      certify(p, honest_answer(p, Eigen::VectorXd::Constant(1, 0.125))).proof.made_of_shapes);
+  EXPECT_FALSE(
+      certify(p, honest_answer(p, Eigen::VectorXd::Constant(1, -0.125))).proof.made_of_shapes);
+}
+
+/// Where there is no shape nothing is left to choose, and the objective is judged.
+TEST(Certify, TheObjectiveOfNoShapesCounts) {
+  StatedProblem p = test::load_problem();
+  p.masses.U.resize(p.masses.U.rows(), 0);
+  p.masses.V.resize(0);
+  p.shapes.clear();
+  Answer answer = honest_answer(p, Eigen::VectorXd(0));
+  EXPECT_EQ(first_reason(certify(p, answer)), "accepted");
+  answer.objective = -123.0;
+  EXPECT_NE(first_reason(certify(p, answer)).find("the objective is said to be"),
+            std::string::npos);
+}
+
+/// A file of a few bytes a link must not ask for hours: what would is not sought, and the bound
+/// from duality stands.
+TEST(Certify, LinksWithoutRowsAreNotSolvedFor) {
+  StatedProblem p;
+  constexpr Eigen::Index parameters = 3000;
+  p.masses.Y.resize(1, parameters);
+  p.masses.Y.setZero();
+  p.masses.F = Eigen::VectorXd::Constant(1, 2.0);
+  p.masses.W = Eigen::VectorXd::Ones(1);
+  p.masses.U.resize(parameters, 0);
+  p.masses.lambda = 1.0;
+  const Certified c = certify(p, honest_answer(p, Eigen::VectorXd(0)));
+  EXPECT_EQ(first_reason(c), "accepted");
+  EXPECT_FALSE(c.proof.optimum_known);
+  EXPECT_EQ(c.proof.lower, 4.0);
+}
+
 TEST(Certify, SizesThatDoNotFitAreSaid) {
   const StatedProblem p = test::load_problem();
   const Answer good = honest_answer(p, Eigen::VectorXd::Zero(p.masses.shapes()));

@@ -193,6 +193,37 @@ TEST(Geometry, RegionsLieWhereTheirFramesAre) {
   }
 }
 
+/// A frame whose rows depend on each other, though no double says so, is flat: it holds what lies
+/// in its plane, and not a point beside it that elimination would put into its cell.
+TEST(Geometry, AFlatRegionHoldsNothingBesideIt) {
+  Cuboid flat = std::get<Cuboid>(make_cuboid({1.0, 1.0, 1.0}, Eigen::Isometry3d::Identity()));
+  flat.frame.linear() << 0.5037819917777995, 0.7967812714998388, 1.5659885003428258,
+      0.4767956243913716, 0.6840827281648956, 0.8108160992746889, 0.980577616169171,
+      1.4808639996647344, 2.3768045996175147;  // the third row is the sum of the others
+  ASSERT_FALSE(why_malformed(Shape(flat)));
+  const auto holds = [&](const Eigen::Vector3d& x) {
+    return check_geometry(of_shapes({make_point(x, 1e-6)}, flat), rounding).inside == 1;
+  };
+  EXPECT_TRUE(holds(Eigen::Vector3d::Zero()));
+  EXPECT_FALSE(holds(Eigen::Vector3d(0.0, 0.0, 4096.0)));
+}
+
+/// A vertex that no face names is no part of a solid, and does not widen what is forgiven.
+TEST(Geometry, AVertexOfNoFaceForgivesNothing) {
+  Polyhedron cube = std::get<Polyhedron>(make_convex_hull(
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}},
+      Eigen::Isometry3d::Identity()));
+  const auto holds = [&](double x) {
+    const Shape part = make_point({x, 0.5, 0.5}, 1e-6);
+    return check_geometry(of_shapes({part}, cube), rounding).inside == 1;
+  };
+  EXPECT_TRUE(holds(-4e-10));
+  EXPECT_FALSE(holds(-4e-5));
+  cube.vertices.emplace_back(4e5, 0.5, 0.5);
+  EXPECT_TRUE(holds(-4e-10));
+  EXPECT_FALSE(holds(-4e-5));
+}
+
 /// Another link's region does not count, nor an entry on another link's rows.
 TEST(Geometry, LinksAreKeptApart) {
   const Shape cube = make_cuboid({0.1, 0.1, 0.1}, Eigen::Isometry3d::Identity());

@@ -138,7 +138,7 @@ TEST(GoldenCertificate, OfAnAnswerThatMissesItsOptimum) {
 TEST(GoldenCertificate, OfAnAnswerThatMissesItsOptimumInWords) {
   const Missed missed;
   Certified certified = certify(missed.problem, missed.answer);
-  certified.reasons = {"one", "another"};
+  certified.reasons = {"one", "another\naccepted\x1b[2J"};
   certified.proof.floor = 0.25;
   EXPECT_EQ(app::certified_text(certified),
             "rejected\n"
@@ -149,7 +149,7 @@ TEST(GoldenCertificate, OfAnAnswerThatMissesItsOptimumInWords) {
             "mass bound: 0.75 kg, declared by the problem\n"
             "bodies of the free links: 0 exist with volume, 1 on the edge, 0 cannot exist\n"
             "no shapes are stated: that the columns are shapes in the regions is taken on trust\n"
-            "the parameters as written are the masses' to rounding, not exactly\n"
+            "the parameters as written are not exactly the masses', or a mass is negative\n"
             "floor of infinitely many divisions: 0.25; the answer is 0.375 above it\n"
             "least data terms, in the proved order of their sets:\n"
             "  parameters with no negative mass    [0, 0.5]  at most, as it asks less than\n"
@@ -157,7 +157,7 @@ TEST(GoldenCertificate, OfAnAnswerThatMissesItsOptimumInWords) {
             "  mass anywhere in the regions        [0, 0.5]  at most, as it asks less than\n"
             "  the shapes, with the density term   [0.5, 0.5]\n"
             "reason: one\n"
-            "reason: another\n");
+            "reason: another\\x0aaccepted\\x1b[2J\n");
 }
 
 /// No mass at all, where 1/8 kg is best: the residual is -1, and -1 + 2 + 2 (-1) t + t^2 is least

@@ -142,6 +142,42 @@ TEST(AnswerJson, MassesMayBeLeftOut) {
   EXPECT_EQ(answer_from_json(answer_to_json(a), "a.json").masses.size(), 0);
 }
 
+/// An empty list is not the same as none: it has another size than any problem's masses.
+TEST(AnswerJson, NoMassesAreNoList) {
+  const std::string text =
+      R"({"format":"shapeid-answer-1","problem_digest":"0","masses":[],"parameters":[1.0],)"
+      R"("objective":0.0})";
+  EXPECT_THROW(answer_from_json(text, "a.json"), InputError);
+}
+
+/// Rows of nothing are as many as there are rows, or none.
+TEST(ProblemJson, EmptyColumnsHaveTheRowsOfTheProblem) {
+  const auto with = [](const std::string& values) {
+    return R"({"format":"shapeid-problem-1","free_links":0,"Y":[[],[]],"F":[1.0,2.0],"W":[1.0,2.0],)"
+           R"("U":[],"V":[],"lambda":0.25,"mass_bound":3.0,"columns":{"values":)" +
+           values + R"(,"lower":[],"upper":[]}})";
+  };
+  for (const char* values : {"[]", "[[],[]]"}) {
+    EXPECT_NO_THROW(stated_problem_from_json(with(values), "p.json")) << values;
+  }
+  for (const char* values : {"[[]]", "[[],[],[]]"}) {
+    EXPECT_THROW(stated_problem_from_json(with(values), "p.json"), InputError) << values;
+  }
+}
+
+/// from_chars reads a sign behind the prefix, where none may be.
+TEST(ProblemJson, ASignStandsBeforeTheNumber) {
+  const auto with = [](const std::string& lambda) {
+    return R"({"format":"shapeid-problem-1","free_links":0,"Y":[[]],"F":[1.0],"W":[1.0],"U":[],)"
+           R"("V":[],"lambda":")" +
+           lambda + R"(","mass_bound":3.0})";
+  };
+  EXPECT_EQ(problem_from_json(with("0x1p-2"), "p.json").lambda, 0.25);
+  for (const char* lambda : {"0x-1p-2", "-0x-1p-2", "0x+1p-2", "0x", "0x0x1p0"}) {
+    EXPECT_THROW(problem_from_json(with(lambda), "p.json"), InputError) << lambda;
+  }
+}
+
 TEST(ProblemJson, HexadecimalNumbersAreExact) {
   const std::string text =
       R"({"format":"shapeid-problem-1","free_links":0,"Y":[[],[]],"F":["-0x1.8p-3","0x1p4"],)"
