@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "shapeid/models/contract.hpp"
+
 namespace shapeid::diagnosis {
 
 Recording::Recording(std::vector<Sample> samples, double rate, std::vector<std::string> extra)
@@ -182,6 +184,13 @@ std::size_t Recording::reach() const {
   return static_cast<std::size_t>(std::ceil(largest_shift * rate_)) + 2;
 }
 
+Violation Recording::why_not_shifted(std::size_t index, double dt) const {
+  constexpr double rounding = 1e-12;  // s, of a few sums
+  if (!surrounded(index, reach())) return "a sample without neighbours is shifted";
+  if (!(std::abs(dt) <= largest_shift + rounding)) return "a sample is shifted too far";
+  return std::nullopt;
+}
+
 std::vector<std::size_t> Recording::usable(std::size_t stride) const {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < samples_.size(); i += stride) {
@@ -191,6 +200,7 @@ std::vector<std::size_t> Recording::usable(std::size_t stride) const {
 }
 
 Sample Recording::shifted(std::size_t index, double dt) const {
+  SHAPEID_CONTRACT(why_not_shifted(index, dt));
   const double place = static_cast<double>(index) + dt * rate_;
   const auto before = static_cast<std::size_t>(std::floor(place));
   const double u = place - static_cast<double>(before);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "shapeid/diagnosis/effect.hpp"
+#include "shapeid/models/contract.hpp"
 #include "shapeid/models/sample.hpp"
 
 namespace shapeid::diagnosis {
@@ -111,6 +112,8 @@ class Recording {
   /// (as they are declared), forces and extras are those of the nearest sample. |dt| <=
   /// largest_shift.
   [[nodiscard]] Sample shifted(std::size_t index, double dt) const;
+  /// Why that cannot be had; empty if it can.
+  [[nodiscard]] Violation why_not_shifted(std::size_t index, double dt) const;
 
  private:
   [[nodiscard]] std::size_t reach() const;

@@ -51,9 +51,12 @@ std::vector<LoadRate> load_rates(const Robot& robot, const std::vector<AppliedEf
     const double step = neighbour_step(robot);
     rates.push_back({LoadRate::all_joints, -step, step});
   }
+  // What comes late moves the whole sample at which a slope begins or ends.
   double reach = largest_shift;
   for (const AppliedEffect& a : effects) {
-    if (a.effect == find_effect("torque_delay")) reach -= std::abs(a.value[0]);
+    for (const char* late : {"torque_delay", "imu_delay"}) {
+      if (a.effect == find_effect(late)) reach -= std::abs(a.value[0]);
+    }
   }
   const std::vector<LoadRate> slopes = slopes_of_filters(robot, effects, reach);
   rates.insert(rates.end(), slopes.begin(), slopes.end());

@@ -70,6 +70,15 @@ TEST(Recording, AStrideOfAnotherRateIsAsFarInTime) {
   EXPECT_EQ(slow.stride_for(slow, 7), 7U);
 }
 
+TEST(Recording, SaysWhatCannotBeShifted) {
+  const Recording log = of_cubics();
+  const std::size_t first = log.usable(1).front();
+  EXPECT_FALSE(log.why_not_shifted(first, -largest_shift));
+  EXPECT_FALSE(log.why_not_shifted(first, largest_shift));
+  EXPECT_TRUE(log.why_not_shifted(first, -1.01 * largest_shift));
+  EXPECT_TRUE(log.why_not_shifted(first - 1, 0.001));
+}
+
 /// The largest shift and the cubic's two samples are within the log at every one that is usable.
 TEST(Recording, UsableSamplesCanBeShiftedAsFarAsAnythingIs) {
   const Recording log = of_cubics();
