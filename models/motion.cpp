@@ -121,9 +121,10 @@ struct MotionReader::State {
   }
 
   void judge_head(double row_step) {
-    plausibility.emplace(source.path(), robot, source.plan(),
-                         Plausibility::Options{options.gap * row_step, options.expect_gravity,
-                                               options.refuse_frozen});
+    plausibility.emplace(
+        source.path(), robot, source.plan(),
+        Plausibility::Options{options.gap * row_step, options.expect_gravity, options.refuse_frozen,
+                              true, options.exact_derivatives});
     for (const MeasuredRow& row : head) plausibility->add(row);
     plausibility->judge();
   }
@@ -143,8 +144,11 @@ struct MotionReader::State {
     const double logged_rate = 1.0 / row_step;
     report.rate = options.rate > 0.0 ? options.rate : logged_rate;
     check_grid(report.rate, logged_rate);
-    check_cutoff("--cutoff", options.cutoff, report.rate);
-    const Butterworth design(options.order, options.cutoff, report.rate);
+    constexpr double of_any_rate = 0.25;
+    const bool filters = options.smoothing != Smoothing::none;
+    if (filters) check_cutoff("--cutoff", options.cutoff, report.rate);
+    const double cutoff = filters ? options.cutoff : of_any_rate * report.rate;  // of no effect
+    const Butterworth design(options.order, cutoff, report.rate);
     if (options.smoothing == Smoothing::causal) report.group_delay = design.group_delay(0.0);
     grid.emplace(report.rate, options.gap * steps.cwiseMax(row_step));
     segments.emplace(

@@ -87,7 +87,9 @@ Plausibility::Plausibility(std::string path, const Robot& robot, const ChannelPl
       ranges_(plan.channels.size()),
       slopes_(static_cast<std::size_t>(robot.joint_count())),
       products_(Eigen::MatrixXd::Zero(robot.joint_count(), robot.joint_count())),
-      steps_(slopes_.size()) {}
+      steps_(slopes_.size()) {
+  row_steps_.reserve(block);
+}
 
 Place Plausibility::place(int channel, int line) const {
   return {path_, line, plan_.channels[static_cast<std::size_t>(channel)].from};
@@ -100,6 +102,12 @@ void Plausibility::add(const MeasuredRow& row) {
   if (plan_.dq >= 0) add_slopes(row);
   for (int j = 0; options_.refuse_readings && j < robot_.joint_count(); ++j) add_step(j, row);
   if (plan_.floating()) add_gravity(row);
+  if (rows_ == 0) {
+    first_line_ = row.line;
+  } else {
+    row_steps_.push_back(row.time - last_time_);
+  }
+  last_time_ = row.time;
   if (++rows_ == block) judge();
 }
 
@@ -141,13 +149,21 @@ void Plausibility::add_step(int j, const MeasuredRow& row) {
   }
   const double out = std::max(far, fastest * elapsed);
   constexpr double little = 0.1;  // beside what a wild reading is off
-  if (s.rows > 2 && follows && std::abs(s.last) > out && std::abs(step) > out &&
-      std::abs(s.last + step) < little * std::abs(step) &&
-      std::abs(s.before) < little * std::abs(s.last)) {
+  const bool jumped = s.rows > 2 && follows && std::abs(s.last) > out &&
+                      std::abs(s.before) < little * std::abs(s.last);
+  if (jumped && std::abs(step) > out && std::abs(s.last + step) < little * std::abs(step)) {
     throw InputError(place(plan_.q + j, s.line),
                      fmt::format("is {:g} for one row, between {:g} and {:g}: a wild reading",
                                  s.position, s.position - s.last, position),
                      "leave the row out; a gap is no harm");
+  }
+  // (Readings that were held before it are noted, and where.)
+  if (jumped && s.before != 0.0 && std::abs(step) < little * std::abs(s.last)) {
+    throw InputError(place(plan_.q + j, s.line),
+                     fmt::format("jumps by {:.3g} from one row to the next, and stays there: no "
+                                 "joint is as fast",
+                                 s.last),
+                     "count an encoder's slips on, and leave wild rows out; a gap is no harm");
   }
   s = {row.time, position, step, s.last, row.line, follows ? s.rows + 1 : 1};
 }
@@ -165,7 +181,7 @@ void Plausibility::add_gravity(const MeasuredRow& row) {
 /// Nothing that is measured on a robot is larger by orders of magnitude. Sums of squares of what is
 /// would not be numbers any more.
 void Plausibility::judge_size() const {
-  constexpr double most_torque = 1e6, most_speed = 1e5, most_turn = 1e3, most_force = 1e5;
+  constexpr double most_torque = 1e6, most_speed = 1e5, most_turn = 1e3, most_specific = 1e5;
   const auto judge_channels = [&](int first, int count, double most, const char* unit) {
     for (int channel = first; first >= 0 && channel < first + count; ++channel) {
       const Range& r = range(channel);
@@ -182,9 +198,11 @@ void Plausibility::judge_size() const {
   judge_channels(plan_.gyrodot, 3, most_rate, "rad/s^2");
   judge_channels(plan_.tau, robot_.joint_count(), most_torque, "N m or N");
   judge_channels(plan_.dq, robot_.joint_count(), most_speed, "rad/s or m/s");
+  constexpr double most_force = 1e6;
+  judge_channels(plan_.force, 3 * static_cast<int>(robot_.contacts.size()), most_force, "N");
   if (!plan_.floating()) return;
   judge_channels(plan_.gyro, 3, most_turn, "rad/s");
-  judge_channels(plan_.accel, 3, most_force, "m/s^2");
+  judge_channels(plan_.accel, 3, most_specific, "m/s^2");
 }
 
 void Plausibility::judge() {
@@ -199,6 +217,8 @@ void Plausibility::judge() {
   }
   if (options_.expect_gravity) judge_gravity();
   if (options_.refuse_frozen) judge_frozen();
+  if (!options_.exact) judge_rate();
+  row_steps_.clear();
   rows_ = force_count_ = 0;
   force_sum_ = 0.0;
   ranges_.assign(ranges_.size(), {});
@@ -315,9 +335,13 @@ void Plausibility::judge_gravity() const {
   const auto between = [&](double unit) { return mean > least * unit && mean < most * unit; };
   if (between(gravity)) return;
   std::string right = "give the specific force in m/s^2, gravity included";
-  if (between(1.0)) right += "; the unit looks like g (scale: 9.80665)";
-  if (between(1e3 * gravity)) right += "; the unit looks like mm/s^2 (scale: 0.001)";
-  if (mean <= least * gravity) right += "; gravity seems to be removed (or the robot falls freely)";
+  if (between(1.0)) {
+    right += "; the unit looks like g (scale: 9.80665)";
+  } else if (between(1e3 * gravity)) {
+    right += "; the unit looks like mm/s^2 (scale: 0.001)";
+  } else if (mean <= least * gravity) {
+    right += "; gravity seems to be removed (or the robot falls freely)";
+  }
   throw InputError(place(plan_.accel),
                    fmt::format("the accelerometer's mean magnitude is {:.3g} m/s^2", mean), right);
 }
@@ -333,8 +357,9 @@ void Plausibility::judge_frozen() const {
   for (int j = 0; j < robot_.joint_count(); ++j) {
     any = any || moves(j);
     torque = torque || range(plan_.tau + j).width() > 0.0;
+    const Range& tau = range(plan_.tau + j);
     // Zero is what a free joint has.
-    if (moves(j) && range(plan_.tau + j).frozen()) refuse(plan_.tau + j);
+    if (moves(j) && tau.frozen() && tau.least != 0.0) refuse(plan_.tau + j);
   }
   if (any && !torque) {
     throw InputError(place(plan_.tau), "and every other torque never changes while the joints move",
@@ -342,9 +367,25 @@ void Plausibility::judge_frozen() const {
   }
   for (const int imu : {plan_.gyro, plan_.accel}) {
     for (int axis = 0; any && plan_.floating() && axis < 3; ++axis) {
-      if (range(imu + axis).frozen()) refuse(imu + axis);
+      const Range& reading = range(imu + axis);
+      if (reading.frozen() && !(options_.exact && reading.least == 0.0)) refuse(imu + axis);
     }
   }
+}
+
+/// The grid of the whole log is that of its first rows: of faster ones it would pick some.
+void Plausibility::judge_rate() {
+  if (row_steps_.size() < enough_rows) return;
+  const auto middle = row_steps_.begin() + std::ssize(row_steps_) / 2;
+  std::nth_element(row_steps_.begin(), middle, row_steps_.end());
+  if (first_median_ == 0.0) first_median_ = *middle;
+  constexpr double another = 1.5;
+  if (*middle * another > first_median_ && *middle < another * first_median_) return;
+  throw InputError({path_, first_line_, plan_.time.from},
+                   fmt::format("rows come {:.3g} times a second from about here on, and did {:.3g} "
+                               "times before",
+                               1.0 / *middle, 1.0 / first_median_),
+                   "give logs of one rate: split this one where its rate changes");
 }
 
 }  // namespace shapeid

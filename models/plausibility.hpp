@@ -27,8 +27,9 @@ void check_grid(double grid_rate, double logged_rate);
 ///  * an accelerometer whose mean magnitude is not gravity (g as unit, mm/s^2, gravity removed);
 ///  * channels that never change while the joints move, and torques of which none does;
 ///  * readings that no robot has, by orders of magnitude;
-///  * angles that jump by a turn from one row to the next, and positions that are elsewhere for one
-///    row.
+///  * angles that jump by a turn from one row to the next, positions that are elsewhere for one
+///    row, and such that jump elsewhere and stay there;
+///  * rows at another rate than before.
 /// A block decides only what it has motion enough to decide. Throws InputError.
 class Plausibility {
  public:
@@ -37,6 +38,9 @@ class Plausibility {
     bool expect_gravity = true;
     bool refuse_frozen = true;
     bool refuse_readings = true;  ///< single ones that no robot has, and angles that wrap
+    /// Without noise and not resampled: an axis of the IMU may read zero, rows may come at any
+    /// time.
+    bool exact = false;
   };
   Plausibility(std::string path, const Robot& robot, const ChannelPlan& plan, Options options);
 
@@ -53,7 +57,7 @@ class Plausibility {
     int line = 0;
     void add(double value, int at);
     [[nodiscard]] double width() const { return most - least; }
-    [[nodiscard]] bool frozen() const { return least == most && least != 0.0; }
+    [[nodiscard]] bool frozen() const { return least == most; }
   };
   /// Of a short span: the change of q, and the integral of dq.
   struct Span {
@@ -93,6 +97,7 @@ class Plausibility {
   void judge_gravity() const;
   [[nodiscard]] bool moves(int j) const;
   void judge_frozen() const;
+  void judge_rate();
 
   std::string path_;
   const Robot& robot_;
@@ -106,6 +111,9 @@ class Plausibility {
   std::vector<Steps> steps_;  ///< likewise
   double force_sum_ = 0.0;
   std::size_t force_count_ = 0;
+  std::vector<double> row_steps_;  ///< s
+  double last_time_ = 0.0, first_median_ = 0.0;
+  int first_line_ = 0;  ///< of the block
 };
 
 }  // namespace shapeid

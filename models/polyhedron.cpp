@@ -187,7 +187,11 @@ bool is_convex(const Polyhedron& p) {
       reached[g] = true;
     }
   }
-  return std::all_of(reached.begin(), reached.end(), [](bool r) { return r; });
+  if (!std::all_of(reached.begin(), reached.end(), [](bool r) { return r; })) return false;
+
+  // Such a surface may still wind about its middle twice, as one over a star does.
+  constexpr double more_than_once = 1.5;
+  return winding(p, moments(p).centroid) < more_than_once;
 }
 
 Eigen::Vector3d longest_direction(const Polyhedron& p) {

@@ -20,6 +20,9 @@ namespace shapeid {
 /// Whether no edge is re-entrant by more than single precision of the size, in one piece.
 [[nodiscard]] bool is_convex(const Polyhedron& polyhedron);
 
+/// How often the surface winds about a point: 1 inside a solid, 0 outside.
+[[nodiscard]] double winding(const Polyhedron& polyhedron, const Eigen::Vector3d& point);
+
 /// Inside (the surface winds around the point), or no farther than `slack` from the surface.
 [[nodiscard]] bool contains(const Polyhedron& polyhedron, const Eigen::Vector3d& point,
                             double slack);

@@ -85,10 +85,11 @@ void SampleStream::settle() {
 std::optional<Sample> SampleStream::next() { return margin_.next(); }
 
 double SampleStream::latency() const {
-  // The grid waits for a channel's next value; the sample is the middle of the rows that are
-  // differentiated, and its point of the grid may be a step behind the row.
+  // The grid waits for a channel's next value, and for the one behind it, which shapes its curve;
+  // the sample is the middle of the rows that are differentiated, and its point of the grid may be
+  // a step behind the row.
   const double rows = static_cast<double>(difference_reach) + 1.0;
-  return longest_step_.maxCoeff() + rows / rate_ +
+  return 2.0 * longest_step_.maxCoeff() + rows / rate_ +
          margin_of(Smoothing::causal, options_.cutoff).before;
 }
 

@@ -18,8 +18,11 @@ namespace {
 /// Vertices come in the frame in which shapes are written; the pose is applied by the maker.
 Shape read_polyhedron(const YamlInput& in, const YAML::Node& node, const Eigen::Isometry3d& pose) {
   if (const YAML::Node list = node["vertices"]) {
-    if (node["mesh"] || node["scale"] || node["hull"]) {
+    if (node["mesh"]) {
       in.refuse(node, "a polyhedron has both vertices and a mesh", "give one of them");
+    }
+    if (node["scale"] || node["hull"]) {
+      in.refuse(node, "a polyhedron of vertices has a scale or a hull", "these are of a mesh");
     }
     if (!list.IsSequence()) in.refuse(list, "vertices is not a list", "write [[x, y, z], ...]");
     std::vector<Eigen::Vector3d> vertices;

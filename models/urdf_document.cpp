@@ -159,8 +159,12 @@ void read_limits(const Reader& read, const XMLElement& element, Joint& joint, No
   joint.velocity = bound_or_none(velocity, "velocity", joint, notes);
 
   if (joint.kind == JointKind::continuous) return;
-  const double lower = read.optional_number(*limit, "lower").value_or(0.0);
-  const double upper = read.optional_number(*limit, "upper").value_or(0.0);
+  const std::optional<double> given_lower = read.optional_number(*limit, "lower");
+  const std::optional<double> given_upper = read.optional_number(*limit, "upper");
+  const double lower = given_lower.value_or(0.0), upper = given_upper.value_or(0.0);
+  if (given_lower.has_value() != given_upper.has_value()) {
+    notes.add(fmt::format("no {} limit, taken as 0", given_lower ? "upper" : "lower"), joint.name);
+  }
   if (lower > upper) {
     refuse(fmt::format("lower limit {:g} is above the upper limit {:g}", lower, upper),
            "swap them");

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <queue>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -93,21 +96,33 @@ class Lumper {
 
   /// Where it is when its master stands where that is locked, or else at zero; masters may be
   /// mimics.
-  double position_of_mimic(const DocumentJoint& j) const {
+  double position_of_mimic(const DocumentJoint& j) {
+    if (joints_.empty()) {
+      for (const DocumentJoint& other : document_.joints) joints_.emplace(other.joint.name, &other);
+    }
     double position = 0.0, factor = 1.0;
-    const DocumentJoint* at = &j;
-    // Mimics that follow each other in a circle stand nowhere: it ends after as many as there are.
-    for (std::size_t steps = 0; at != nullptr && at->mimic && steps < document_.joints.size();
-         ++steps) {
+    std::set<const DocumentJoint*> passed;
+    for (const DocumentJoint* at = &j; at->mimic;) {
       position += factor * at->mimic->offset;
       factor *= at->mimic->multiplier;
       const std::string& master = at->mimic->joint;
       const auto locked = options_.locked.find(master);
       if (locked != options_.locked.end()) return position + factor * locked->second;
-      const auto found =
-          std::find_if(document_.joints.begin(), document_.joints.end(),
-                       [&](const DocumentJoint& other) { return other.joint.name == master; });
-      at = found != document_.joints.end() ? &*found : nullptr;
+      const auto found = joints_.find(master);
+      if (found == joints_.end()) {
+        throw InputError(
+            {document_.file, at->line, {}},
+            fmt::format("joint {} mimics {}, which is no joint", at->joint.name, master),
+            "name a joint of the URDF");
+      }
+      passed.insert(at);
+      at = found->second;
+      if (passed.contains(at)) {
+        throw InputError(
+            {document_.file, at->line, {}},
+            fmt::format("joint {} mimics itself, by others or directly", at->joint.name),
+            "let one joint of the circle move on its own");
+      }
     }
     return position;
   }
@@ -203,8 +218,12 @@ class Lumper {
   std::optional<std::string> dropped_world() const {
     for (const DocumentJoint& j : document_.joints) {
       if (j.type != DocumentJointType::floating) continue;
-      return fmt::format("floating joint {} left out: {} is the {} root", j.joint.name, j.child,
-                         options_.root == Root::floating ? "floating" : "fixed (as asked)");
+      const bool floats = options_.root == Root::floating;
+      const bool turned = !j.joint.placement.linear().isIdentity();
+      return fmt::format(
+          "floating joint {} left out: {} is the {} root{}", j.joint.name, j.child,
+          floats ? "floating" : "fixed (as asked)",
+          turned && !floats ? ", upright: how the joint's origin turns it is left out" : "");
     }
     return std::nullopt;
   }
@@ -214,7 +233,8 @@ class Lumper {
   const UrdfOptions& options_;
   Robot robot_;
   NoteList notes_;
-  std::vector<Place> place_;  ///< per link of the document
+  std::map<std::string, const DocumentJoint*> joints_;  ///< by name, once it is asked for
+  std::vector<Place> place_;                            ///< per link of the document
   /// Moving joints whose parent is placed; the smallest index stands first in the document.
   std::priority_queue<int, std::vector<int>, std::greater<>> ready_;
 };

@@ -214,10 +214,67 @@ TEST(Plausibility, AWildReadingIsRefused) {
     EXPECT_NE(message.find("a wild reading; leave the row out"), std::string::npos) << message;
   }
   EXPECT_EQ(reception(at(2.0, 0.01), chain(3, Root::fixed)), "accepted");
-  const auto step = [](Sample& s) {
-    if (s.time > 2.0) s.q[1] += 1.0;
+}
+
+/// An encoder that slips, and one whose readings are elsewhere for more than one row. What goes as
+/// fast for longer is a wheel.
+TEST(Plausibility, AJumpThatStaysIsRefused) {
+  const auto from_to = [](double from, double to, double off) {
+    return [=](Sample& s) {
+      if (s.time > from && s.time < to) s.q[1] += off;
+    };
   };
-  EXPECT_EQ(reception(step, chain(3, Root::fixed)), "accepted") << "it does not come back";
+  constexpr double end = 100.0;
+  for (const double off : {1.0, -3.0}) {
+    for (const double to : {end, 2.005}) {
+      const std::string message = reception(from_to(2.001, to, off), chain(3, Root::fixed));
+      EXPECT_NE(message.find("x.csv:1003, column q.j1: jumps by "), std::string::npos) << message;
+      EXPECT_NE(message.find("stays there"), std::string::npos) << message;
+    }
+  }
+  EXPECT_EQ(reception(from_to(2.0, end, 0.1), chain(3, Root::fixed)), "accepted");
+  Robot wheel = chain(1, Root::fixed);
+  wheel.links[1].joint.kind = JointKind::continuous;
+  const auto starts = [](Sample& s) {
+    const double turning = std::max(0.0, s.time - 2.0);
+    s.q[0] += 400.0 * turning;
+    s.dq[0] += turning > 0.0 ? 400.0 : 0.0;
+  };
+  EXPECT_EQ(reception(starts, wheel), "accepted");
+}
+
+/// The grid is that of the first rows.
+TEST(Plausibility, AnotherRateIsRefused) {
+  const Robot robot = chain(3, Root::fixed);
+  const ScratchFolder scratch;
+  const auto path = scratch.path("x.csv");
+  const auto with_steps = [&](double first, double second) {
+    std::vector<double> times;
+    for (double t = 0.0; times.size() < 10000; t += times.size() < 5000 ? first : second) {
+      times.push_back(t);
+    }
+    write_log(path, robot, times, [&](double t) { return smooth_motion(robot, t); });
+    return message_of<InputError>([&] { static_cast<void>(read_motion(path, robot, {})); }, path);
+  };
+  EXPECT_EQ(with_steps(0.005, 0.004), "accepted");
+  for (const double second : {0.001, 0.02}) {
+    const std::string message = with_steps(0.005, second);
+    EXPECT_NE(message.find("x.csv:4098, column time: rows come "), std::string::npos) << message;
+    EXPECT_NE(message.find("times a second from about here on, and did 200 times before"),
+              std::string::npos)
+        << message;
+  }
+}
+
+/// What has gone dead mostly reads zero. Without noise, in a plane, a sound axis does.
+TEST(Plausibility, AnAxisThatReadsZeroIsDead) {
+  const Robot robot = chain(2, Root::floating);
+  const auto no_roll = [](Sample& s) { s.base_angular_velocity.x() = 0.0; };
+  EXPECT_EQ(reception(no_roll, robot),
+            "x.csv, column base.gyro.x: stays at 0 while the joints move; log the live signal, or "
+            "leave the rows out");
+  const auto no_side = [](Sample& s) { s.base_specific_force.y() = 0.0; };
+  EXPECT_NE(reception(no_side, robot).find("base.accel.y: stays at 0"), std::string::npos);
 }
 
 TEST(Plausibility, PassiveJointsAndWheelsPass) {

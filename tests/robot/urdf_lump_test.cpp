@@ -208,7 +208,40 @@ TEST(UrdfLump, MimicsOfMimics) {
   };
   // j0 + (0.25 + 2 j0) + (0.5 - 3 (0.25 + 2 j0)) with j0 = 0.75.
   EXPECT_DOUBLE_EQ(locked_at("j1", ""), 0.75 + 1.75 + 0.5 - 3.0 * 1.75);
-  EXPECT_TRUE(std::isfinite(locked_at("j1", R"(<mimic joint="j2"/>)")));
+  const auto refusal = [&](const char* last_master, const char* first_master) -> std::string {
+    try {
+      static_cast<void>(locked_at(last_master, first_master));
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  // In a circle none of them stands anywhere.
+  EXPECT_NE(refusal("j1", R"(<mimic joint="j2"/>)").find("mimics itself, by others or directly"),
+            std::string::npos);
+  EXPECT_NE(refusal("j2", "").find("joint j2 mimics itself"), std::string::npos);
+  EXPECT_NE(refusal("k", "").find("joint j2 mimics k, which is no joint"), std::string::npos);
+}
+
+/// Joints that follow each other, as many as a file holds, in no more time than that takes.
+TEST(UrdfLump, AChainOfMimicsIsFollowed) {
+  constexpr int count = 900;
+  std::string text = R"(<robot name="r"><link name="l0"/>)";
+  for (int i = 0; i < count; ++i) {
+    const std::string mimic =
+        i == 0 ? "" : fmt::format(R"(<mimic joint="j{}" offset="0.001"/>)", i - 1);
+    text += fmt::format(
+        R"(<link name="l{1}"/><joint name="j{0}" type="prismatic"><parent link="l{0}"/>
+<child link="l{1}"/><axis xyz="1 0 0"/><limit lower="-9" upper="9" effort="1" velocity="1"/>{2}
+</joint>)",
+        i, i + 1, mimic);
+  }
+  UrdfOptions options;
+  options.lock_mimic = true;
+  const Robot robot = parse_urdf(text + "</robot>", "r.urdf", options).robot;
+  ASSERT_EQ(robot.link_count(), 2);
+  const double sum = 0.001 * count * (count - 1) / 2.0;
+  EXPECT_NEAR(robot.links[1].members.back().pose.translation().x(), sum, 1e-9 * sum);
 }
 
 TEST(UrdfLump, MembersKnowTheirLines) {
@@ -266,6 +299,26 @@ TEST(UrdfLump, FloatingJointFromAnEmptyWorldMakesItsChildTheRoot) {
   EXPECT_EQ(fixed.root, Root::fixed);
   EXPECT_EQ(fixed.notes, std::vector<std::string>{
                              "floating joint free left out: body is the fixed (as asked) root"});
+  std::string turned = text;
+  turned.insert(turned.find("</joint>"), R"(<origin rpy="1.57 0 0"/>)");
+  const std::string note =
+      parse_urdf(turned, "r.urdf", {.root = Root::fixed, .locked = {}}).robot.notes.front();
+  EXPECT_NE(note.find("upright: how the joint's origin turns it is left out"), std::string::npos);
+  EXPECT_EQ(parse_urdf(turned, "r.urdf").robot.notes, floating.notes);
+}
+
+/// Half a limit is not none: URDF's default is zero.
+TEST(UrdfLump, SaysWhichLimitIsZero) {
+  for (const auto& [given, other] : {std::pair("lower", "upper"), std::pair("upper", "lower")}) {
+    const std::string text = fmt::format(
+        R"(<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="revolute">
+<parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
+<limit {}="{}" effort="1" velocity="1"/></joint></robot>)",
+        given, given == std::string("lower") ? -2 : 2);
+    const Robot robot = parse_urdf(text, "r.urdf").robot;
+    EXPECT_EQ(robot.notes.front(), fmt::format("no {} limit, taken as 0: j", other));
+    EXPECT_EQ(robot.joint(0).upper - robot.joint(0).lower, 2.0);
+  }
 }
 
 TEST(UrdfLump, SaysWhatItTookForGranted) {

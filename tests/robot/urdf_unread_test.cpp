@@ -58,7 +58,8 @@ TEST(UrdfUnread, MisspeltNamesAreNotesWithTheirLines) {
   EXPECT_EQ(of_joint(limit + R"(<axis xyz="0 0 1" xzy="1 0 0"/>)"),
             NoteLines{"unknown attribute xzy of <axis> is not read: joint j (line 4)"});
   EXPECT_EQ(of_joint(axis + R"(<limit lower="-1" uper="1" effort="1" velocity="1"/>)"),
-            NoteLines{"unknown attribute uper of <limit> is not read: joint j (line 4)"});
+            (NoteLines{"no upper limit, taken as 0: j",
+                       "unknown attribute uper of <limit> is not read: joint j (line 4)"}));
   EXPECT_EQ(notes_of(whole + element_with("colision", "")),
             NoteLines{"unknown <colision> in <link> is not read (<collision>?): link b (line 3)"});
   EXPECT_EQ(notes_of(whole + R"(<collision><Origin xyz="1 0 0"/><geometry><sphere radius="1"/>)"

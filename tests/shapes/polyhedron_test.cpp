@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "shapeid/models/polyhedron.hpp"
 #include "shapeid/models/shape.hpp"
 #include "shapeid/tests/support/generators.hpp"
 #include "shapeid/tests/support/scaled.hpp"
@@ -320,6 +322,27 @@ TEST(Polyhedron, TwoPiecesAreNotConvex) {
     for (const auto& [a, b, c] : triangles(box)) faces.push_back({a + first, b + first, c + first});
   }
   EXPECT_FALSE(divisible(make_mesh(vertices, faces, Eigen::Isometry3d::Identity())));
+}
+
+/// Over a star with five points: no edge is re-entrant, and the middle is held twice.
+TEST(Polyhedron, ASurfaceThatWindsTwiceIsNotConvex) {
+  const auto over = [](int step) {
+    Vertices vertices = {{0.0, 0.0, 0.1}, {0.0, 0.0, -0.1}};
+    std::vector<std::array<int, 3>> faces;
+    for (int k = 0; k < 5; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k * step / 5.0;
+      vertices.emplace_back(0.1 * std::cos(angle), 0.1 * std::sin(angle), 0.0);
+      const int a = 2 + k, b = 2 + (k + 1) % 5;
+      faces.push_back({a, b, 0});
+      faces.push_back({b, a, 1});
+    }
+    return std::get<Polyhedron>(make_mesh(vertices, faces, Eigen::Isometry3d::Identity()));
+  };
+  EXPECT_TRUE(divisible(over(1)));
+  EXPECT_FALSE(divisible(over(2)));
+  EXPECT_NEAR(winding(over(1), Eigen::Vector3d(0.01, 0.02, 0.01)), 1.0, 1e-12);
+  EXPECT_NEAR(winding(over(2), Eigen::Vector3d(0.01, 0.02, 0.01)), 2.0, 1e-12);
+  EXPECT_NEAR(winding(over(1), Eigen::Vector3d(0.2, 0.1, 0.3)), 0.0, 1e-12);
 }
 
 }  // namespace
