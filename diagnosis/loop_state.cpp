@@ -195,6 +195,15 @@ Eigen::VectorXd LoopState::held_out_of_model() {
   return fits.held_out(terms_of_model(fits, fits.tally().hypotheses.size()));
 }
 
+LoopState::HeldOut LoopState::held_out_either_way() {
+  const BlockFits fits = tallied(result.model.effects);
+  std::vector<Term> terms = terms_of_model(fits, fits.tally().hypotheses.size());
+  HeldOut error{fits.held_out(terms), {}};
+  terms.front() = masses;
+  error.as_written = fits.held_out(terms);
+  return error;
+}
+
 std::vector<Gain> LoopState::gains() {
   std::vector<Gain> gains = gains_by_derivative();
   const BlockFits fits = tallied(result.model.effects);

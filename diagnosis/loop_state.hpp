@@ -61,6 +61,13 @@ struct LoopState {
   [[nodiscard]] std::vector<Term> terms_of_model(const BlockFits& fits, std::size_t effects) const;
   /// Held-out error of the present effects, linear numbers refitted.
   [[nodiscard]] Eigen::VectorXd held_out_of_model();
+
+  /// The same twice: with applied transformations moved on by a step on the blocks that are fitted,
+  /// as above, which hides that a value has run away; and with them held at their values.
+  struct HeldOut {
+    Eigen::VectorXd moved_on, as_written;
+  };
+  [[nodiscard]] HeldOut held_out_either_way();
   /// Of each effect what it gains, all others in.
   [[nodiscard]] std::vector<Gain> gains();
   /// Of each effect that is an applied transformation what it gains, all others in, as far as its

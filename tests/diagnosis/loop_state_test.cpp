@@ -92,6 +92,21 @@ TEST(LoopState, TermsOfTheModelBeginWhereTheirEffectsDo) {
   EXPECT_EQ(arm.state.earlier_model().effects.size(), 2U);
 }
 
+/// A tilt that is not there: a step from it leads back, and as it is it ruins everything.
+TEST(LoopState, WhatIsWrittenIsJudgedWithoutAFurtherStep) {
+  OnArm arm(Eigen::Vector3d(0.02, 0.02, 0.02));
+  const LoopState::HeldOut none = arm.state.held_out_either_way();
+  EXPECT_EQ(none.as_written, none.moved_on) << "nothing is applied";
+  EXPECT_EQ(none.moved_on, arm.state.held_out_of_model());
+  const AppliedEffect tilt = test::effect("gravity_tilt", 0, {0.1, -0.05});
+  arm.state.result.found.push_back({tilt, "", Eigen::VectorXd::Zero(2)});
+  arm.state.collect_effects();
+  const LoopState::HeldOut tilted = arm.state.held_out_either_way();
+  EXPECT_EQ(tilted.moved_on, arm.state.held_out_of_model());
+  EXPECT_GT(tilted.as_written.sum(), 10.0 * none.as_written.sum());
+  EXPECT_LT(tilted.moved_on.sum(), 0.1 * tilted.as_written.sum());
+}
+
 TEST(LoopState, TransformationsStayWithinTheirLimitsAndOthersNeedNot) {
   OnArm arm(Eigen::Vector3d::Zero());
   const AppliedEffect late = test::effect("torque_delay", 0, {-50.0}),
