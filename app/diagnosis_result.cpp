@@ -116,8 +116,8 @@ json links_json(const DiagnosisRun& run, const Robot& robot) {
          errors_of_determined(run.unnoticed.error.segment<10>(at), determined)},
         {"unnoticed", std::vector<std::string>(run.unnoticed.effect.begin() + at,
                                                run.unnoticed.effect.begin() + at + 10)},
-        {"far_from_given",
-         diagnosis::is_far_from_given(robot, run.consistent, run.unnoticed.error, free_links[i])},
+        {"far_from_given", diagnosis::is_surely_far_from_given(robot, free_links, run.consistent,
+                                                               run.unnoticed.error, i)},
         {"data_standard_error", numbers(data.standard_error.segment<10>(own))},
         {"determined", determined}};
     if (run.causes_alone) {

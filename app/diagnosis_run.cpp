@@ -189,8 +189,13 @@ void note_mass_beside_forces(const Robot& robot, DiagnosisRun& run) {
 }
 
 void note_far_masses(const Robot& robot, DiagnosisRun& run) {
-  for (const int link : run.settings.shapes.free_links) {
-    if (!diagnosis::is_far_from_given(robot, run.consistent, run.unnoticed.error, link)) continue;
+  const std::vector<int>& free_links = run.settings.shapes.free_links;
+  for (std::size_t i = 0; i < free_links.size(); ++i) {
+    if (!diagnosis::is_surely_far_from_given(robot, free_links, run.consistent, run.unnoticed.error,
+                                             i)) {
+      continue;
+    }
+    const int link = free_links[i];
     const Link& given = robot.links[static_cast<std::size_t>(link)];
     run.notes.push_back(fmt::format(
         "{} has {:.3g} kg here and {:.3g} kg as given, which no error covers: weigh it before "

@@ -84,12 +84,23 @@ class Solver {
     MassProblem problem = problem_of(eliminated);
     problem.U = shape_columns(shapes);
     problem.V = shape_volumes(shapes);
-    problem.lambda = default_lambda(problem, expected_mass_);
+    problem.lambda = std::min(default_lambda(problem, expected_mass_), most_lambda(problem.V));
     problem.mass_bound = 10.0 * expected_mass_;
     DivisionOptions division;
     division.most_divisions = divisions;
     division.expected_mass = expected_mass_;
     return std::make_unique<ShapeMasses>(shapes, std::move(problem), division, settings_.rows.path);
+  }
+
+  /// The density term grows with the weight of the rows, and of a log without noise that has no
+  /// end. Even density must not outweigh the given mass of a link whose mass no row feels.
+  [[nodiscard]] double most_lambda(const Eigen::VectorXd& V) const {
+    constexpr double beside_given = 1e-4;
+    double weakest = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < sums_.links(); i += 10) {
+      weakest = std::min(weakest, prior_[i] * prior_[i]);
+    }
+    return beside_given * weakest * V.sum();
   }
 
   void add_point(BodyModel& shapes, std::size_t load, const Eigen::Vector3d& place) const {

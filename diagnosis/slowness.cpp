@@ -13,6 +13,9 @@ constexpr double slow_below = 0.2, noise_from = 0.25, noise_below = 0.5;
 // Standard errors: chance reaches as many in one joint of some hundred thousand.
 constexpr double believed_z = 4.5;
 constexpr std::size_t fewest = 8;  // frequencies on either side
+// Of the predicted torque: what filters, derivatives and rounding leave of a log without noise. No
+// torque is measured as well.
+constexpr double nothing = 1e-4;
 
 void set_curve(const Spectrum& spectrum, Structure& structure) {
   constexpr std::size_t bins = 10;
@@ -33,8 +36,10 @@ std::vector<Structure> slow_remains(const Robot& robot, const Recording& recordi
   const std::vector<double> time = times(recording, series);
   if (time.size() < fewest) return found;
   const double step = usual_step(time);
+  const Eigen::VectorXd rms = series.rms(), predicted = row_rms(series.predicted, series.counted);
   for (int j = 0; j < robot.joint_count(); ++j) {
     const Eigen::Index row = robot.base_dof() + j;
+    if (rms[row] < nothing * predicted[row]) continue;
     const Eigen::VectorXd y = centred(series, series.residual, row);
     const Spectrum power = spectrum(time, y, noise_below * cutoff);
     const std::size_t low_end = power.at(slow_below * cutoff), from = power.at(noise_from * cutoff);

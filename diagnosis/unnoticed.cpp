@@ -97,4 +97,11 @@ bool is_far_from_given(const Robot& robot, const Consistent& consistent,
          std::abs(found - given) > errors * error[number];
 }
 
+bool is_surely_far_from_given(const Robot& robot, const std::vector<int>& free_links,
+                              const Consistent& consistent, const Eigen::VectorXd& error,
+                              std::size_t place) {
+  return consistent.data.determined.at(10 * place) &&
+         is_far_from_given(robot, consistent, error, free_links.at(place));
+}
+
 }  // namespace shapeid::diagnosis

@@ -32,5 +32,10 @@ struct Unnoticed {
 /// does not say which: effects without a name, taken for granted, may carry most of a body.
 [[nodiscard]] bool is_far_from_given(const Robot& robot, const Consistent& consistent,
                                      const Eigen::VectorXd& error, int link);
+/// The same of a free link (by its place) whose mass the data determine: what they do not, another
+/// number of the link or a bound may have moved.
+[[nodiscard]] bool is_surely_far_from_given(const Robot& robot, const std::vector<int>& free_links,
+                                            const Consistent& consistent,
+                                            const Eigen::VectorXd& error, std::size_t place);
 
 }  // namespace shapeid::diagnosis

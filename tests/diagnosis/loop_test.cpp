@@ -389,6 +389,21 @@ struct Told {
 };
 
 /// A tenth of both logs together would be all of the short one.
+/// The first link turns about the vertical: no row feels its mass, and none outweighs the given
+/// one, however exact the log is.
+TEST(Consistent, AMassThatNoRowFeelsStaysAsGivenWithoutNoise) {
+  const Robot robot = arm();
+  const LoopSettings settings = arm_settings();
+  for (const double noise : {0.0, 1e-5, 0.02}) {
+    const Recording log = record({{}, 20.0, noise});
+    const LoopResult loop = close_loop(robot, log, nullptr, settings);
+    const Consistent consistent = make_consistent(robot, log, nullptr, settings, loop);
+    ASSERT_FALSE(consistent.data.determined[0]) << noise;
+    const double given = robot.links[1].inertia.mass();
+    EXPECT_NEAR(consistent.model.Phi[10], given, 0.03 * given) << noise;
+  }
+}
+
 TEST(Consistent, WhatCameSinceALongReferenceIsCertain) {
   const Recording log = record({{effect("viscous_friction", 1, {0.3})}, 20.0, 0.02, 2});
   AppliedEffect friction = effect("viscous_friction", 1, {0.3});

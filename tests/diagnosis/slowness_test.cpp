@@ -20,6 +20,7 @@ struct Given {
   double part = 1.0;             ///< the first of the samples, that counts
   double noise_power = unknown;  ///< of every joint's torque
   double pause = 0.0;            ///< share of the log, in its middle, that has no samples
+  double torque = 0.0;           ///< predicted, of every joint
 };
 
 /// A residual of three joints at every sample of a log: white noise, and `more` of it at joint 2.
@@ -35,7 +36,7 @@ std::vector<Structure> said_of(std::uint32_t seed,
   }
   const auto count = std::ssize(series.index);
   series.residual.setZero(3, count);
-  series.predicted.setZero(3, count);
+  series.predicted.setConstant(3, count, given.torque);
   series.counted.setConstant(3, count, true);
   std::mt19937 generator(seed);
   std::normal_distribution<double> noise;
@@ -54,6 +55,18 @@ TEST(SlowRemains, NoiseIsNotSlow) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     EXPECT_TRUE(said_of(seed, [](double, double noise) { return noise; }).empty()) << seed;
   }
+}
+
+/// What a log without noise leaves is slow, and nothing.
+TEST(SlowRemains, WhatIsNothingBesideTheTorqueIsNotSlow) {
+  const auto wave = [](double time, double) { return 100.0 * std::sin(2.0 * time); };
+  Given given;
+  for (const double torque : {0.0, 1e4}) {
+    given.torque = torque;
+    EXPECT_EQ(said_of(1, wave, given).size(), 1U) << torque;
+  }
+  given.torque = 1e6;
+  EXPECT_TRUE(said_of(1, wave, given).empty());
 }
 
 /// Of a joint that stands still for most of the log neighbouring frequencies say the same: some one

@@ -173,6 +173,13 @@ TEST(Unnoticed, AMassThatNoErrorBringsNearTheGivenIsFar) {
     const Fitted fitted(log, 3, {}, robot);
     const bool far = times < 0.5 || times > 2.0;
     EXPECT_EQ(is_far_from_given(robot, fitted.model, fitted.unnoticed.error, 3), far) << times;
+    const auto surely = [&](const Consistent& model) {
+      return is_surely_far_from_given(robot, {3}, model, fitted.unnoticed.error, 0);
+    };
+    EXPECT_EQ(surely(fitted.model), far) << times;
+    Consistent unknown = fitted.model;
+    unknown.data.determined[0] = false;
+    EXPECT_FALSE(surely(unknown)) << times;
     Unnoticed unsure = fitted.unnoticed;
     unsure.error[30] = 10.0;  // kg
     EXPECT_FALSE(is_far_from_given(robot, fitted.model, unsure.error, 3)) << times;
