@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -86,7 +87,8 @@ std::string errors_picture(const DiagnosisRun& run, const Robot& robot) {
   std::string script =
       canvas(plot_width, 110 + 28 * robot.joint_count()) +
       fmt::format(
-          "set key samplen 1.5\nset tmargin 3.2\nset bmargin 3.5\nset lmargin {}\n"
+          "set format x '%g'\nset key samplen 1.5\nset tmargin 3.2\nset bmargin 3.5\nset lmargin "
+          "{}\n"
           "set yrange [{}:-0.6]\nset logscale x\n"
           "set xrange [{:.6g}:{:.6g}]\nset xtics ({:g})\n"
           "set xlabel 'residual ({}, rms)'\n$d << EOD\n{}EOD\n",
@@ -105,19 +107,58 @@ std::string errors_picture(const DiagnosisRun& run, const Robot& robot) {
                   orange, blue));
 }
 
+namespace {
+
+/// The samples of a stretch, and -1 where a line must not go on: between them lie others, or a gap
+/// of the log.
+std::vector<Eigen::Index> with_breaks(const DiagnosisRun& run, Eigen::Index from,
+                                      Eigen::Index end) {
+  std::vector<double> steps;
+  for (Eigen::Index i = from + 1; i < end; ++i) {
+    steps.push_back(sample_at(run, i).time - sample_at(run, i - 1).time);
+  }
+  constexpr double usual_steps = 3.0;
+  double longest = 0.0;
+  if (!steps.empty()) {
+    std::vector<double> sorted = steps;
+    const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    longest = usual_steps * *middle;
+  }
+  std::vector<Eigen::Index> places;
+  for (Eigen::Index i = from; i < end; ++i) {
+    if (i > from && steps[static_cast<std::size_t>(i - from - 1)] > longest) places.push_back(-1);
+    places.push_back(i);
+  }
+  return places;
+}
+
+/// What is in no error is not drawn as one.
+double counted_residual(const diagnosis::Series& series, Eigen::Index row, Eigen::Index i) {
+  return series.counted(row, i) ? series.residual(row, i)
+                                : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
 std::string torque_picture(const DiagnosisRun& run, const Robot& robot, int joint) {
   const Eigen::Index row = robot.base_dof() + joint;
   constexpr double shown = 6.0;  // s
   constexpr int height = 380;
   const auto [from, end] = liveliest(run, joint, shown);
   const double start = sample_at(run, 0).time;
+  const std::vector<Eigen::Index> places = with_breaks(run, from, end);
   std::string script =
-      canvas(plot_width, height) + data_rows("d", end - from, [&, from = from](Eigen::Index k) {
-        const Eigen::Index i = from + k;
+      canvas(plot_width, height) + data_rows("d", std::ssize(places), [&](Eigen::Index k) {
+        const Eigen::Index i = places[static_cast<std::size_t>(k)];
+        std::array<double, 6> values;
+        values.fill(std::numeric_limits<double>::quiet_NaN());
+        if (i < 0) return values;
         const double tau = run.after.predicted(row, i) - run.after.residual(row, i);
-        return std::array{sample_at(run, i).time - start, tau,
-                          run.before.predicted(row, i),   run.after.predicted(row, i),
-                          run.before.residual(row, i),    run.after.residual(row, i)};
+        values = {sample_at(run, i).time - start,       tau,
+                  run.before.predicted(row, i),         run.after.predicted(row, i),
+                  counted_residual(run.before, row, i), counted_residual(run.after, row, i)};
+        return values;
       });
   const std::string unit = unit_at(robot.joint(joint), "N m");
   script += fmt::format(
@@ -158,8 +199,8 @@ std::string scatter_picture(const DiagnosisRun& run, const Robot& robot, int joi
                           over[1][k],
                           over[2][k],
                           over[3][k],
-                          run.before.residual(row, i * stride),
-                          run.after.residual(row, i * stride)};
+                          counted_residual(run.before, row, i * stride),
+                          counted_residual(run.after, row, i * stride)};
       });
   const auto here = [&](const char* unit) { return unit_at(robot.joint(joint), unit); };
   script += fmt::format(
@@ -167,7 +208,8 @@ std::string scatter_picture(const DiagnosisRun& run, const Robot& robot, int joi
       margins_with_labels(height, 14.0), between / plot_width, here("N m"));
   const std::array<std::string, panels> labels = {
       "velocity (" + here("rad/s") + ")", "position (" + here("rad") + ")",
-      (here("N m") == "N" ? "force (" : "torque (") + here("N m") + ")", "time (s)"};
+      (here("N m") == "N" ? "predicted force (" : "predicted torque (") + here("N m") + ")",
+      "time (s)"};
   for (std::size_t k = 0; k < labels.size(); ++k) {
     script += fmt::format(
         "{}set xlabel '{}'\n"

@@ -25,17 +25,21 @@ json numbers(const Eigen::VectorXd& v) {
   return list;
 }
 
-/// What the selection said of an effect of the final model.
-const diagnosis::Found* found_for(const DiagnosisRun& run, const AppliedEffect& effect) {
-  for (const diagnosis::Found& f : run.loop.found) {
-    if (same_place(f.effect, effect)) return &f;
-  }
-  return nullptr;
-}
-
 bool name_stands(const DiagnosisRun& run, const AppliedEffect& effect) {
   const diagnosis::Found* f = found_for(run, effect);
   return f == nullptr || f->name_stands();
+}
+
+const char* contacts_json(ContactTreatment contacts) {
+  switch (contacts) {
+    case ContactTreatment::project:
+      return "project";
+    case ContactTreatment::measured:
+      return "measured";
+    case ContactTreatment::ignore:
+      break;
+  }
+  return "none";
 }
 
 json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
@@ -149,25 +153,6 @@ std::string values_text(const Robot& robot, const AppliedEffect& a, const Eigen:
   return text;
 }
 
-/// Where a load is, of whose mass that much is known; errors as if mass and moments had independent
-/// ones.
-std::string centre_text(const Robot& robot, const AppliedEffect& a, const Eigen::VectorXd& error) {
-  if (!std::isfinite(error[0])) return "where it is cannot be told: no data show its mass";
-  constexpr double known = 2.0;  // standard errors
-  if (!(a.value[0] > known * error[0])) {
-    return "where it is cannot be told: its mass is zero within two standard errors";
-  }
-  const Eigen::Array3d centre = a.value.segment<3>(1) / a.value[0];
-  const Eigen::Array3d e =
-      (error.segment<3>(1).array().square() + (centre * error[0]).square()).sqrt() / a.value[0];
-  std::string text;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    text += axis > 0 ? ", " : "";
-    text += std::isfinite(e[axis]) ? fmt::format("{:.2g} +- {:.1g}", centre[axis], e[axis]) : "?";
-  }
-  return fmt::format("its centre at ({}) m of {}", text, site_name(robot, a.effect->site, a.site));
-}
-
 std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
   const auto& effects = run.consistent.model.effects;
   if (effects.empty())
@@ -187,8 +172,7 @@ std::string findings_text(const DiagnosisRun& run, const Robot& robot) {
       text += fmt::format("  {:<38}a description, not the cause: {}\n", "", doubt(run, *f, robot));
     }
     if (f == nullptr) continue;
-    const bool for_bodies_alone = f->needed && f->t == 0.0;  // not for what it predicts
-    if (!for_bodies_alone) {
+    if (!f->is_for_bodies_alone()) {
       text +=
           fmt::format("  {:<38}gain {:.1f} %, {:.1f} standard errors\n", "", 100.0 * f->gain, f->t);
     }
@@ -239,13 +223,9 @@ std::string errors_text(const DiagnosisRun& run, const Robot& robot) {
 
 std::string curves_text(const DiagnosisRun& run, const Robot& robot) {
   if (run.curves.empty()) return "";
-  std::string over;
-  for (const diagnosis::Curve& c : run.curves) {
-    over += fmt::format("{}{} over {}", over.empty() ? "" : ", ", hypothesis_id(robot, c.law),
-                        variable_name(c.over, robot));
-  }
-  return fmt::format("with curves for what is unexplained ({}): {:.4g} {}\n", over,
-                     overall(run.errors.with_curves, robot), joints_unit(robot));
+  return fmt::format("with curves for what is unexplained ({}): {:.4g} {}\n",
+                     curves_words(run, robot), overall(run.errors.with_curves, robot),
+                     joints_unit(robot));
 }
 
 std::string structures_text(const DiagnosisRun& run) {
@@ -270,6 +250,10 @@ std::string structures_text(const DiagnosisRun& run) {
     text += fmt::format("  {:<23} over {:<27} {:>5.1f} %  ({:.1f} standard errors)\n", what,
                         s.variable, 100.0 * s.share, s.t);
   }
+  if (run.structures.size() > shown) {
+    text +=
+        fmt::format("  and {} more, in the report and in --json\n", run.structures.size() - shown);
+  }
   return text;
 }
 
@@ -286,6 +270,39 @@ std::map<std::string, JointFriction> joint_friction(const DiagnosisRun& run, con
 }
 
 }  // namespace
+
+const diagnosis::Found* found_for(const DiagnosisRun& run, const AppliedEffect& effect) {
+  for (const diagnosis::Found& f : run.loop.found) {
+    if (same_place(f.effect, effect)) return &f;
+  }
+  return nullptr;
+}
+
+std::string centre_text(const Robot& robot, const AppliedEffect& a, const Eigen::VectorXd& error) {
+  if (!std::isfinite(error[0])) return "where it is cannot be told: no data show its mass";
+  constexpr double known = 2.0;  // standard errors
+  if (!(a.value[0] > known * error[0])) {
+    return "where it is cannot be told: its mass is zero within two standard errors";
+  }
+  const Eigen::Array3d centre = a.value.segment<3>(1) / a.value[0];
+  const Eigen::Array3d e =
+      (error.segment<3>(1).array().square() + (centre * error[0]).square()).sqrt() / a.value[0];
+  std::string text;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    text += axis > 0 ? ", " : "";
+    text += std::isfinite(e[axis]) ? fmt::format("{:.2g} +- {:.1g}", centre[axis], e[axis]) : "?";
+  }
+  return fmt::format("its centre at ({}) m of {}", text, site_name(robot, a.effect->site, a.site));
+}
+
+std::string curves_words(const DiagnosisRun& run, const Robot& robot) {
+  std::string over;
+  for (const diagnosis::Curve& c : run.curves) {
+    over += fmt::format("{}{} over {}", over.empty() ? "" : ", ", hypothesis_id(robot, c.law),
+                        variable_name(c.over, robot));
+  }
+  return over;
+}
 
 std::string beyond_contacts(const DiagnosisRun& run, const Robot& robot) {
   if (run.settings.rows.contacts != ContactTreatment::project || robot.contacts.empty()) return "";
@@ -364,7 +381,11 @@ json diagnosis_json(const DiagnosisRun& run, const Robot& robot, const DiagnoseO
           {"also", options.also},
           {"test", e.where},
           {"reference", options.reference},
+          {"mapping", options.inputs.mapping.empty() ? json() : json(options.inputs.mapping)},
           {"cutoff", options.inputs.cutoff},
+          {"rate", run.motion.rate},
+          {"contacts", contacts_json(run.settings.rows.contacts)},
+          {"expected_mass", run.settings.expected_mass},
           {"path", options.path == diagnosis::Path::fast ? "fast" : "reference"},
           {"samples", run.loop.samples},
           {"blocks", run.loop.blocks},

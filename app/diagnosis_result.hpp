@@ -17,6 +17,18 @@ namespace shapeid::app {
 [[nodiscard]] std::string diagnosed_urdf(DiagnosisRun& run, const Robot& robot,
                                          const std::string& original);
 
+/// What the selection said of an effect of the final model; null if nothing.
+[[nodiscard]] const diagnosis::Found* found_for(const DiagnosisRun& run,
+                                                const diagnosis::AppliedEffect& effect);
+
+/// Where a load is, of whose mass that much is known; errors as if mass and moments had independent
+/// ones.
+[[nodiscard]] std::string centre_text(const Robot& robot, const diagnosis::AppliedEffect& load,
+                                      const Eigen::VectorXd& error);
+
+/// Which law follows which signal, of the curves of a run.
+[[nodiscard]] std::string curves_words(const DiagnosisRun& run, const Robot& robot);
+
 /// Why an effect whose name does not stand is kept as a description alone: half a sentence.
 [[nodiscard]] std::string doubt(const DiagnosisRun& run, const diagnosis::Found& found,
                                 const Robot& robot);

@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -21,12 +23,17 @@ namespace shapeid::app {
 
 std::string ranking_picture(const DiagnosisRun& run) {
   constexpr std::size_t shown = 15;
-  const auto count = static_cast<Eigen::Index>(std::min(shown, run.loop.first_ranking.size()));
+  std::vector<diagnosis::Ranked> best;  // of hypotheses of one name
+  std::set<std::string> names;
+  for (const diagnosis::Ranked& r : run.loop.first_ranking) {
+    if (best.size() < shown && names.insert(r.id).second) best.push_back(r);
+  }
+  const auto count = std::ssize(best);
   std::string script = canvas(plot_width, 80 + 24 * static_cast<int>(count)) +
                        "unset key\nset lmargin 36\nset xlabel 'held-out gain (% of the squared "
                        "error)'\nset style fill solid 0.8\nset yrange [*:*] reverse\n$d << EOD\n";
   for (Eigen::Index i = 0; i < count; ++i) {
-    const diagnosis::Ranked& r = run.loop.first_ranking[static_cast<std::size_t>(i)];
+    const diagnosis::Ranked& r = best[static_cast<std::size_t>(i)];
     const double error = r.t > 0.0 ? 100.0 * std::abs(r.gain / r.t) : 0.0;
     script += fmt::format("{} {:.4g} {:.4g} {}\n", i, 100.0 * r.gain, error,
                           gnuplot_entry(r.credible ? r.id : r.id + " *"));
@@ -117,22 +124,28 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 }  // namespace
 
 std::string structure_picture(const diagnosis::Structure& structure, const Robot& robot) {
-  std::string script = canvas(420, 240) + "unset key\n" +
+  constexpr int structure_width = 420;
+  std::string script = canvas(structure_width, 240) + "unset key\n" +
                        data_rows("d", std::ssize(structure.at), [&](Eigen::Index i) {
                          const auto k = static_cast<std::size_t>(i);
                          return std::array{structure.at[k], structure.value[k]};
                        });
   const auto joint = robot.find_joint(structure.joint);
+  const bool spectrum = structure.variable == diagnosis::slow;
   // The joint, and the law, stand below the picture: a long name would not fit beside it.
   const std::string up =
       structure.law.empty()
-          ? with_unit("residual", joint ? unit_at(robot.joint(*joint), "N m") : joints_unit(robot))
+          ? with_unit(spectrum ? "amplitude" : "residual",
+                      joint ? unit_at(robot.joint(*joint), "N m") : joints_unit(robot))
           : with_unit("its number", structure.law_unit);
   const std::string along =
       with_unit(structure.variable, unit_of_signal(structure.variable, robot));
-  return gnuplot(script + fmt::format("set xlabel {}\nset ylabel {}\n"
-                                      "plot $d with linespoints pt 7 ps 0.5 lc rgb '{}'\n",
-                                      gnuplot_string(along), gnuplot_string(up), blue));
+  constexpr double beside = 110.0;  // pixels
+  return gnuplot(script + x_axis(Span::around(structure.at), structure_width - beside) +
+                 fmt::format("set format y '%g'\nset yrange [{}:*]\nset xlabel {}\nset ylabel {}\n"
+                             "plot $d with linespoints pt 7 ps 0.5 lc rgb '{}'\n",
+                             spectrum ? "0" : "*", gnuplot_string(along), gnuplot_string(up),
+                             blue));
 }
 
 }  // namespace shapeid::app

@@ -36,6 +36,8 @@ Page::Page(std::string title) : title_(std::move(title)) {}
 
 void Page::heading(const std::string& text) { body_ += "<h2>" + escaped(text) + "</h2>\n"; }
 
+void Page::subheading(const std::string& text) { body_ += "<h3>" + escaped(text) + "</h3>\n"; }
+
 void Page::paragraph(const std::string& text) { body_ += "<p>" + escaped(text) + "</p>\n"; }
 
 void Page::table(const std::vector<std::vector<std::string>>& rows) {
@@ -49,13 +51,13 @@ void Page::table(const std::vector<std::vector<std::string>>& rows) {
   }
   body_ += "<div class=\"wide\"><table>\n";
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string cell = i == 0 ? "th" : "td";
+    const std::string begin = i == 0 ? "th scope=\"col\"" : "td", end = i == 0 ? "th" : "td";
     body_ += "<tr>";
     for (std::size_t j = 0; j < rows[i].size(); ++j) {
       const std::string kind = of_text.contains(j)        ? " class=\"text\""
                                : rows[i][j].size() > line ? " class=\"long\""
                                                           : "";
-      body_ += fmt::format("<{0}{1}>{2}</{0}>", cell, kind, escaped(rows[i][j]));
+      body_ += fmt::format("<{}{}>{}</{}>", begin, kind, escaped(rows[i][j]), end);
     }
     body_ += "</tr>\n";
   }
@@ -63,7 +65,12 @@ void Page::table(const std::vector<std::vector<std::string>>& rows) {
 }
 
 void Page::picture(const std::string& svg, const std::string& caption) {
-  const std::string own = with_own_ids(svg, fmt::format("p{}-", ++pictures_));
+  std::string own = with_own_ids(svg, fmt::format("p{}-", ++pictures_));
+  const std::string opening = "<svg ";
+  if (const std::size_t at = own.find(opening); at != std::string::npos) {
+    own.insert(at + opening.size(),
+               fmt::format("role=\"img\" aria-label=\"{}\" ", escaped(caption)));
+  }
   body_ += "<figure><div class=\"wide\">" + own + "</div><figcaption>" + escaped(caption) +
            "</figcaption></figure>\n";
 }
@@ -82,7 +89,7 @@ std::string Page::html() const {
 }}
 body {{ font: 16px/1.5 sans-serif; max-width: 52rem; margin: 2rem auto; padding: 0 1rem; color: var(--ink);
   background: var(--paper); overflow-wrap: anywhere }}
-h1 {{ font-size: 1.5rem }} h2 {{ font-size: 1.15rem; margin-top: 2rem }}
+h1 {{ font-size: 1.5rem }} h2 {{ font-size: 1.15rem; margin-top: 2rem }} h3 {{ font-size: 1rem }}
 .wide {{ overflow-x: auto }}
 table {{ border-collapse: collapse; font-size: 0.9rem; overflow-wrap: normal }}
 th, td {{ padding: 0.2rem 0.6rem; border-bottom: 1px solid var(--line); text-align: right; vertical-align: top;
@@ -90,10 +97,15 @@ th, td {{ padding: 0.2rem 0.6rem; border-bottom: 1px solid var(--line); text-ali
 th {{ vertical-align: bottom }}
 th:first-child, td:first-child {{ text-align: left; padding-left: 0 }}
 td {{ white-space: nowrap }} td.text, td.long:not(:first-child) {{ white-space: normal }}
-th.text, td.text {{ text-align: left; min-width: 9rem; overflow-wrap: anywhere }}
+th.text, td.text {{ text-align: left; min-width: 14rem; overflow-wrap: break-word }}
 figure {{ margin: 1.5rem 0 }}
 figure svg {{ display: block; max-width: max(100%, 36rem); height: auto; background: #fff }}
 figcaption {{ color: var(--soft); font-size: 0.9rem; margin-top: 0.3rem }}
+@media print {{
+.wide {{ overflow: visible }} table {{ font-size: 0.65rem }} figure, tr {{ break-inside: avoid }}
+h2, h3 {{ break-after: avoid }} th, td {{ padding: 0.15rem 0.3rem }}
+td, td.text, th.text {{ white-space: normal; min-width: 0; overflow-wrap: anywhere }}
+}}
 </style></head><body>
 <h1>{0}</h1>
 {1}</body></html>

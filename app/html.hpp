@@ -15,11 +15,13 @@ class Page {
   explicit Page(std::string title);
 
   void heading(const std::string& text);
+  void subheading(const std::string& text);
   void paragraph(const std::string& text);
   /// First row: column heads. Columns but the first are set right-aligned, those with sentences
   /// left. A table that is wider than the page scrolls by itself.
   void table(const std::vector<std::vector<std::string>>& rows);
-  /// An SVG element with a line under it. Its ids become those of this picture alone.
+  /// An SVG element with a line under it, which is also what it is read out as. Its ids become
+  /// those of this picture alone.
   void picture(const std::string& svg, const std::string& caption);
 
   [[nodiscard]] std::string html() const;

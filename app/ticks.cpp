@@ -11,18 +11,21 @@ namespace shapeid::app {
 namespace {
 
 // Pixels of a font of 12: the widest digit of common fonts, and room to tell neighbours apart.
-constexpr double digit_pixels = 7.7, line_pixels = 20.0, room_between_labels = 10.0;
+constexpr double digit_pixels = 7.7, line_pixels = 20.0, room_between_labels = 10.0,
+                 room_between_lines = 6.0;
 constexpr std::array<double, 3> round_numbers = {1.0, 2.0, 5.0};
 
 double label_width(double x) {
   return digit_pixels * static_cast<double>(fmt::format("{:g}", x).size());
 }
 
-/// The first step whose labels take no more than the axis has.
+/// The first step whose labels take no more than the axis has. One tick is no scale: rather than
+/// that, labels come closer, by as much as `room` that they have between them.
 template <typename Length>
-double smallest_step(const Span& span, double pixels, const Length& length) {
+double smallest_step(const Span& span, double pixels, const Length& length, double room) {
   constexpr double too_many = 50.0;
   const double range = span.high - span.low;
+  double of_two_ticks = 0.0;  // the largest step that has them so
   for (int power = static_cast<int>(std::floor(std::log10(range / too_many)));; ++power) {
     for (const double number : round_numbers) {
       const double step = number * std::pow(10.0, power);
@@ -30,7 +33,10 @@ double smallest_step(const Span& span, double pixels, const Length& length) {
       const auto ticks = static_cast<int>(std::floor(span.high / step) - first) + 1;
       double longest = 0.0;
       for (int k = 0; k < ticks; ++k) longest = std::max(longest, length((first + k) * step));
-      if (step * pixels / range >= longest || step > range) return step;
+      const double apart = step * pixels / range;
+      if (ticks > 1 && apart >= longest - room) of_two_ticks = step;
+      if (apart < longest && step <= range) continue;
+      return ticks > 1 || of_two_ticks == 0.0 ? step : of_two_ticks;
     }
   }
 }
@@ -54,11 +60,14 @@ Span Span::around(const std::vector<double>& data) {
 }
 
 double step_across(const Span& span, double pixels) {
-  return smallest_step(span, pixels, [](double x) { return label_width(x) + room_between_labels; });
+  return smallest_step(
+      span, pixels, [](double x) { return label_width(x) + room_between_labels; },
+      room_between_labels);
 }
 
 double step_up(const Span& span, double pixels) {
-  return smallest_step(span, pixels, [](double) { return line_pixels; });
+  return smallest_step(
+      span, pixels, [](double) { return line_pixels; }, room_between_lines);
 }
 
 std::vector<double> logarithmic_ticks(const Span& span, double pixels) {

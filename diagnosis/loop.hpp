@@ -70,6 +70,8 @@ struct Found {
   bool may_be_of_other_time = false;
   /// Free parameters take it over; without it links of their size would be no bodies.
   bool needed = false;
+  /// It is in the model for the sake of bodies, and not for what it predicts.
+  [[nodiscard]] bool is_for_bodies_alone() const { return needed && t == 0.0; }
   /// Else it only describes: it predicts, and says nothing about the cause.
   [[nodiscard]] bool name_stands() const {
     return !varies && !drowned && !any_period && !beside_unknown && !displaced && !faded &&

@@ -6,16 +6,9 @@
 
 namespace shapeid {
 
-namespace {
-
-/// Of the longest step: rounding of times must not decide whether so many whole steps are more.
-constexpr double rounding = 1e-3;
-
-}  // namespace
-
 Resampler::Resampler(double rate, Eigen::VectorXd longest_step)
     : rate_(rate),
-      longest_step_((1.0 + rounding) * longest_step),
+      longest_step_(std::move(longest_step)),
       tracks_(static_cast<std::size_t>(longest_step_.size())) {}
 
 void Resampler::push(const MeasuredRow& row) {

@@ -67,7 +67,7 @@ TEST(StructurePicture, SaysNoUnitWhereThereIsNone) {
 
 TEST(StructurePicture, SaysTheUnitsOfTimeOfFrequencyAndOfALaw) {
   expect_labels(drawn("swing", "time"), "time (s)", "residual (N m)");
-  expect_labels(drawn("slide", diagnosis::slow), "frequency (Hz)", "residual (N)");
+  expect_labels(drawn("slide", diagnosis::slow), "frequency (Hz)", "amplitude (N)");
   expect_labels(drawn("swing", "q.swing", "N m s"), "q.swing (rad)", "its number (N m s)");
 }
 

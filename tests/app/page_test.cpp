@@ -45,6 +45,15 @@ TEST(Page, NoCommandOfThePlottingProgramIsATooltip) {
   EXPECT_TRUE(bare.ends_with("</g></g></svg>")) << bare;
 }
 
+TEST(Page, APictureIsReadOutAsItsCaption) {
+  app::Page page("a picture");
+  page.picture(drawn, "gain & \"delay\"");
+  const std::string html = page.html();
+  EXPECT_NE(html.find("<svg role=\"img\" aria-label=\"gain &amp; &quot;delay&quot;\" width=\"8\">"),
+            std::string::npos)
+      << html;
+}
+
 /// A sentence may wrap and reads from the left; numbers stand under each other.
 TEST(Page, ATableScrollsByItselfAndItsSentencesWrap) {
   app::Page page("a table");
@@ -54,7 +63,9 @@ TEST(Page, ATableScrollsByItselfAndItsSentencesWrap) {
   const std::string html = page.html();
   EXPECT_NE(html.find("<div class=\"wide\"><table>"), std::string::npos) << html;
   EXPECT_NE(html.find(".wide { overflow-x: auto }"), std::string::npos) << html;
-  EXPECT_NE(html.find("<th>value</th><th class=\"text\">doubt</th>"), std::string::npos) << html;
+  EXPECT_NE(html.find("<th scope=\"col\">value</th><th scope=\"col\" class=\"text\">doubt</th>"),
+            std::string::npos)
+      << html;
   EXPECT_NE(html.find("<td>-0.25</td><td class=\"text\"></td>"), std::string::npos) << html;
   EXPECT_NE(html.find("prefers-color-scheme: dark"), std::string::npos) << html;
 }

@@ -73,10 +73,39 @@ TEST(Report, EveryPanelOfAHingeHasItsLabels) {
   const std::string page = reported("--cutoff 20", "labels").page;
   EXPECT_EQ(times_in(page, "<text>time (s)<"), 2U);
   EXPECT_EQ(times_in(page, "<text>residual (N m)<"), 2U) << "beside the torque, and scattered";
-  EXPECT_EQ(times_in(page, "<text>torque (N m)<"), 2U);
+  EXPECT_EQ(times_in(page, "<text>torque (N m)<"), 1U);
+  EXPECT_EQ(times_in(page, "<text>predicted torque (N m)<"), 1U);
   EXPECT_EQ(times_in(page, "<text>lag (s)<"), 1U);
   for (const char* label : {"velocity (rad/s)", "position (rad)", "residual (N m, rms)"}) {
     EXPECT_EQ(times_in(page, fmt::format("<text>{}<", label)), 1U) << label;
+  }
+}
+
+/// What answers depend on stands on the page and beside it.
+TEST(Report, SaysHowItWasMade) {
+  const Reported report = reported("--cutoff 20", "made");
+  for (const char* cell : {">hinge.urdf<", ">20 Hz, zero phase<", ">200 Hz<", ">contacts<"}) {
+    EXPECT_EQ(times_in(report.page, cell), 1U) << cell;
+  }
+  EXPECT_EQ(times_in(report.page, "none: the given inertias are trusted"), 1U);
+  EXPECT_EQ(times_in(report.page, "No link was sought."), 1U);
+  EXPECT_NEAR(report.result["rate"].get<double>(), 200.0, 1e-9);
+  EXPECT_EQ(report.result["contacts"], "none");
+  EXPECT_TRUE(report.result["mapping"].is_null());
+}
+
+/// Names that stand and descriptions are two tables, as they are two lists beside the page.
+TEST(Report, WhatOnlyDescribesHasATableOfItsOwn) {
+  const Reported report = reported("--cutoff 20", "two");
+  const std::size_t found = report.page.find("<h2>What was found</h2>");
+  const std::size_t apart = report.page.find("<h2>What predicts, and is not the cause</h2>");
+  ASSERT_NE(found, std::string::npos);
+  EXPECT_EQ(apart == std::string::npos, report.result["descriptions"].empty());
+  for (const auto& finding : report.result["findings"]) {
+    const std::string id = fmt::format(">{}@{}</td>", finding["effect"].get<std::string>(),
+                                       finding["site"].get<std::string>());
+    const std::size_t at = report.page.find(id, found);
+    EXPECT_TRUE(at != std::string::npos && at < apart) << id;
   }
 }
 

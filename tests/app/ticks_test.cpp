@@ -63,6 +63,17 @@ TEST(Ticks, AnAxisOfWhatDoesNotMoveHasTwoEnds) {
   EXPECT_LT(Span::around({none}).low, Span::around({none}).high);
 }
 
+/// One tick is no scale: labels come closer rather.
+TEST(Ticks, AnAxisWithRoomForTwoLabelsHasTwo) {
+  for (const auto& [span, pixels] : std::vector<std::pair<Span, double>>{
+           {{-0.009, 0.008}, 160.0}, {{-0.45, 0.6}, 60.0}, {{1.2, 2.9}, 90.0}}) {
+    const double step = app::step_across(span, pixels);
+    const double ticks = std::floor(span.high / step) - std::ceil(span.low / step) + 1.0;
+    EXPECT_GE(ticks, 2.0) << span.low << " " << span.high << " " << step;
+    EXPECT_GT(pixels * step / (span.high - span.low), widest_label(span, step));
+  }
+}
+
 TEST(Ticks, OfALogarithmicAxis) {
   EXPECT_EQ(app::logarithmic_ticks({0.15, 2.6}, 600.0), (std::vector<double>{0.2, 0.5, 1.0, 2.0}));
   // Powers of ten alone where there is no room for more, and every second one if need be.
