@@ -67,8 +67,13 @@ void diagnose(DiagnoseArguments& options) {
   }
 }
 
-/// The catalogue needs neither robot nor log: it is printed while the arguments are read.
-void print_catalogue(std::int64_t) {
+/// The catalogue needs neither robot nor log: it is printed before any is asked for.
+void print_catalogue(const CLI::App& verb) {
+  const auto others = verb.get_options(
+      [](const CLI::Option* option) { return option->count() > 0 && !option->check_name("--list"); });
+  if (!others.empty() || verb.remaining_size() > 0) {
+    throw CLI::ValidationError("--list", "stands alone: leave everything else out");
+  }
   fmt::print("{}", diagnosis::catalogue_page());
   throw CLI::Success();
 }
@@ -80,7 +85,8 @@ void add_diagnose(CLI::App& app) {
   DiagnoseOptions& d = options->diagnose;
   CLI::App* verb =
       app.add_subcommand("diagnose", "what the model lacks: effects, their sizes, a richer model");
-  verb->add_flag_function("--list", print_catalogue, "print the effects that can be found");
+  verb->add_flag_callback(
+      "--list", [verb] { print_catalogue(*verb); }, "print the effects that can be found");
   d.inputs.add_to(*verb);
   add_delivery_options(*verb, options->delivery);
   verb->add_option("--also", d.also, "further logs of this robot, fitted together with the first");

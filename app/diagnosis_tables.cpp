@@ -122,7 +122,7 @@ Table errors_table(const DiagnosisRun& run, const Robot& robot) {
 
 Table findings_table(const DiagnosisRun& run, const Robot& robot, bool names_stand) {
   Table table = {{"effect", "value", "s.e.", "unit", "gain (%)", "gain / s.e.",
-                  names_stand ? "cannot be told from" : "why it is not the cause"}};
+                  names_stand ? "remarks" : "why it is not the cause"}};
   const auto& effects = run.consistent.model.effects;
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const auto& a = effects[k];

@@ -32,6 +32,20 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
+namespace {
+
+/// Names of effects and places are long, and best broken between the two.
+std::string with_breaks(const std::string& text) {
+  std::string html;
+  for (const char c : escaped(text)) {
+    html += c;
+    if (c == '@') html += "<wbr>";
+  }
+  return html;
+}
+
+}  // namespace
+
 Page::Page(std::string title) : title_(std::move(title)) {}
 
 void Page::heading(const std::string& text) { body_ += "<h2>" + escaped(text) + "</h2>\n"; }
@@ -57,7 +71,8 @@ void Page::table(const std::vector<std::vector<std::string>>& rows) {
       const std::string kind = of_text.contains(j)        ? " class=\"text\""
                                : rows[i][j].size() > line ? " class=\"long\""
                                                           : "";
-      body_ += fmt::format("<{}{}>{}</{}>", begin, kind, escaped(rows[i][j]), end);
+      const std::string cell = of_text.contains(j) ? with_breaks(rows[i][j]) : escaped(rows[i][j]);
+      body_ += fmt::format("<{}{}>{}</{}>", begin, kind, cell, end);
     }
     body_ += "</tr>\n";
   }
@@ -97,7 +112,7 @@ th, td {{ padding: 0.2rem 0.6rem; border-bottom: 1px solid var(--line); text-ali
 th {{ vertical-align: bottom }}
 th:first-child, td:first-child {{ text-align: left; padding-left: 0 }}
 td {{ white-space: nowrap }} td.text, td.long:not(:first-child) {{ white-space: normal }}
-th.text, td.text {{ text-align: left; min-width: 14rem; overflow-wrap: break-word }}
+th.text, td.text {{ text-align: left; min-width: 11rem; overflow-wrap: anywhere }}
 figure {{ margin: 1.5rem 0 }}
 figure svg {{ display: block; max-width: max(100%, 36rem); height: auto; background: #fff }}
 figcaption {{ color: var(--soft); font-size: 0.9rem; margin-top: 0.3rem }}

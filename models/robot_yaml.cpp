@@ -111,8 +111,8 @@ void read_noise(const YamlInput& in, const YAML::Node& node, const Robot& robot,
   for (const std::string& channel : in.keys(node, "noise")) {
     if (!is_channel(channel, robot)) {
       in.refuse(node[channel], fmt::format("{} is no channel of a log of {}", channel, robot.name),
-                "write q, dq, ddq or tau, alone or with .<joint>, base.gyro or base.accel, alone "
-                "or with .x, force.<link>.x, base.force or base.moment");
+                "write q, dq, ddq or tau, alone or with .<joint>, base.gyro, base.accel or "
+                "base.quat, alone or with .x, force.<link>.x, base.force or base.moment");
     }
     const double sigma = in.positive(node[channel], "the sigma of " + channel);
     constexpr double least = 1e-12, most = 1e12;

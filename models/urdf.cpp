@@ -35,7 +35,9 @@ UrdfFile parse_urdf(const std::string& text, const std::string& name, const Urdf
     if (!finding) continue;
     finding->fatal = finding->fatal && !can_exist_lumped(result.robot, link.name);
     if (finding->fatal && options.reject_impossible) {
-      throw InputError(finding->place, urdf::describe(*finding), "correct it, or leave it out");
+      throw InputError(
+          finding->place, urdf::describe(*finding),
+          "correct it, leave it out, or read it with --accept-impossible where the link is known");
     }
     result.findings.push_back(std::move(*finding));
   }

@@ -344,6 +344,9 @@ TEST(Diagnose, MassesAreFoundBesideALagThatIsKnown) {
 }
 
 TEST(Diagnose, ListsTheCatalogue) {
+  for (const char* beside : {"--bogus", "--cutoff -5", "extra", "--robot nope", "--json"}) {
+    expect_one_line(shapeid(fmt::format("diagnose --list {}", beside)), 2, "--list: stands alone");
+  }
   const CommandRun run = shapeid("diagnose --list");
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.out, text_of(SHAPEID_SOURCE_DIR "/docs/effects.md"));
