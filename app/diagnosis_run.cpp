@@ -265,6 +265,34 @@ void note_contact_reach(const diagnosis::ContactReach& reach, DiagnosisRun& run)
       1e3 * reach.before, 1e3 * reach.after));
 }
 
+/// Errors are of the log alone. So a change is also "found" where something went, or was there all
+/// along: then the model, without what came since, leaves much of the reference log.
+void note_reference(const Robot& robot, const Recording& log, const Recording& reference,
+                    const diagnosis::Series& remaining, DiagnosisRun& run) {
+  diagnosis::RichModel earlier = run.consistent.model;
+  std::erase_if(earlier.effects, [](const auto& a) { return a.is_of_the_log_alone(); });
+  const diagnosis::Series before = diagnosis::series(
+      robot, run.settings.rows, earlier, reference, log.stride_for(reference, run.settings.stride));
+  const Eigen::VectorXd of_log = remaining.rms(), of_reference = before.rms();
+  const Eigen::VectorXd predicted = diagnosis::row_rms(before.predicted, before.counted);
+  constexpr double much = 2.0, nothing = 1e-3;  // of the log's, and of what is predicted
+  std::vector<std::string> joints;
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    const Eigen::Index row = robot.base_dof() + j;
+    if (!(of_reference[row] > much * of_log[row] && of_reference[row] > nothing * predicted[row])) {
+      continue;
+    }
+    joints.push_back(fmt::format("{} {:.3g} {} ({:.3g} in the log)", robot.joint(j).name,
+                                 of_reference[row], unit_at(robot.joint(j), "N m"), of_log[row]));
+  }
+  if (joints.empty()) return;
+  run.notes.push_back(fmt::format(
+      "of the reference log the model leaves far more than of the log, at {}: something "
+      "went since then, or was there already, and what is said to have come may stand "
+      "for it",
+      fmt::join(joints, ", ")));
+}
+
 Recording* recording_in(std::optional<RecordedLog>& log) { return log ? &log->recording : nullptr; }
 
 /// The steps of a diagnosis, in the order in which they are called.
@@ -380,6 +408,7 @@ void Diagnosis::find_remains() {
   const diagnosis::RichModel& model = run_.consistent.model;
   const diagnosis::Series remaining =
       diagnosis::series(robot, settings.rows, model, log_, settings.stride);
+  if (reference() != nullptr) note_reference(robot, log_, *reference(), remaining, run_);
   run_.structures = diagnosis::unexplained(robot, log_, remaining, settings.stride);
   noise_->question_curves(log_, remaining, run_);
   run_.curves = diagnosis::curves_for(robot, settings.rows, model, run_.loop, log_, settings.stride,

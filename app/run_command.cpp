@@ -67,6 +67,22 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
                    fmt::format("{}", fmt::join(names, ", ")));
 }
 
+/// CLI11 would say first what is missing, which may be what was misspelt.
+void check_options(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || *argv[1] == '-') return;
+  for (const CLI::App* verb : app.get_subcommands({})) {
+    if (verb->get_name() != argv[1]) continue;
+    for (int i = 2; i < argc; ++i) {
+      const std::string word = argv[i];
+      if (word == "--") return;
+      const std::string name = word.substr(0, word.find('='));
+      if (!name.starts_with("--") || verb->get_option_no_throw(name) != nullptr) continue;
+      throw InputError(fmt::format("{} has no option {}", verb->get_name(), name),
+                       fmt::format("see shapeid {} --help", verb->get_name()));
+    }
+  }
+}
+
 /// CLI11 takes -0.5 for a number and -.5 for an option.
 std::vector<std::string> with_leading_digits(int argc, char** argv) {
   std::vector<std::string> words(argv, argv + argc);
@@ -118,6 +134,7 @@ int run_command(CLI::App& app, int argc, char** argv) {
   }
   try {
     check_verb(app, argc, argv);
+    check_options(app, argc, argv);
     const std::vector<std::string> words = with_leading_digits(argc, argv);
     std::vector<const char*> pointers;
     pointers.reserve(words.size());

@@ -149,8 +149,11 @@ void check_leg_order(const Robot& robot, const Recording& recording, ContactTrea
                 fmt::format("the given model predicts the logged torque better if legs are "
                             "exchanged, {}, with all that is beyond these joints: exchange their "
                             "columns in the mapping, or their joints in the URDF; or the IMU is "
-                            "turned",
-                            words_of(robot, legs, best)));
+                            "turned{}",
+                            words_of(robot, legs, best),
+                            contacts == ContactTreatment::ignore && !robot.contacts.empty()
+                                ? ", or feet carry the robot that do not count"
+                                : ""));
 }
 
 }  // namespace shapeid::diagnosis

@@ -34,20 +34,7 @@ Section ResidualFloor.
         + now apply (inside _ _ _ _ _ made).
         + intros x hx. apply bound; [now apply (on_a_link _ _ _ _ _ made) | exact hx].
       - intros k _. unfold half_slope. ring. }
-    assert (masses : 2 * (M * low) <= mass_terms q (mass_slope q r) t).
-    { unfold mass_terms. replace (2 * (M * low)) with (2 * (M * low) + 0) by ring. apply le_add.
-      - rewrite (sum_ext (shapes q) _ (fun j => 2 * (mass_slope q r j * t j))) by (intros; ring).
-        rewrite sum_scale. apply le_scale; [apply lt_le, two_pos |].
-        apply (le_trans _ (low * sum (shapes q) t)).
-        + apply le_of_sub.
-          replace (low * sum (shapes q) t - M * low) with ((M - sum (shapes q) t) * - low) by ring.
-          apply mul_nonneg; [now apply sub_nonneg | now apply opp_nonneg].
-        + rewrite <- sum_scale. apply sum_le. intros j hj.
-          replace (low * t j) with (t j * low) by ring.
-          replace (mass_slope q r j * t j) with (t j * mass_slope q r j) by ring.
-          apply le_scale; [now apply ht | now apply prices].
-      - unfold density. apply mul_nonneg; [apply wf |]. apply sum_nonneg. intros j hj.
-        apply div_nonneg; [apply square_nonneg | now apply wf]. }
+    pose proof (steepest_shape q (mass_slope q r) t M low wf hlow prices ht total) as masses.
     rewrite <- whole.
     replace (constant_terms q r + 2 * (M * low)) with
       (constant_terms q r + 2 * (M * low) + 0) by ring.

@@ -344,7 +344,7 @@ TEST(Diagnose, MassesAreFoundBesideALagThatIsKnown) {
 }
 
 TEST(Diagnose, ListsTheCatalogue) {
-  for (const char* beside : {"--bogus", "--cutoff -5", "extra", "--robot nope", "--json"}) {
+  for (const char* beside : {"--cutoff -5", "extra", "--robot nope", "--json"}) {
     expect_one_line(shapeid(fmt::format("diagnose --list {}", beside)), 2, "--list: stands alone");
   }
   const CommandRun run = shapeid("diagnose --list");

@@ -164,11 +164,13 @@ TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
        ":1: imu xyz is 120 m from the link's origin, on a robot of 3.7 m; metres, on the robot"},
       {"noise: {tau.ankle: 1}\n",
        ":1: tau.ankle is no channel of a log of hopper; write q, dq, ddq or tau, alone or with "
-       ".<joint>, base.gyro or base.accel, alone or with .x, force.<link>.x, base.force or "
+       ".<joint>, base.gyro, base.accel or base.quat, alone or with .x, force.<link>.x, base.force "
+       "or "
        "base.moment"},
       {"noise:\n  tau: 1\n  base.gyro.w: 1\n",
        ":3: base.gyro.w is no channel of a log of hopper; write q, dq, ddq or tau, alone or with "
-       ".<joint>, base.gyro or base.accel, alone or with .x, force.<link>.x, base.force or "
+       ".<joint>, base.gyro, base.accel or base.quat, alone or with .x, force.<link>.x, base.force "
+       "or "
        "base.moment"},
       {"noise: {tau: 0}\n", ":1: the sigma of tau is 0; it must be above zero"},
       {"noise:\n  tau: 1,5\n",
@@ -176,11 +178,13 @@ TEST(RobotYaml, RefusalsSayLineWrongAndRight) {
        "a finite decimal number"},
       {"noise: {force.knee.x: 1}\n",
        ":1: force.knee.x is no channel of a log of hopper; write q, dq, ddq or tau, alone or with "
-       ".<joint>, base.gyro or base.accel, alone or with .x, force.<link>.x, base.force or "
+       ".<joint>, base.gyro, base.accel or base.quat, alone or with .x, force.<link>.x, base.force "
+       "or "
        "base.moment"},
       {"noise: {temperature: 1}\n",
        ":1: temperature is no channel of a log of hopper; write q, dq, ddq or tau, alone or with "
-       ".<joint>, base.gyro or base.accel, alone or with .x, force.<link>.x, base.force or "
+       ".<joint>, base.gyro, base.accel or base.quat, alone or with .x, force.<link>.x, base.force "
+       "or "
        "base.moment"},
       {"rotors: {mount: {inertia: 1, gear: 1}}\n",
        ":1: hopper has no moving joint mount; name a joint"},

@@ -153,8 +153,8 @@ const std::vector<Broken>& cases() {
        "r.urdf:3: inertia of link a: mass is negative (-1 kg); correct it, leave it out, or read "
        "it with --accept-impossible where the link is known"},
       {"MomentsWithoutMass", inertial("0"),
-       "r.urdf:3: inertia of link a: the body has moments but no mass; correct it, or leave it "
-       "out"},
+       "r.urdf:3: inertia of link a: the body has moments but no mass; correct it, leave it out, "
+       "or read it with --accept-impossible where the link is known"},
       {"ImpossibleTensor",
        inertial("1", "", R"(<inertia ixx="1" ixy="0" ixz="0" iyy="2" iyz="0" izz="4"/>)"),
        "r.urdf:3: inertia of link a: the triangle inequality is broken: principal moments 1 + 2 < "
