@@ -69,8 +69,9 @@ void diagnose(DiagnoseArguments& options) {
 
 /// The catalogue needs neither robot nor log: it is printed before any is asked for.
 void print_catalogue(const CLI::App& verb) {
-  const auto others = verb.get_options(
-      [](const CLI::Option* option) { return option->count() > 0 && !option->check_name("--list"); });
+  const auto others = verb.get_options([](const CLI::Option* option) {
+    return option->count() > 0 && !option->check_name("--list");
+  });
   if (!others.empty() || verb.remaining_size() > 0) {
     throw CLI::ValidationError("--list", "stands alone: leave everything else out");
   }

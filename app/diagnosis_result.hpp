@@ -23,7 +23,7 @@ namespace shapeid::app {
 
 /// Where a load is, of whose mass that much is known; errors as if mass and moments had independent
 /// ones.
-[[nodiscard]] std::string centre_text(const Robot& robot, const diagnosis::AppliedEffect& load,
+[[nodiscard]] std::string centre_text(const Robot& robot, const diagnosis::AppliedEffect& a,
                                       const Eigen::VectorXd& error);
 
 /// Which law follows which signal, of the curves of a run.

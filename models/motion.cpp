@@ -223,7 +223,8 @@ struct MotionReader::State {
     const std::optional<HeldPosition> longest = held.longest(count);
     if (!longest) return;
     const Joint& joint = robot.joint(longest->joint);
-    const auto channel = static_cast<std::size_t>(source.plan().q + longest->joint);
+    const int place = source.plan().q + longest->joint;
+    const auto channel = static_cast<std::size_t>(place);
     report.notes.push_back(fmt::format(
         "{}:{}: {} stays the same for {:.2g} s and then jumps by {:.2g} {}: readings were held{}; "
         "leave these rows out, a gap is no harm",
