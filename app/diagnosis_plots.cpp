@@ -14,6 +14,7 @@
 #include "shapeid/app/plot_script.hpp"
 #include "shapeid/app/result.hpp"
 #include "shapeid/app/ticks.hpp"
+#include "shapeid/diagnosis/spectrum.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -113,21 +114,14 @@ namespace {
 /// of the log.
 std::vector<Eigen::Index> with_breaks(const DiagnosisRun& run, Eigen::Index from,
                                       Eigen::Index end) {
-  std::vector<double> steps;
-  for (Eigen::Index i = from + 1; i < end; ++i) {
-    steps.push_back(sample_at(run, i).time - sample_at(run, i - 1).time);
-  }
   constexpr double usual_steps = 3.0;
-  double longest = 0.0;
-  if (!steps.empty()) {
-    std::vector<double> sorted = steps;
-    const auto middle = sorted.begin() + std::ssize(sorted) / 2;
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    longest = usual_steps * *middle;
-  }
+  const std::vector<double> time = diagnosis::times(run.test, run.after);
+  const double longest = time.size() > 1 ? usual_steps * diagnosis::usual_step(time) : 0.0;
   std::vector<Eigen::Index> places;
   for (Eigen::Index i = from; i < end; ++i) {
-    if (i > from && steps[static_cast<std::size_t>(i - from - 1)] > longest) places.push_back(-1);
+    if (i > from && sample_at(run, i).time - sample_at(run, i - 1).time > longest) {
+      places.push_back(-1);
+    }
     places.push_back(i);
   }
   return places;

@@ -31,7 +31,7 @@ using Table = std::vector<std::vector<std::string>>;
 [[nodiscard]] std::string link_verdict(const DiagnosisRun& run, const Robot& robot,
                                        std::size_t sought);
 
-/// Which of a free link's ten numbers the data determine.
+/// How many of a free link's ten numbers the data determine.
 [[nodiscard]] std::size_t determined_of_link(const DiagnosisRun& run, std::size_t sought);
 
 }  // namespace shapeid::app

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "shapeid/models/row_steps.hpp"
+
 namespace shapeid {
 namespace {
 
@@ -217,7 +219,7 @@ void Plausibility::judge() {
   }
   if (options_.expect_gravity) judge_gravity();
   if (options_.refuse_frozen) judge_frozen();
-  if (!options_.exact) judge_rate();
+  if (options_.refuse_readings && !options_.exact) judge_rate();
   row_steps_.clear();
   rows_ = force_count_ = 0;
   force_sum_ = 0.0;
@@ -376,15 +378,14 @@ void Plausibility::judge_frozen() const {
 /// The grid of the whole log is that of its first rows: of faster ones it would pick some.
 void Plausibility::judge_rate() {
   if (row_steps_.size() < enough_rows) return;
-  const auto middle = row_steps_.begin() + std::ssize(row_steps_) / 2;
-  std::nth_element(row_steps_.begin(), middle, row_steps_.end());
-  if (first_median_ == 0.0) first_median_ = *middle;
+  const double step = median(row_steps_);
+  if (first_median_ == 0.0) first_median_ = step;
   constexpr double another = 1.5;
-  if (*middle * another > first_median_ && *middle < another * first_median_) return;
+  if (step * another > first_median_ && step < another * first_median_) return;
   throw InputError({path_, first_line_, plan_.time.from},
                    fmt::format("rows come {:.3g} times a second from about here on, and did {:.3g} "
                                "times before",
-                               1.0 / *middle, 1.0 / first_median_),
+                               1.0 / step, 1.0 / first_median_),
                    "give logs of one rate: split this one where its rate changes");
 }
 

@@ -37,7 +37,8 @@ class Plausibility {
     double longest_step = 0.0;  ///< s between rows; slopes are not taken across longer ones
     bool expect_gravity = true;
     bool refuse_frozen = true;
-    bool refuse_readings = true;  ///< single ones that no robot has, and angles that wrap
+    /// Single ones that no robot has, angles that wrap, and rows at another rate.
+    bool refuse_readings = true;
     /// Without noise and not resampled: an axis of the IMU may read zero, rows may come at any
     /// time.
     bool exact = false;

@@ -15,19 +15,18 @@ namespace {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-/// The corners of a triangle as seen from `origin`.
-Triangle corners(const Polyhedron& p, const std::array<int, 3>& face,
-                 const Eigen::Vector3d& origin) {
+/// Six times the volume of the tetrahedron between a triangle and the origin.
+double six_volumes(const Triangle& t) { return t[0].dot(t[1].cross(t[2])); }
+
+}  // namespace
+
+std::array<Eigen::Vector3d, 3> corners(const Polyhedron& p, const std::array<int, 3>& face,
+                                       const Eigen::Vector3d& origin) {
   const auto at = [&](int i) -> Eigen::Vector3d {
     return p.vertices[static_cast<std::size_t>(i)] - origin;
   };
   return {at(face[0]), at(face[1]), at(face[2])};
 }
-
-/// Six times the volume of the tetrahedron between a triangle and the origin.
-double six_volumes(const Triangle& t) { return t[0].dot(t[1].cross(t[2])); }
-
-}  // namespace
 
 std::vector<std::array<int, 3>> triangles(const Polyhedron& p) {
   std::vector<std::array<int, 3>> faces;

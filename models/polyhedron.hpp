@@ -20,6 +20,11 @@ namespace shapeid {
 /// Whether no edge is re-entrant by more than single precision of the size, in one piece.
 [[nodiscard]] bool is_convex(const Polyhedron& polyhedron);
 
+/// The corners of a triangle as seen from `origin`.
+[[nodiscard]] std::array<Eigen::Vector3d, 3> corners(const Polyhedron& polyhedron,
+                                                     const std::array<int, 3>& face,
+                                                     const Eigen::Vector3d& origin);
+
 /// How often the surface winds about a point: 1 inside a solid, 0 outside.
 [[nodiscard]] double winding(const Polyhedron& polyhedron, const Eigen::Vector3d& point);
 

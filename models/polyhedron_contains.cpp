@@ -1,6 +1,5 @@
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -34,34 +33,27 @@ double distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
   return std::min({distance(a, b), distance(b, c), distance(c, a)});
 }
 
-std::array<Eigen::Vector3d, 3> seen_from(const Eigen::Vector3d& point, const Polyhedron& p,
-                                         const std::array<int, 3>& face) {
-  const auto at = [&](int i) -> Eigen::Vector3d {
-    return p.vertices[static_cast<std::size_t>(i)] - point;
-  };
-  return {at(face[0]), at(face[1]), at(face[2])};
-}
-
 }  // namespace
 
 double winding(const Polyhedron& p, const Eigen::Vector3d& point) {
   constexpr double sphere = 4.0 * std::numbers::pi;
   double wound = 0.0;
   for (const auto& face : triangles(p)) {
-    const auto [a, b, c] = seen_from(point, p, face);
+    const auto [a, b, c] = corners(p, face, point);
     wound += solid_angle(a, b, c);
   }
   return wound / sphere;
 }
 
 bool contains(const Polyhedron& p, const Eigen::Vector3d& point, double slack) {
+  constexpr double inside = 0.5;
+  if (winding(p, point) > inside) return true;
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& face : triangles(p)) {
-    const auto [a, b, c] = seen_from(point, p, face);
+    const auto [a, b, c] = corners(p, face, point);
     nearest = std::min(nearest, distance(a, b, c));
   }
-  constexpr double inside = 0.5;
-  return winding(p, point) > inside || nearest <= slack;
+  return nearest <= slack;
 }
 
 }  // namespace shapeid

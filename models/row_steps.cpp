@@ -11,15 +11,12 @@
 #include "shapeid/models/error.hpp"
 
 namespace shapeid {
-namespace {
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
-
-}  // namespace
 
 double median_row_step(const std::deque<MeasuredRow>& head) {
   std::vector<double> steps;

@@ -5,10 +5,14 @@
 
 #include <deque>
 #include <string>
+#include <vector>
 
 #include "shapeid/models/channels.hpp"
 
 namespace shapeid {
+
+/// Of one number at least.
+[[nodiscard]] double median(std::vector<double> values);
 
 /// Median time between the rows, s; 0 for a single one.
 [[nodiscard]] double median_row_step(const std::deque<MeasuredRow>& head);

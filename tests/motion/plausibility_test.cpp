@@ -266,6 +266,24 @@ TEST(Plausibility, AnotherRateIsRefused) {
   }
 }
 
+/// Without smoothing the cutoff is nothing that a slow log could be too slow for.
+TEST(Plausibility, WithoutSmoothingNoCutoffIsAskedFor) {
+  const Robot robot = chain(3, Root::fixed);
+  const ScratchFolder scratch;
+  const auto path = scratch.path("x.csv");
+  write_log(path, robot, regular_times(0.0, 30.0, 600),
+            [&](double t) { return smooth_motion(robot, t); });
+  MotionOptions options;
+  const auto received = [&] {
+    return message_of<InputError>([&] { static_cast<void>(read_motion(path, robot, options)); },
+                                  path);
+  };
+  EXPECT_NE(received().find("a filter of 20 Hz for data at 30 Hz"), std::string::npos)
+      << received();
+  options.smoothing = Smoothing::none;
+  EXPECT_EQ(received(), "accepted");
+}
+
 /// What has gone dead mostly reads zero. Without noise, in a plane, a sound axis does.
 TEST(Plausibility, AnAxisThatReadsZeroIsDead) {
   const Robot robot = chain(2, Root::floating);

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <limits>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/log_writer.hpp"
@@ -251,6 +255,50 @@ TEST(SampleStream, LearnsItsRateFromTheFirstRows) {
   EXPECT_EQ(twice.rate(), stream.rate());
   ASSERT_FALSE(samples.empty());
   expect_same(samples.front(), *stream.next());
+}
+
+/// A channel that goes on in every fourth row alone holds a sample up twice: for its next value, and
+/// for the one behind that, which shapes its curve.
+TEST(SampleStream, NoSampleIsOlderThanItsLatency) {
+  Streaming log(false, test::regular_times(0.0, 500.0, 4000));
+  for (std::size_t i = 2000; i < log.rows.size(); ++i) {
+    if (i % 4 != 0) log.rows[i].values[log.plan.tau] = std::numeric_limits<double>::quiet_NaN();
+  }
+  SampleStream stream = log.stream(streamed());
+  double oldest = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < log.rows.size(); ++i) {
+    stream.push(log.rows[i]);
+    while (const std::optional<Sample> sample = stream.next()) {
+      ++count;
+      if (i > SampleStream::head_rows) oldest = std::max(oldest, log.rows[i].time - sample->time);
+    }
+  }
+  EXPECT_GT(count, 3900U);
+  EXPECT_LE(oldest, stream.latency());
+}
+
+/// A measured force that no robot meets is named, before torques beside it are.
+TEST(SampleStream, AForceThatNoRobotMeetsIsRefused) {
+  const auto received = [](double force) -> std::string {
+    const auto pushed = [force](const Robot& robot, double t) {
+      Sample s = stepping(robot, t);
+      if (std::abs(t - 1.0) < 1e-4) s.contact_force.at(0).x() = force;
+      return s;
+    };
+    try {
+      const Streaming log(true, test::regular_times(0.0, 500.0, 2000), pushed);
+      static_cast<void>(read_motion(log.path, log.robot, causal()));
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(received(1e5), "accepted");
+  const std::string message = received(-1e7);
+  EXPECT_NE(message.find("-1e+07 is no reading of a robot; N, at most 1e+06"), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("column force."), std::string::npos) << message;
 }
 
 // Filters forget what came before.
