@@ -257,8 +257,8 @@ TEST(SampleStream, LearnsItsRateFromTheFirstRows) {
   expect_same(samples.front(), *stream.next());
 }
 
-/// A channel that goes on in every fourth row alone holds a sample up twice: for its next value, and
-/// for the one behind that, which shapes its curve.
+/// A channel that goes on in every fourth row alone holds a sample up twice: for its next value,
+/// and for the one behind that, which shapes its curve.
 TEST(SampleStream, NoSampleIsOlderThanItsLatency) {
   Streaming log(false, test::regular_times(0.0, 500.0, 4000));
   for (std::size_t i = 2000; i < log.rows.size(); ++i) {
