@@ -36,7 +36,7 @@ void write_files(const DiagnoseArguments& options, const RobotInputs& robot, Dia
   if (options.diagnose.curves) model.curves = run.curves;
   OutputFolder(options.delivery.folder)
       .write({{"identified.urdf", std::move(urdf)},
-              {"effects.yaml", diagnosis::write_effects_yaml(r, {model.effects, model.curves})},
+              {"effects.yaml", diagnosis::write_effects_yaml(r, {model.acting(), model.curves})},
               {"predict_torque.hpp", diagnosis::torque_header(r, model)},
               {"result.json", json_text(diagnosis_json(run, r, options.diagnose), 2) + "\n"},
               {"report.html", diagnosis_report(run, r, options.diagnose)}});

@@ -15,6 +15,7 @@ namespace shapeid::app {
 namespace {
 
 using diagnosis::AppliedEffect;
+using diagnosis::When;
 using nlohmann::json;
 
 json number_or_null(double x) { return std::isfinite(x) ? json(x) : json(); }
@@ -66,9 +67,14 @@ json finding(const DiagnosisRun& run, const Robot& robot, std::size_t k) {
   if (const diagnosis::Found* f = found_for(run, a)) {
     entry["heldout_gain"] = f->gain;
     entry["gain_over_its_error"] = f->t;
-    entry["since_reference"] = a.since_reference;
-    entry["may_act_in_both"] = a.since_reference && f->may_be_of_other_time;
-    entry["may_have_come_since"] = !a.since_reference && f->may_be_of_other_time;
+    const auto may_be = [&](When when) {
+      return std::ranges::find(f->other_times, when) != f->other_times.end();
+    };
+    entry["since_reference"] = a.when == When::since_reference;
+    entry["gone_since_reference"] = a.when == When::gone;
+    entry["may_act_in_both"] = may_be(When::always);
+    entry["may_have_come_since"] = may_be(When::since_reference);
+    entry["may_have_gone_since"] = may_be(When::gone);
     entry["ambiguous_with"] = f->ambiguous_with;
     entry["hangs_on_given_inertias"] = f->hangs_on_given;
     if (f->rival) entry["or_without_name"] = law_text(*f->rival, robot);
@@ -260,7 +266,7 @@ std::string structures_text(const DiagnosisRun& run) {
 /// Friction of joints for <dynamics>: b and c of what was found.
 std::map<std::string, JointFriction> joint_friction(const DiagnosisRun& run, const Robot& robot) {
   std::map<std::string, JointFriction> friction;
-  for (const AppliedEffect& a : run.consistent.model.effects) {
+  for (const AppliedEffect& a : run.consistent.model.acting()) {
     const bool viscous = a.effect->id == "viscous_friction";
     if (!viscous && a.effect->id != "coulomb_friction") continue;
     JointFriction& of_joint = friction[robot.joint(a.site).name];
@@ -310,10 +316,22 @@ std::string beyond_contacts(const DiagnosisRun& run, const Robot& robot) {
 }
 
 std::string since_text(const diagnosis::Found& found) {
-  if (found.may_be_of_other_time) {
-    return "came since the reference log or acts in both: these two logs do not tell";
-  }
-  return found.effect.since_reference ? "came since the reference log" : "";
+  const auto words = [](When when) -> std::string {
+    switch (when) {
+      case When::since_reference:
+        return "came since the reference log";
+      case When::gone:
+        return "was in the reference log and is gone";
+      case When::always:
+        break;
+    }
+    return "acts in both logs";
+  };
+  const bool is_sure = found.other_times.empty();
+  if (is_sure && found.effect.when == When::always) return "";
+  std::string text = words(found.effect.when);
+  for (const When other : found.other_times) text += ", or " + words(other);
+  return is_sure ? text : text + ": these two logs do not tell";
 }
 
 std::string doubt(const DiagnosisRun& run, const diagnosis::Found& f, const Robot& robot) {

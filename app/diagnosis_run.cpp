@@ -139,7 +139,7 @@ std::vector<diagnosis::Structure> unnamed(const Robot& robot, const Recording& l
                                           const DiagnosisRun& run) {
   std::vector<diagnosis::Structure> list;
   for (const diagnosis::Found& f : run.loop.found) {
-    if (!f.varies) continue;
+    if (!f.varies || !f.effect.acts_in_log()) continue;
     diagnosis::RichModel model = run.consistent.model;
     const auto removed = std::erase_if(
         model.effects, [&](const diagnosis::AppliedEffect& a) { return same_place(a, f.effect); });
@@ -270,7 +270,7 @@ void note_contact_reach(const diagnosis::ContactReach& reach, DiagnosisRun& run)
 void note_reference(const Robot& robot, const Recording& log, const Recording& reference,
                     const diagnosis::Series& remaining, DiagnosisRun& run) {
   diagnosis::RichModel earlier = run.consistent.model;
-  std::erase_if(earlier.effects, [](const auto& a) { return a.is_of_the_log_alone(); });
+  earlier.earlier = true;
   const diagnosis::Series before = diagnosis::series(
       robot, run.settings.rows, earlier, reference, log.stride_for(reference, run.settings.stride));
   const Eigen::VectorXd of_log = remaining.rms(), of_reference = before.rms();

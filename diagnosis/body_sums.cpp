@@ -48,7 +48,7 @@ Eigen::VectorXd Eliminated::effects(const Eigen::VectorXd& Phi) const {
   return gain * x;
 }
 
-BodySums::BodySums(const BodyModel& shapes, Tally tally, const std::vector<bool>& since)
+BodySums::BodySums(const BodyModel& shapes, Tally tally)
     : tally_(std::move(tally)),
       target_(tally_.columns()),
       linear_(tally_.columns() - tally_.inertial),
@@ -64,12 +64,12 @@ BodySums::BodySums(const BodyModel& shapes, Tally tally, const std::vector<bool>
   known_ = Eigen::VectorXd::Zero(target_ + 1);
   known_.head(tally_.inertial) = shapes.known;
   for (Block& block : tally_.blocks) {
-    reduce(block, since);
+    reduce(block);
     if (block.reference) ++reference_blocks_;
   }
 }
 
-void BodySums::reduce(Block& block, const std::vector<bool>& since) const {
+void BodySums::reduce(Block& block) const {
   Eigen::MatrixXd G = block.sums;
   const Eigen::Index F = target_;
   const Eigen::VectorXd Gx = G * known_;
@@ -77,9 +77,9 @@ void BodySums::reduce(Block& block, const std::vector<bool>& since) const {
   G.col(F).head(F) -= Gx.head(F);
   G.row(F).head(F) = G.col(F).head(F).transpose();
   block.sums = G(kept_, kept_);
-  if (!block.reference) return;
-  for (std::size_t k = 0; k < since.size(); ++k) {
-    if (!since[k]) continue;
+  for (std::size_t k = 0; k < tally_.hypotheses.size(); ++k) {
+    const AppliedEffect& effect = tally_.hypotheses[k];
+    if (block.reference ? effect.acts_in_reference() : effect.acts_in_log()) continue;
     const Eigen::Index from = links_ + tally_.first[k] - tally_.inertial;
     const Eigen::Index n = tally_.hypotheses[k].value.size();
     block.sums.middleRows(from, n).setZero();

@@ -27,8 +27,7 @@ struct Eliminated {
 /// first among the tally's effects.
 class BodySums {
  public:
-  /// `since`: of each effect of the tally, whether it is no part of a reference log.
-  BodySums(const BodyModel& shapes, Tally tally, const std::vector<bool>& since);
+  BodySums(const BodyModel& shapes, Tally tally);
 
   /// Numbers of free links, ten each; of these and loads.
   [[nodiscard]] Eigen::Index links() const { return links_; }
@@ -51,7 +50,7 @@ class BodySums {
  private:
   [[nodiscard]] int tenth_of(std::size_t b) const;
   [[nodiscard]] Eigen::MatrixXd without(int tenth) const;
-  void reduce(Block& block, const std::vector<bool>& since) const;
+  void reduce(Block& block) const;
 
   Tally tally_;
   std::size_t reference_blocks_ = 0;  ///< which come first

@@ -39,7 +39,7 @@ std::size_t likeliest_moment(const Robot& robot, const BlockFits& fits,
                              const std::vector<int>& free_links, int link) {
   std::vector<Term> loads;
   const std::size_t first = fits.first_block();
-  const std::size_t end = first + static_cast<std::size_t>(fits.held_blocks());
+  const std::size_t end = fits.tally().blocks.size();
   for (std::size_t block = first + 1; block < end; ++block) {
     loads.push_back(payload_candidate(robot, *find_effect("payload_from"), link, block, 0.0).term);
   }
@@ -56,17 +56,18 @@ void add_groups(std::vector<Candidate>& list) {
   const std::size_t singles = list.size();
   for (const Effect& effect : all_effects()) {
     if (effect.site != SiteKind::joint || effect.columns == nullptr) continue;
-    for (const bool since : {false, true}) {
+    for (const When when : every_when) {
       Candidate group;
       for (std::size_t k = 0; k < singles; ++k) {
         const AppliedEffect& single = list[k].effect;
-        if (single.effect != &effect || single.since_reference != since) continue;
+        if (single.effect != &effect || single.when != when) continue;
         if (list[k].only_rival) continue;
         if (group.members.empty()) group = {single, {}, {}};
         group.members.push_back(k);
         group.choices = std::max(group.choices, list[k].choices);
         const Term& term = list[k].term;
         group.term.from_block = term.from_block;
+        group.term.to_block = term.to_block;
         group.term.columns.insert(group.term.columns.end(), term.columns.begin(),
                                   term.columns.end());
       }
@@ -104,10 +105,35 @@ std::optional<AppliedEffect> with_shape_of_neighbours(AppliedEffect hypothesis,
   return has_any ? std::optional(hypothesis) : std::nullopt;
 }
 
+/// A candidate that always acts as one that came or went, or went as it is. Empty if there can be
+/// none, or the tally has it with numbers of its own.
+std::optional<Candidate> of_time(When when, Candidate c, const BlockFits& fits,
+                                 const CandidateRule& rule) {
+  const AppliedEffect known = c.effect;
+  if (known.when != When::always && when != known.when) return std::nullopt;
+  const bool is_change = when != When::always;
+  if (is_change && (!rule.has_reference || known.effect->built_in || known.begins())) {
+    return std::nullopt;
+  }
+  c.effect.when = when;
+  if (when != known.when) {
+    const bool has_own_numbers =
+        std::ranges::any_of(fits.tally().hypotheses, [&](const AppliedEffect& other) {
+          return other.when == when && same_place(other, c.effect);
+        });
+    if (has_own_numbers) return std::nullopt;
+    if (known.effect->transform.any()) c.effect.value.setZero();
+  }
+  if (rule.excluded(c.effect)) return std::nullopt;
+  fits.limit_to_time_of(c.effect, c.term);
+  return c;
+}
+
 }  // namespace
 
 std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichModel& model,
-                                               const Recording& log, const Series& left) {
+                                               const Rest& of_log,
+                                               const std::optional<Rest>& earlier) {
   std::vector<AppliedEffect> list = all_hypotheses(robot), again;
   for (AppliedEffect& h : list) {
     const auto found = std::find_if(model.effects.begin(), model.effects.end(),
@@ -119,15 +145,24 @@ std::vector<AppliedEffect> screened_hypotheses(const Robot& robot, const RichMod
     // How fast a joint must go until its dry friction is whole may be one number, whichever law it
     // is of: looked at with the usual one alone, a law would be told by that from another.
     if (const auto other = with_shape_of_neighbours(h, model)) again.push_back(*other);
-    if (is_ripple(h)) {
+    if (!is_ripple(h)) continue;
+    const auto strongest = [&](const Rest& rest) {
       const ShapeNumber& N = h.effect->shape.front();
-      h.shape[0] =
-          strongest_ripple(robot, log, left, h.site, h.site, RippleOf::torque, N.lower, N.upper);
+      return strongest_ripple(robot, rest.log, rest.left, h.site, h.site, RippleOf::torque, N.lower,
+                              N.upper);
+    };
+    AppliedEffect gone = h;
+    gone.when = When::gone;
+    if (earlier && !has_place_of(model.effects, gone)) {
+      gone.shape[0] = strongest(*earlier);
+      again.push_back(gone);
     }
+    h.shape[0] = strongest(of_log);
   }
   list.insert(list.end(), again.begin(), again.end());
   for (const AppliedEffect& a : model.effects) {
-    if (a.effect->is_payload || (a.since_reference && !has_place_of(list, a))) list.push_back(a);
+    if (a.effect->is_payload || (a.when != When::always && !has_place_of(list, a)))
+      list.push_back(a);
   }
   return list;
 }
@@ -178,25 +213,14 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
                    std::any_of(tally.hypotheses.begin(),
                                tally.hypotheses.begin() + static_cast<std::ptrdiff_t>(k),
                                [&](const AppliedEffect& other) { return same_place(other, h); });
-    if (h.is_of_the_log_alone()) c.term.from_block = fits.first_block();
-    if (!h.since_reference && !rule.excluded(h)) list.push_back(c);
-    if (!rule.has_reference || h.effect->built_in) continue;
-    if (!h.since_reference) {
-      if (h.is_of_the_log_alone()) continue;
-      c.effect.since_reference = true;
-      const bool has_own_numbers = std::any_of(
-          tally.hypotheses.begin(), tally.hypotheses.end(), [&](const AppliedEffect& other) {
-            return other.since_reference && same_place(other, c.effect);
-          });
-      if (has_own_numbers) continue;
-      if (h.effect->transform.any()) c.effect.value.setZero();
+    for (const When when : every_when) {
+      if (const std::optional<Candidate> other = of_time(when, c, fits, rule))
+        list.push_back(*other);
     }
-    c.term.from_block = fits.first_block();
-    if (!rule.excluded(c.effect)) list.push_back(c);
   }
   add_groups(list);
   const std::size_t first = fits.first_block();
-  const auto blocks = static_cast<std::size_t>(fits.held_blocks());
+  const auto blocks = static_cast<std::size_t>(fits.log_blocks());
   for (int link = 0; link < robot.link_count(); ++link) {
     const Effect& always = *find_effect("payload");
     const Effect& later = *find_effect("payload_from");
@@ -205,12 +229,12 @@ std::vector<Candidate> candidates(const Robot& robot, const BlockFits& fits,
       if (!rule.excluded(c.effect)) list.push_back(c);
     };
     const bool is_free = std::count(rule.free_links.begin(), rule.free_links.end(), link) > 0;
-    if (rule.has_reference) {
-      Candidate c = payload_candidate(robot, always, link, first, 0.0);
-      c.effect.since_reference = true;
+    for (const When when : every_when) {
+      if (when == When::always ? is_free : !rule.has_reference) continue;
+      Candidate c = payload_candidate(robot, always, link, 0, 0.0);
+      c.effect.when = when;
+      fits.limit_to_time_of(c.effect, c.term);
       add(c);
-    } else if (!is_free) {
-      add(payload_candidate(robot, always, link, 0, 0.0));
     }
     constexpr std::size_t onsets = 9;
     std::vector<std::size_t> moments = {likeliest_moment(robot, fits, rule.free_links, link)};

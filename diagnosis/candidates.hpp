@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "shapeid/diagnosis/selection.hpp"
@@ -10,12 +11,13 @@
 namespace shapeid::diagnosis {
 
 /// All hypotheses; those of the model with their numbers, others once more with what numbers of
-/// their shape the model has found at their place, ripple where the residual (`left`, of the model
-/// on the log) has most of it, payloads only if the model has them.
+/// their shape the model has found at their place, ripple where the rest of the log has most of it
+/// (what went, where that of the reference log has, if there is one), payloads only if the model
+/// has them.
 [[nodiscard]] std::vector<AppliedEffect> screened_hypotheses(const Robot& robot,
                                                              const RichModel& model,
-                                                             const Recording& log,
-                                                             const Series& left);
+                                                             const Rest& of_log,
+                                                             const std::optional<Rest>& earlier);
 
 /// Ten columns for each of these links.
 [[nodiscard]] Term term_of_masses(const std::vector<int>& links);
@@ -29,8 +31,9 @@ namespace shapeid::diagnosis {
 [[nodiscard]] bool is_long_ripple(const Recording& log, const AppliedEffect& effect);
 
 struct CandidateRule {
-  std::vector<int> free_links;   ///< a load that is always there cannot be told from these
-  bool has_reference = false;    ///< what came since the reference log is a hypothesis of its own
+  std::vector<int> free_links;  ///< a load that is always there cannot be told from these
+  /// What came since the reference log is a hypothesis of its own, and what went.
+  bool has_reference = false;
   bool transformations = false;  ///< whether effects that are no columns are tried
   /// Whether what is there with several shapes is sought with each, not with the first alone.
   bool several_shapes = false;

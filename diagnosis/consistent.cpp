@@ -262,11 +262,9 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     std::vector<AppliedEffect>& effects = result.model.effects;
     const std::vector<std::size_t> linear = loads_first(effects);
     std::vector<AppliedEffect> columns;
-    std::vector<bool> since;
     std::vector<int> loads;
     for (const std::size_t k : linear) {
       columns.push_back(effects[k]);
-      since.push_back(effects[k].is_of_the_log_alone());
       if (effects[k].effect->is_payload) loads.push_back(effects[k].site);
     }
     TallyOptions options;
@@ -278,14 +276,13 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     Tally tally = empty_tally(robot, columns);
     if (reference != nullptr) {
       RichModel earlier = result.model;
-      std::erase_if(earlier.effects,
-                    [](const AppliedEffect& a) { return a.is_of_the_log_alone(); });
+      earlier.earlier = true;
       TallyOptions of_reference = options;
       of_reference.stride = log.stride_for(*reference, settings.stride);
       add_to_tally(tally, robot, settings.rows, earlier, *reference, of_reference, true);
     }
     add_to_tally(tally, robot, settings.rows, result.model, log, options, false);
-    const BodySums sums(shapes, std::move(tally), since);
+    const BodySums sums(shapes, std::move(tally));
     const Solver solver(robot, sums, loads, settings, loop);
     const Eliminated eliminated = sums.rows_without(-1);
     // With every link trusted and no load there is no mass to solve for.

@@ -107,7 +107,7 @@ std::vector<std::optional<Variation>> variations(const BlockFits& fits,
     if (m.hypothesis >= effects) continue;
     tried += static_cast<double>(tally.hypotheses[m.hypothesis].value.size());
   }
-  const double least = limit_for(least_z(false_alarms, tried), fits.held_blocks());
+  const double least = limit_for(least_z(false_alarms, tried), fits.blocks());
   const FitsAround now(fits, terms);
   for (std::size_t k = 0; k < tally.modulations.size(); ++k) {
     const Modulation& m = tally.modulations[k];
@@ -118,12 +118,13 @@ std::vector<std::optional<Variation>> variations(const BlockFits& fits,
     term.nonnegative.assign(term.columns.size(), false);
     for (const Term& own : terms) {
       const bool same = !own.columns.empty() && own.columns.front() == tally.first[m.hypothesis];
-      if (same) term.from_block = own.from_block;
+      if (same) {
+        term.from_block = own.from_block;
+        term.to_block = own.to_block;
+      }
     }
-    // Of a transformation that came since the reference log there is no term.
-    if (tally.hypotheses[m.hypothesis].is_of_the_log_alone()) {
-      term.from_block = std::max(term.from_block, fits.first_block());
-    }
+    // Of a transformation there is no term.
+    fits.limit_to_time_of(tally.hypotheses[m.hypothesis], term);
     const double gain = (now.error() - now.with(term)).sum();
     const double share = gain / own_gain[static_cast<Eigen::Index>(m.hypothesis)];
     if (!(share > material_share)) continue;

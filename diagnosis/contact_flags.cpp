@@ -103,8 +103,9 @@ class Search {
   }
 
   [[nodiscard]] std::vector<AppliedEffect> hypotheses() const {
-    std::vector<AppliedEffect> list = screened_hypotheses(
-        state_.robot, state_.result.model, state_.log, state_.left_by(state_.result.model));
+    std::vector<AppliedEffect> list =
+        screened_hypotheses(state_.robot, state_.result.model,
+                            {state_.log, state_.left_by(state_.result.model)}, std::nullopt);
     for (int contact = 0; contact < site_count(state_.robot, SiteKind::contact); ++contact) {
       for (const Effect* effect : {&late_, &short_}) {
         for (const double T : times) {

@@ -24,7 +24,7 @@ Chosen Contenders::usual() const {
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     const Candidate& c = candidates_[k];
     if (c.members.empty() && !c.only_rival && c.effect.effect->is_usual &&
-        !c.effect.since_reference) {
+        c.effect.when == When::always) {
       list.push_back(k);
     }
   }
@@ -80,14 +80,18 @@ bool Contenders::same_law(std::size_t k, std::size_t other) const {
   return a.effect == b.effect && a.site == b.site;
 }
 
-std::optional<std::size_t> Contenders::of_other_time(std::size_t k) const {
+Chosen Contenders::of_other_times(std::size_t k) const {
+  Chosen list;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    if (candidates_[i].members.empty() && same_law(k, i) &&
-        candidates_[i].effect.since_reference != candidates_[k].effect.since_reference) {
-      return i;
+    const bool is_first = std::ranges::none_of(list, [&](std::size_t other) {
+      return candidates_[other].effect.when == candidates_[i].effect.when;
+    });
+    if (candidates_[i].members.empty() && same_law(k, i) && is_first &&
+        candidates_[i].effect.when != candidates_[k].effect.when) {
+      list.push_back(i);
     }
   }
-  return std::nullopt;
+  return list;
 }
 
 std::size_t Contenders::cost(std::size_t k) const {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -52,9 +51,8 @@ class Contenders {
   [[nodiscard]] bool same_place(std::size_t k, std::size_t other) const;
   /// The same effect at the same site, whenever it came.
   [[nodiscard]] bool same_law(std::size_t k, std::size_t other) const;
-  /// Of what came since the reference log the same that acts in both logs, of what acts in both the
-  /// same that came since, if that is a candidate.
-  [[nodiscard]] std::optional<std::size_t> of_other_time(std::size_t k) const;
+  /// The same law at other times, those of which are candidates; of each time one.
+  [[nodiscard]] Chosen of_other_times(std::size_t k) const;
 
   /// Parameters, those of shape and transformations counted on top.
   [[nodiscard]] std::size_t cost(std::size_t k) const;

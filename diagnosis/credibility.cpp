@@ -34,7 +34,7 @@ Credibility::Credibility(const BlockFits& fits, const Contenders& contenders,
     : fits_(fits),
       contenders_(contenders),
       rule_(rule),
-      limit_(limit_for(rule.least_t, fits.held_blocks())),
+      limit_(limit_for(rule.least_t, fits.blocks())),
       parameters_(contenders.parameters()) {}
 
 bool Credibility::wrong_sign(std::size_t k, const Fit& own, double least_t) const {
@@ -82,8 +82,8 @@ bool Credibility::credible(std::size_t k, const Chosen& others, const Fit& witho
   if (!is_body(k, own, body)) return false;
   // Its numbers say the same in part, and each by itself may be any: as a body it is one.
   const Eigen::Index shown = fits_.numbers_shown(contenders_[k].term);
-  const double limit = limit_for(std::sqrt(least_squares_sum(rule_.false_alarms / tried, shown)),
-                                 fits_.held_blocks());
+  const double limit =
+      limit_for(std::sqrt(least_squares_sum(rule_.false_alarms / tried, shown)), fits_.blocks());
   const double t =
       fits_.along(contenders_.terms(others), contenders_[k].term, body.Phi).t() / limit;
   return std::max(over, both(t, squares_over_chance(k, without, with, tried))) > least_of_both;
@@ -104,10 +104,12 @@ bool Credibility::is_by_itself(std::size_t k, const Chosen& others, double numbe
 Gain Credibility::gain_by(std::size_t k, const Eigen::VectorXd& before,
                           const Eigen::VectorXd& after) const {
   Gain gain = gain_of(before, after);
-  const std::size_t from = contenders_[k].term.from_block;
-  if (from <= fits_.first_block()) return gain;
-  const Eigen::Index acts = before.size() - static_cast<Eigen::Index>(from - fits_.first_block());
-  const double t = gain_of(before.tail(acts), after.tail(acts)).t;
+  const Term& term = contenders_[k].term;
+  const auto from = static_cast<Eigen::Index>(term.from_block);
+  const auto to = static_cast<Eigen::Index>(std::min(term.to_block, fits_.tally().blocks.size()));
+  const Eigen::Index acts = to - from;
+  if (acts == before.size()) return gain;
+  const double t = gain_of(before.segment(from, acts), after.segment(from, acts)).t;
   gain.t = std::max(gain.t, t * limit_ / limit_for(rule_.least_t, acts));
   return gain;
 }
@@ -121,7 +123,7 @@ double Credibility::squares_over_chance(std::size_t k, const Fit& without, const
 
 double Credibility::over_chance(std::size_t k, const Fit& without, const Fit& with, const Fit& own,
                                 double tried) const {
-  const double limit = limit_for(least_z(rule_.false_alarms, tried), fits_.held_blocks());
+  const double limit = limit_for(least_z(rule_.false_alarms, tried), fits_.blocks());
   const Candidate& candidate = contenders_[k];
   const double differs =
       differs_from_zero(*candidate.effect.effect, own.value, own.between_blocks, candidate.choices);

@@ -77,7 +77,7 @@ class Fitter {
          std::size_t stride)
       : robot_(robot),
         model_(std::move(model)),
-        viewer_(robot, source, model_.effects),
+        viewer_(robot, source, model_.acting()),
         recording_(recording),
         stride_(stride) {}
 

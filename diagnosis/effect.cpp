@@ -29,7 +29,7 @@ Eigen::VectorXd felt(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double 
 
 bool same_place(const AppliedEffect& a, const AppliedEffect& b) {
   return a.effect == b.effect && a.site == b.site &&
-         (a.since_reference == b.since_reference || a.effect->transform.sample != nullptr);
+         (a.when == b.when || a.effect->transform.sample != nullptr);
 }
 
 bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a) {

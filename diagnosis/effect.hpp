@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <string>
@@ -146,25 +147,30 @@ struct Effect {
   TorqueCode code;
 };
 
+/// When an effect acts, where there is a reference log. What came is on top of what was at its
+/// place already; what went was in the reference log on top of what is there still.
+enum class When { always, since_reference, gone };
+inline constexpr std::array every_when = {When::always, When::since_reference, When::gone};
+
 /// An effect at a place with its numbers.
 struct AppliedEffect {
   const Effect* effect = nullptr;
   int site = 0;
   Eigen::VectorXd shape;  ///< one for each of Effect::shape
   Eigen::VectorXd value;  ///< one for each of Effect::parameters
-  /// Came since the reference log, on top of what was at its place already.
-  bool since_reference = false;
+  When when = When::always;
   /// Of what filters the load (Effect::filters_load): as far as it is linear in its time constant.
   bool to_first_order = false;
   /// Whether it is there from some moment of the log on.
   [[nodiscard]] bool begins() const { return effect->is_payload && !effect->shape.empty(); }
-  /// Whether it is no part of a reference log.
-  [[nodiscard]] bool is_of_the_log_alone() const { return since_reference || begins(); }
+  [[nodiscard]] bool acts_in_reference() const {
+    return when != When::since_reference && !begins();
+  }
+  [[nodiscard]] bool acts_in_log() const { return when != When::gone; }
 };
 
-/// The same effect at the same place, there from the beginning or since the reference log. What
-/// changes samples is at its place once, whichever: how far all together may look in time has a
-/// limit (largest_shift).
+/// The same effect at the same place and time. What changes samples is at its place once, whenever:
+/// how far all together may look in time has a limit (largest_shift).
 [[nodiscard]] bool same_place(const AppliedEffect& a, const AppliedEffect& b);
 /// Whether one of them is the same effect at the same place.
 [[nodiscard]] bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a);

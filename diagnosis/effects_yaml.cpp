@@ -95,9 +95,11 @@ AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Ro
   file.check_keys(node, "an effect", {"effect", "site", "values"}, {"since_reference"});
   AppliedEffect applied = read_place(file, node, robot);
   if (const YAML::Node since = node["since_reference"]) {
-    if (!YAML::convert<bool>::decode(since, applied.since_reference)) {
+    bool has_come = false;
+    if (!YAML::convert<bool>::decode(since, has_come)) {
       file.refuse(since, "since_reference is neither true nor false", "give one of these");
     }
+    if (has_come) applied.when = When::since_reference;
   }
   const std::vector<std::string> names = number_names(*applied.effect);
   file.check_keys(node["values"], "values", names, {});
@@ -205,7 +207,7 @@ std::string write_effects_yaml(const Robot& robot, const KnownEffects& known) {
       text += fmt::format("{}{}: {}", i == 0 ? "" : ", ", names[i], value);
     }
     text += "}\n";
-    if (a.since_reference) text += "    since_reference: true\n";
+    if (a.when == When::since_reference) text += "    since_reference: true\n";
   }
   if (!known.curves.empty()) text += "curves:\n";
   for (const Curve& curve : known.curves) text += curve_text(robot, curve);

@@ -65,7 +65,6 @@ BlockFits::BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::Vec
   for (Block& block : tally_.blocks) {
     if (block.reference) ++first_block_;
     freedom_ += block.freedom;
-    if (!block.reference) held_freedom_ += block.freedom;
     // F <- F - Y Phi_given
     Eigen::MatrixXd& G = block.sums;
     least_.push_back(least_share * least_share * G(p, p));
@@ -91,7 +90,7 @@ BlockFits::BlockFits(Tally tally, const Eigen::VectorXd& given, const Eigen::Vec
 }
 
 void BlockFits::assign_folds(int stretches) {
-  fold_.assign(tally_.blocks.size(), -1);
+  fold_.resize(tally_.blocks.size());
   // What differs from run to run, as warmth does, would be known to a fit that lacks a stretch of
   // one alone.
   constexpr int enough_logs = 3;
@@ -101,35 +100,52 @@ void BlockFits::assign_folds(int stretches) {
     fold_[b] = logs - 1;
   }
   folds_ = logs;
-  if (logs >= enough_logs) return;
-  folds_ = std::clamp(stretches, 2, std::max(2, static_cast<int>(held_blocks())));
-  for (std::size_t b = first_block_; b < fold_.size(); ++b) {
-    fold_[b] = static_cast<int>((b - first_block_) * static_cast<std::size_t>(folds_) /
-                                static_cast<std::size_t>(held_blocks()));
+  if (logs < enough_logs) {
+    folds_ = std::clamp(stretches, 2, std::max(2, static_cast<int>(log_blocks())));
+    deal_in_stretches(first_block_, fold_.size());
+  }
+  // What came and what went are known to a fit by the stretches of either log that it has.
+  deal_in_stretches(0, first_block_);
+}
+
+void BlockFits::deal_in_stretches(std::size_t from, std::size_t to) {
+  for (std::size_t b = from; b < to; ++b) {
+    fold_[b] = static_cast<int>((b - from) * static_cast<std::size_t>(folds_) / (to - from));
   }
 }
 
-double BlockFits::square_of_noise(double error) const {
-  return error / std::max(1.0, held_freedom_);
+void BlockFits::limit_to_time_of(const AppliedEffect& effect, Term& term) const {
+  if (!effect.acts_in_reference()) term.from_block = std::max(term.from_block, first_block_);
+  if (!effect.acts_in_log()) term.to_block = std::min(term.to_block, first_block_);
 }
+
+double BlockFits::square_of_noise(double error) const { return error / std::max(1.0, freedom_); }
 
 int BlockFits::fold_of(std::size_t block) const { return fold_[block]; }
 
-const Eigen::MatrixXd& BlockFits::sums(int left_out) const {
-  auto [place, is_new] = cache_.try_emplace(left_out);
+const Eigen::MatrixXd& BlockFits::sums(int left_out, std::size_t from, std::size_t to) const {
+  auto [place, is_new] = cache_.try_emplace({left_out, from, to});
   if (is_new) {
     const Eigen::Index size = tally_.columns() + 1;
     place->second = Eigen::MatrixXd::Zero(size, size);
-    for (std::size_t b = 0; b < tally_.blocks.size(); ++b) {
+    for (std::size_t b = from; b < to; ++b) {
       if (left_out < 0 || fold_of(b) != left_out) place->second += tally_.blocks[b].sums;
     }
   }
   return place->second;
 }
 
-double BlockFits::sum_from(int left_out, std::size_t from, Eigen::Index i, Eigen::Index j) const {
+double BlockFits::sum_between(int left_out, std::size_t from, std::size_t to, Eigen::Index i,
+                              Eigen::Index j) const {
+  const std::size_t last = tally_.blocks.size();
+  to = std::min(to, last);
+  // Sums of a log, or of both, are asked for many times; moments of loads are many, and each
+  // seldom.
+  const bool starts = from == 0 || from == first_block_;
+  const bool ends = to == last || to == first_block_;
+  if (starts && ends && from < to) return sums(left_out, from, to)(i, j);
   double sum = 0.0;
-  for (std::size_t b = from; b < tally_.blocks.size(); ++b) {
+  for (std::size_t b = from; b < to; ++b) {
     if (left_out < 0 || fold_of(b) != left_out) sum += tally_.blocks[b].sums(i, j);
   }
   return sum;
@@ -140,35 +156,36 @@ BlockFits::Columns BlockFits::listed(const std::vector<Term>& terms) {
   for (const Term& term : terms) {
     list.index.insert(list.index.end(), term.columns.begin(), term.columns.end());
     list.from.insert(list.from.end(), term.columns.size(), term.from_block);
+    list.to.insert(list.to.end(), term.columns.size(), term.to_block);
   }
   return list;
 }
 
 Eigen::MatrixXd BlockFits::normal(const Columns& a, const Columns& b, int left_out) const {
-  const auto at_once = [](const Columns& list) {
-    return std::all_of(list.from.begin(), list.from.end(), [](std::size_t f) { return f == 0; });
+  const std::size_t last = tally_.blocks.size();
+  const auto at_once = [last](const Columns& list) {
+    return std::ranges::all_of(list.from, [](std::size_t f) { return f == 0; }) &&
+           std::ranges::all_of(list.to, [last](std::size_t t) { return t >= last; });
   };
-  const Eigen::MatrixXd& all = sums(left_out);
-  if (at_once(a) && at_once(b)) return all(a.index, b.index);
+  if (at_once(a) && at_once(b)) return sums(left_out, 0, last)(a.index, b.index);
   Eigen::MatrixXd N(a.count(), b.count());
   for (Eigen::Index j = 0; j < b.count(); ++j) {
     for (Eigen::Index i = 0; i < a.count(); ++i) {
       const auto ui = static_cast<std::size_t>(i), uj = static_cast<std::size_t>(j);
       const std::size_t from = std::max(a.from[ui], b.from[uj]);
-      N(i, j) = from == 0 ? all(a.index[ui], b.index[uj])
-                          : sum_from(left_out, from, a.index[ui], b.index[uj]);
+      const std::size_t to = std::min(a.to[ui], b.to[uj]);
+      N(i, j) = sum_between(left_out, from, to, a.index[ui], b.index[uj]);
     }
   }
   return N;
 }
 
 Eigen::VectorXd BlockFits::target(const Columns& a, int left_out) const {
-  const Eigen::MatrixXd& all = sums(left_out);
   const Eigen::Index F = tally_.columns();
   Eigen::VectorXd g(a.count());
   for (Eigen::Index i = 0; i < a.count(); ++i) {
     const auto u = static_cast<std::size_t>(i);
-    g[i] = a.from[u] == 0 ? all(a.index[u], F) : sum_from(left_out, a.from[u], a.index[u], F);
+    g[i] = sum_between(left_out, a.from[u], a.to[u], a.index[u], F);
   }
   return g;
 }
@@ -203,7 +220,7 @@ Eigen::VectorXd BlockFits::gradient_on(const Columns& a, const Eigen::VectorXd& 
   Eigen::VectorXd full(a.count() + 1);
   full << x, -1.0;
   for (Eigen::Index i = 0; i < a.count(); ++i) {
-    if (block < a.from[static_cast<std::size_t>(i)]) full[i] = 0.0;
+    if (!a.acts(i, block)) full[i] = 0.0;
   }
   return G(index, index) * full;
 }
@@ -216,14 +233,14 @@ double BlockFits::error_of(const Columns& a, const Eigen::VectorXd& x, std::size
                            const Eigen::VectorXd& gradient) {
   double error = -gradient[a.count()];
   for (Eigen::Index i = 0; i < a.count(); ++i) {
-    if (block >= a.from[static_cast<std::size_t>(i)]) error += x[i] * gradient[i];
+    if (a.acts(i, block)) error += x[i] * gradient[i];
   }
   return error;
 }
 
 Eigen::VectorXd BlockFits::above_rounding(Eigen::VectorXd errors) const {
   for (Eigen::Index b = 0; b < errors.size(); ++b) {
-    errors[b] = std::max(errors[b], least_[first_block_ + static_cast<std::size_t>(b)]);
+    errors[b] = std::max(errors[b], least_[static_cast<std::size_t>(b)]);
   }
   return errors;
 }
@@ -241,7 +258,7 @@ Fit BlockFits::fit(const std::vector<Term>& terms) const {
     const Eigen::VectorXd g = gradient_on(a, x, block);
     left += error_of(a, x, block, g);
     for (Eigen::Index i = 0; i < a.count(); ++i) {
-      if (block >= a.from[static_cast<std::size_t>(i)]) scores(i, b) = g[i];
+      if (a.acts(i, block)) scores(i, b) = g[i];
     }
   }
   left = std::max(left, std::accumulate(least_.begin(), least_.end(), 0.0));
@@ -273,11 +290,11 @@ Eigen::VectorXd BlockFits::errors_of_independent_noise(const Columns& a,
 
 Eigen::VectorXd BlockFits::held_out(const std::vector<Term>& terms) const {
   const Columns a = listed(terms);
-  Eigen::VectorXd errors(held_blocks());
+  Eigen::VectorXd errors(blocks());
   int fold = -1;
   Eigen::VectorXd x;
-  for (Eigen::Index b = 0; b < held_blocks(); ++b) {
-    const std::size_t block = first_block_ + static_cast<std::size_t>(b);
+  for (Eigen::Index b = 0; b < blocks(); ++b) {
+    const auto block = static_cast<std::size_t>(b);
     if (fold_of(block) != fold) {
       fold = fold_of(block);
       x = solve(a, fold);
@@ -288,10 +305,10 @@ Eigen::VectorXd BlockFits::held_out(const std::vector<Term>& terms) const {
 }
 
 Eigen::VectorXd BlockFits::given_error() const {
-  Eigen::VectorXd errors(held_blocks());
-  for (Eigen::Index b = 0; b < held_blocks(); ++b) {
+  Eigen::VectorXd errors(blocks());
+  for (Eigen::Index b = 0; b < blocks(); ++b) {
     const Eigen::Index p = tally_.columns();
-    errors[b] = tally_.blocks[first_block_ + static_cast<std::size_t>(b)].sums(p, p);
+    errors[b] = tally_.blocks[static_cast<std::size_t>(b)].sums(p, p);
   }
   return errors;
 }
@@ -361,7 +378,7 @@ SumWithError BlockFits::along(const std::vector<Term>& terms, const Term& candid
     const auto block = static_cast<std::size_t>(b);
     Eigen::VectorXd g = gradient_on(both, x, block).head(both.count());
     for (Eigen::Index i = 0; i < both.count(); ++i) {
-      if (block < both.from[static_cast<std::size_t>(i)]) g[i] = 0.0;
+      if (!both.acts(i, block)) g[i] = 0.0;
     }
     influence[b] = (direction.dot(g.tail(c.count())) - moved.dot(g.head(a.count()))) / own;
   }

@@ -5,8 +5,10 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,12 +31,13 @@ inline constexpr double least_share = 1e-6;
 inline constexpr double nested_share = 0.9999;
 
 /// Columns that enter a fit together, from a block on (a payload that comes late, a change since
-/// the reference log).
+/// the reference log) or up to one (what went since then).
 struct Term {
   std::string id;
   std::vector<Eigen::Index> columns;
   std::vector<bool> nonnegative;  ///< one a column
   std::size_t from_block = 0;
+  std::size_t to_block = std::numeric_limits<std::size_t>::max();  ///< the first without it
 };
 
 struct Fit {
@@ -87,20 +90,23 @@ class BlockFits {
   [[nodiscard]] double prior() const { return prior_; }
   [[nodiscard]] int folds() const { return folds_; }
   [[nodiscard]] const Tally& tally() const { return tally_; }
-  /// Blocks that can be held out: all but a reference log's.
+  /// The log's blocks; those before are of a reference log.
   [[nodiscard]] std::size_t first_block() const { return first_block_; }
-  [[nodiscard]] Eigen::Index held_blocks() const {
+  [[nodiscard]] Eigen::Index log_blocks() const {
     return static_cast<Eigen::Index>(tally_.blocks.size() - first_block_);
   }
+  /// Of both logs: each is held out.
+  [[nodiscard]] Eigen::Index blocks() const { return std::ssize(tally_.blocks); }
+  /// The term counts in the blocks in which the effect acts, and no longer in others.
+  void limit_to_time_of(const AppliedEffect& effect, Term& term) const;
 
-  /// Of one number, where so much squared error is left in all that can be held out. What differs
-  /// by less is no evidence, be it so in every block.
+  /// Of one number, where so much squared error is left in all blocks. What differs by less is no
+  /// evidence, be it so in every block.
   [[nodiscard]] double square_of_noise(double error) const;
 
   /// All blocks in; deviations for inertial columns.
   [[nodiscard]] Fit fit(const std::vector<Term>& terms) const;
-  /// Weighted squared error of every block that can be held out, each predicted by the fit without
-  /// its fold.
+  /// Weighted squared error of every block, each predicted by the fit without its fold.
   [[nodiscard]] Eigen::VectorXd held_out(const std::vector<Term>& terms) const;
   /// The same without fitting: the given model.
   [[nodiscard]] Eigen::VectorXd given_error() const;
@@ -144,16 +150,21 @@ class BlockFits {
   friend class FitsAround;
   struct Columns {
     std::vector<Eigen::Index> index;
-    std::vector<std::size_t> from;
+    std::vector<std::size_t> from, to;
+    [[nodiscard]] bool acts(Eigen::Index i, std::size_t block) const {
+      const auto u = static_cast<std::size_t>(i);
+      return block >= from[u] && block < to[u];
+    }
     [[nodiscard]] Eigen::Index count() const { return std::ssize(index); }
   };
   [[nodiscard]] static Columns listed(const std::vector<Term>& terms);
-  /// Of all blocks outside of a fold (-1: all).
-  [[nodiscard]] const Eigen::MatrixXd& sums(int left_out) const;
-  /// One entry of that, of the blocks from one on.
-  [[nodiscard]] double sum_from(int left_out, std::size_t from, Eigen::Index i,
-                                Eigen::Index j) const;
+  /// Of the blocks from one on up to another, but for those of a fold (-1: all).
+  [[nodiscard]] const Eigen::MatrixXd& sums(int left_out, std::size_t from, std::size_t to) const;
+  /// One entry of that.
+  [[nodiscard]] double sum_between(int left_out, std::size_t from, std::size_t to, Eigen::Index i,
+                                   Eigen::Index j) const;
   void assign_folds(int stretches);
+  void deal_in_stretches(std::size_t from, std::size_t to);
   [[nodiscard]] int fold_of(std::size_t block) const;
   /// Normal matrix between two lists of columns over the blocks outside of a fold (-1: all in).
   [[nodiscard]] Eigen::MatrixXd normal(const Columns& a, const Columns& b, int left_out) const;
@@ -168,8 +179,7 @@ class BlockFits {
                                             std::size_t block) const;
   [[nodiscard]] static double error_of(const Columns& a, const Eigen::VectorXd& x,
                                        std::size_t block, const Eigen::VectorXd& gradient);
-  /// Squared errors of blocks that can be held out, as far as sums tell: of what cancels in them
-  /// rounding is left.
+  /// Squared errors of blocks as far as sums tell: of what cancels in them rounding is left.
   [[nodiscard]] Eigen::VectorXd above_rounding(Eigen::VectorXd errors) const;
   [[nodiscard]] double error_on(const Columns& a, const Eigen::VectorXd& x,
                                 std::size_t block) const;
@@ -179,12 +189,11 @@ class BlockFits {
   Eigen::VectorXd precision_;  ///< of a prior of one, in scaled units
   double prior_ = 1.0;
   int folds_ = 2;
-  std::vector<int> fold_;      ///< of each block; -1: never held out
+  std::vector<int> fold_;      ///< of each block
   std::vector<double> least_;  ///< squared error of each block that is told from none
   std::size_t first_block_ = 0;
-  /// How many numbers the noise has: of all blocks, and of those that can be held out.
-  double freedom_ = 0.0, held_freedom_ = 0.0;
-  mutable std::map<int, Eigen::MatrixXd> cache_;  ///< sums()
+  double freedom_ = 0.0;  ///< how many numbers the noise has
+  mutable std::map<std::tuple<int, std::size_t, std::size_t>, Eigen::MatrixXd> cache_;  ///< sums()
 };
 
 }  // namespace shapeid::diagnosis

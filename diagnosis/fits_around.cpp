@@ -7,9 +7,7 @@ namespace shapeid::diagnosis {
 FitsAround::FitsAround(const BlockFits& fits, std::vector<Term> terms)
     : fits_(fits), terms_(std::move(terms)), columns_(BlockFits::listed(terms_)) {
   for (int fold = 0; fold < fits_.folds(); ++fold) add_fold(fold);
-  for (Eigen::Index b = 0; b < fits_.held_blocks(); ++b) {
-    add_block(fits_.first_block() + static_cast<std::size_t>(b));
-  }
+  for (std::size_t b = 0; b < fits_.tally().blocks.size(); ++b) add_block(b);
   std::vector<Eigen::VectorXd> answers;
   for (const Fold& fold : folds_) answers.push_back(fold.x);
   error_ = fits_.above_rounding(errors_of(answers));
@@ -27,18 +25,18 @@ void FitsAround::add_block(std::size_t block) {
   index.push_back(fits_.tally().columns());
   Eigen::MatrixXd& H = blocks_.emplace_back(fits_.tally().blocks[block].sums(index, index));
   for (Eigen::Index i = 0; i < columns_.count(); ++i) {
-    if (block >= columns_.from[static_cast<std::size_t>(i)]) continue;
+    if (columns_.acts(i, block)) continue;
     H.row(i).setZero();
     H.col(i).setZero();
   }
 }
 
 Eigen::VectorXd FitsAround::errors_of(const std::vector<Eigen::VectorXd>& answers) const {
-  Eigen::VectorXd errors(fits_.held_blocks());
+  Eigen::VectorXd errors(fits_.blocks());
   Eigen::VectorXd full(columns_.count() + 1);
   for (Eigen::Index b = 0; b < errors.size(); ++b) {
     const auto at = static_cast<std::size_t>(b);
-    full << answers[static_cast<std::size_t>(fits_.fold_of(fits_.first_block() + at))], -1.0;
+    full << answers[static_cast<std::size_t>(fits_.fold_of(at))], -1.0;
     errors[b] = full.dot(blocks_[at] * full);
   }
   return errors;
@@ -86,12 +84,12 @@ Eigen::VectorXd FitsAround::with(const Term& more) const {
   std::vector<Eigen::Index> index = columns_.index;
   index.push_back(fits_.tally().columns());
   for (Eigen::Index b = 0; b < errors.size(); ++b) {
-    const std::size_t block = fits_.first_block() + static_cast<std::size_t>(b);
-    if (block < more.from_block) continue;
+    const auto block = static_cast<std::size_t>(b);
+    if (block < more.from_block || block >= more.to_block) continue;
     const auto fold = static_cast<std::size_t>(fits_.fold_of(block));
     full << answers[fold], -1.0;
     for (Eigen::Index i = 0; i < columns_.count(); ++i) {
-      if (block < columns_.from[static_cast<std::size_t>(i)]) full[i] = 0.0;
+      if (!columns_.acts(i, block)) full[i] = 0.0;
     }
     const Eigen::MatrixXd& G = fits_.tally().blocks[block].sums;
     const Eigen::VectorXd& step = steps[fold];

@@ -27,10 +27,12 @@ double step_of(const Robot& robot, const Effect& effect, const Parameter& parame
   return smooth ? neighbour_step(robot) : part_of_size * parameter.size;
 }
 
-/// The model's effects with the hypothesis among them, its parameter changed by `step`.
-std::vector<AppliedEffect> stepped(std::vector<AppliedEffect> effects,
-                                   const AppliedEffect& hypothesis, Eigen::Index parameter,
-                                   double step) {
+/// The model's effects that act, the hypothesis among them if it does, with its parameter changed
+/// by `step`.
+std::vector<AppliedEffect> stepped(const RichModel& model, const AppliedEffect& hypothesis,
+                                   Eigen::Index parameter, double step) {
+  std::vector<AppliedEffect> effects = model.acting();
+  if (!model.has_acting(hypothesis)) return effects;
   auto place = std::find_if(effects.begin(), effects.end(),
                             [&](const AppliedEffect& a) { return same_place(a, hypothesis); });
   if (place == effects.end()) place = effects.insert(effects.end(), hypothesis);
@@ -64,7 +66,7 @@ std::vector<AppliedEffect> all_hypotheses(const Robot& robot) {
 
 HypothesisColumns::HypothesisColumns(const Robot& robot, RowSource source, const RichModel& model,
                                      const std::vector<AppliedEffect>& hypotheses)
-    : model_(model), hypotheses_(hypotheses), viewer_(robot, source, model.effects, hypotheses) {
+    : model_(model), hypotheses_(hypotheses), viewer_(robot, source, model.acting(), hypotheses) {
   for (const AppliedEffect& h : hypotheses_) {
     first_.push_back(count_);
     count_ += h.value.size();
@@ -73,9 +75,8 @@ HypothesisColumns::HypothesisColumns(const Robot& robot, RowSource source, const
     for (Eigen::Index p = 0; p < h.value.size(); ++p) {
       const double h_step =
           step_of(robot, *h.effect, h.effect->parameters[static_cast<std::size_t>(p)]);
-      differences.push_back({Viewer(robot, source, stepped(model.effects, h, p, h_step)),
-                             Viewer(robot, source, stepped(model.effects, h, p, -h_step)),
-                             2.0 * h_step});
+      differences.push_back({Viewer(robot, source, stepped(model, h, p, h_step)),
+                             Viewer(robot, source, stepped(model, h, p, -h_step)), 2.0 * h_step});
     }
   }
 }

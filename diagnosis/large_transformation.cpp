@@ -31,7 +31,7 @@ std::optional<Candidate> best_beside(const BlockFits& fits, const std::vector<Te
   Eigen::VectorXd least;  // of the best
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Candidate& c = list[k];
-    if (!c.effect.effect->transform.any() || c.effect.since_reference ||
+    if (!c.effect.effect->transform.any() || c.effect.when != When::always ||
         is_accepted(k, selection)) {
       continue;
     }

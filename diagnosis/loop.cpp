@@ -112,15 +112,15 @@ class Loop {
   /// The given model, and rigid links alone, beside what was found: without any effect applied,
   /// with the last weights, of the log with what the filter did to the found model taken out.
   void compare() {
-    result_.error_end = state_.held_out_of_model().sum();
+    result_.error_end = state_.held_out_of_log().sum();
     const RichModel found = result_.model;
     result_.model.effects.clear();
     const BlockFits plain = state_.tallied({});
     result_.model = found;
-    result_.error_given = plain.given_error().sum();
-    result_.error_rigid = plain.held_out({state_.masses}).sum();
+    result_.error_given = plain.given_error().tail(plain.log_blocks()).sum();
+    result_.error_rigid = plain.held_out({state_.masses}).tail(plain.log_blocks()).sum();
     const auto& blocks = plain.tally().blocks;
-    result_.blocks = static_cast<std::size_t>(plain.held_blocks());
+    result_.blocks = static_cast<std::size_t>(plain.log_blocks());
     result_.samples = 0;
     for (std::size_t b = plain.first_block(); b < blocks.size(); ++b) {
       result_.samples += blocks[b].samples;
@@ -207,8 +207,9 @@ class Loop {
   }
 
   void screen() {
-    BlockFits fits = state_.tallied(screened_hypotheses(state_.robot, result_.model, state_.log,
-                                                        state_.left_by(result_.model)));
+    BlockFits fits = state_.tallied(screened_hypotheses(state_.robot, result_.model,
+                                                        {state_.log, state_.left_by(result_.model)},
+                                                        state_.rest_of_reference()));
     const Term fixed = state_.always(fits.tally());
     const std::vector<Candidate> list = listed(fits);
     // From the beginning each time: what was accepted with worse weights has to prove itself again.

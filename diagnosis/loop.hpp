@@ -66,8 +66,8 @@ struct Found {
   bool pulls = false;
   /// Verdict::hangs_on_given
   bool hangs_on_given = false;
-  /// Verdict::may_be_of_other_time
-  bool may_be_of_other_time = false;
+  /// Verdict::other_times
+  std::vector<When> other_times = {};
   /// Free parameters take it over; without it links of their size would be no bodies.
   bool needed = false;
   /// It is in the model for the sake of bodies, and not for what it predicts.

@@ -53,15 +53,6 @@ BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
     options.log_starts.clear();
     options.stride = log.stride_for(*reference, settings.stride);
     add_to_tally(tally, robot, settings.rows, earlier_model(), *reference, options, true);
-    // The change of what was not there yet is none.
-    for (std::size_t k = 0; k < hypotheses.size(); ++k) {
-      if (!is_applied_transformation(hypotheses[k]) || !hypotheses[k].since_reference) continue;
-      const Eigen::Index n = hypotheses[k].value.size();
-      for (Block& block : tally.blocks) {
-        block.sums.middleRows(tally.first[k], n).setZero();
-        block.sums.middleCols(tally.first[k], n).setZero();
-      }
-    }
   }
   add_to_tally(tally, robot, settings.rows, result.model, log, tally_options, false);
   constexpr std::ptrdiff_t fewest_blocks = 8;
@@ -89,7 +80,7 @@ void LoopState::fit_masses() {
 void LoopState::correct() {
   if (settings.rough == nullptr) return;
   const auto error = [&](const RichModel& model, const Recording& smooth, const Recording& rough) {
-    const Viewer viewer(robot, settings.rows, model.effects);
+    const Viewer viewer(robot, settings.rows, model.acting());
     return filter_error(viewer, model, smooth, rough, settings.cutoff);
   };
   std::vector<Eigen::VectorXd> of_reference;
@@ -126,6 +117,12 @@ Series LoopState::left_by(const RichModel& model) const {
   return series(robot, settings.rows, model, log, settings.stride);
 }
 
+std::optional<Rest> LoopState::rest_of_reference() const {
+  if (!reference) return std::nullopt;
+  return Rest{*reference, series(robot, settings.rows, earlier_model(), *reference,
+                                 log.stride_for(*reference, settings.stride))};
+}
+
 void LoopState::collect_effects() {
   result.model.effects.clear();
   for (Found& f : result.found) {
@@ -160,7 +157,7 @@ void LoopState::set_masses(const Fit& fit) {
 
 RichModel LoopState::earlier_model() const {
   RichModel earlier = result.model;
-  std::erase_if(earlier.effects, [](const AppliedEffect& a) { return a.is_of_the_log_alone(); });
+  earlier.earlier = true;
   return earlier;
 }
 
@@ -185,7 +182,7 @@ std::vector<Term> LoopState::terms_of_model(const BlockFits& fits, std::size_t e
     const AppliedEffect& a = fits.tally().hypotheses[k];
     if (a.effect->transform.any()) continue;
     terms.push_back(term_of(robot, fits.tally(), k));
-    if (a.is_of_the_log_alone()) terms.back().from_block = fits.first_block();
+    fits.limit_to_time_of(a, terms.back());
   }
   return terms;
 }
@@ -193,6 +190,12 @@ std::vector<Term> LoopState::terms_of_model(const BlockFits& fits, std::size_t e
 Eigen::VectorXd LoopState::held_out_of_model() {
   const BlockFits fits = tallied(result.model.effects);
   return fits.held_out(terms_of_model(fits, fits.tally().hypotheses.size()));
+}
+
+Eigen::VectorXd LoopState::held_out_of_log() {
+  const BlockFits fits = tallied(result.model.effects);
+  return fits.held_out(terms_of_model(fits, fits.tally().hypotheses.size()))
+      .tail(fits.log_blocks());
 }
 
 LoopState::HeldOut LoopState::held_out_either_way() {
@@ -222,7 +225,7 @@ std::vector<Gain> LoopState::gains_by_derivative() {
   for (std::size_t k = 0; k < result.model.effects.size(); ++k) {
     const AppliedEffect& a = result.model.effects[k];
     terms.push_back(term_of(robot, fits.tally(), k));
-    if (a.is_of_the_log_alone()) terms.back().from_block = fits.first_block();
+    fits.limit_to_time_of(a, terms.back());
   }
   const FitsAround around(fits, std::move(terms));
   std::vector<Gain> gains(result.model.effects.size());

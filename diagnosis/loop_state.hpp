@@ -41,6 +41,8 @@ struct LoopState {
                       const std::vector<Eigen::VectorXd>& of_reference = {});
   /// What a model leaves of the log.
   [[nodiscard]] Series left_by(const RichModel& model) const;
+  /// The reference log, if there is one, and what the present model leaves of it.
+  [[nodiscard]] std::optional<Rest> rest_of_reference() const;
   /// The model's effects from what was found; transformations are kept within their limits.
   void collect_effects();
   /// The settings' rule, for this robot: no constant force exceeds its weight.
@@ -61,6 +63,8 @@ struct LoopState {
   [[nodiscard]] std::vector<Term> terms_of_model(const BlockFits& fits, std::size_t effects) const;
   /// Held-out error of the present effects, linear numbers refitted.
   [[nodiscard]] Eigen::VectorXd held_out_of_model();
+  /// The same of the log's blocks alone.
+  [[nodiscard]] Eigen::VectorXd held_out_of_log();
 
   /// The same twice: with applied transformations moved on by a step on the blocks that are fitted,
   /// as above, which hides that a value has run away; and with them held at their values.

@@ -94,7 +94,7 @@ std::vector<Found> take_back_names(const Robot& robot, const FilteredLogs& logs,
     state.result.found[k].gain = left[k].share;
     state.result.found[k].t = left[k].t;
   }
-  state.result.error_end = state.held_out_of_model().sum() /
+  state.result.error_end = state.held_out_of_log().sum() /
                            (static_cast<double>(loop.samples) * static_cast<double>(robot.dof()));
   loop = std::move(state.result);
   return gone;

@@ -36,7 +36,7 @@ void refit_among(LoopState& state, const VariantsOf& variants_of) {
     auto& terms = choices.emplace_back();
     for (const std::size_t v : of_found[i]) {
       terms.push_back(term_of(state.robot, fits.tally(), v));
-      if (found[i].effect.is_of_the_log_alone()) terms.back().from_block = fits.first_block();
+      fits.limit_to_time_of(found[i].effect, terms.back());
     }
   }
   const std::vector<std::size_t> chosen = best_variants(fits, state.masses, choices);

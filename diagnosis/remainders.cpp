@@ -18,7 +18,7 @@ constexpr double most_left = 1.0 / 3.0;
 constexpr int most_that_stay = 3;
 
 bool is_law_of_joint(const AppliedEffect& a) {
-  return a.effect->site == SiteKind::joint && !a.effect->transform.any() && !a.since_reference;
+  return a.effect->site == SiteKind::joint && !a.effect->transform.any() && a.when == When::always;
 }
 
 /// Of laws with a shape at the same joint, which gain more, the one that gains most.

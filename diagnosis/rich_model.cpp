@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -18,6 +19,13 @@ AppliedEffect at_start(const Effect& effect, int site) {
     applied.shape[static_cast<Eigen::Index>(i)] = effect.shape[i].start;
   }
   return applied;
+}
+
+std::vector<AppliedEffect> RichModel::acting() const {
+  std::vector<AppliedEffect> list;
+  std::ranges::copy_if(effects, std::back_inserter(list),
+                       [this](const AppliedEffect& a) { return has_acting(a); });
+  return list;
 }
 
 bool needs_load_rate(const std::vector<AppliedEffect>& effects) {
@@ -160,15 +168,14 @@ Instant instant_of(const Viewer& viewer, const Scene& scene, const PredictedLoad
 
 namespace {
 
-Eigen::VectorXd force_of(const std::vector<AppliedEffect>& effects,
-                         const std::vector<Curve>& curves, const Instant& instant) {
+Eigen::VectorXd force_of(const RichModel& model, const Instant& instant) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(instant.robot.dof());
-  for (const AppliedEffect& a : effects) {
-    if (a.effect->columns != nullptr) {
+  for (const AppliedEffect& a : model.effects) {
+    if (a.effect->columns != nullptr && model.has_acting(a)) {
       force += a.effect->columns(instant, a.site, a.shape) * a.value;
     }
   }
-  for (const Curve& curve : curves) force += force_of(curve, instant);
+  for (const Curve& curve : model.curves) force += force_of(curve, instant);
   return force;
 }
 
@@ -193,7 +200,7 @@ PredictedLoad load_of(const Viewer& viewer, const View& view, const Eigen::Vecto
     }
   }
   if (view.J.rows() == 0 || (model.effects.empty() && model.curves.empty())) return now;
-  const Eigen::VectorXd E = force_of(model.effects, model.curves, instant_of(viewer, view, now));
+  const Eigen::VectorXd E = force_of(model, instant_of(viewer, view, now));
   PredictedLoad all = predicted_load(viewer.robot(), applied, links - view.carried + E, view.J);
   now.force = std::move(all.force);
   now.joint = all.joint - E.tail(viewer.robot().joint_count());
@@ -212,7 +219,7 @@ Prediction predict(const Viewer& viewer, const Scene& scene, Eigen::VectorXd lin
                    const RichModel& model, const PredictedLoad& load) {
   const Instant instant = instant_of(viewer, scene, load);
   Rows rows{links - scene.carried, scene.J};
-  rows.E += force_of(model.effects, model.curves, instant);
+  rows.E += force_of(model, instant);
   viewer.transform(scene, rows);
   return {rows.E, std::move(rows.J), std::move(links), load};
 }
@@ -231,7 +238,7 @@ reference::SampleRows mass_rows(const Viewer& viewer, const View& view, const Ri
     column += 10;
   }
   rows.E.rightCols<1>() = view.Y * known - view.carried;
-  rows.E.rightCols<1>() += force_of(model.effects, model.curves, instant);
+  rows.E.rightCols<1>() += force_of(model, instant);
   viewer.transform(view, rows);
   return {rows.E.leftCols(sought), logged_force(viewer, view) - rows.E.rightCols<1>(), rows.J};
 }

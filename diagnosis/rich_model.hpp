@@ -21,6 +21,13 @@ struct RichModel {
   Eigen::VectorXd Phi;  ///< 10 per link of the robot
   std::vector<AppliedEffect> effects;
   std::vector<Curve> curves = {};  ///< added to what the others predict
+  /// As the reference log has it, and not the log.
+  bool earlier = false;
+  [[nodiscard]] bool has_acting(const AppliedEffect& a) const {
+    return earlier ? a.acts_in_reference() : a.acts_in_log();
+  }
+  /// Those of the effects that act.
+  [[nodiscard]] std::vector<AppliedEffect> acting() const;
 };
 
 /// What the load is predicted from, a little earlier or later than a view.

@@ -126,10 +126,10 @@ class Search {
     if (best == ranking.end()) return false;
 
     // Of those that cannot be told from the best the simplest is taken: of as many numbers what
-    // always acts, rather than what came since the reference log.
+    // always acts, rather than what came since the reference log, and that rather than what went.
     const auto extent = [&](const Rank& r) {
       const std::size_t k = r.scored.candidate;
-      return std::pair(contenders_.cost(k), contenders_[k].effect.since_reference);
+      return std::pair(contenders_.cost(k), contenders_[k].effect.when);
     };
     const Rank* chosen = &*best;
     for (const Rank& r : ranking) {

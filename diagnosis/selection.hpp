@@ -79,7 +79,7 @@ struct Verdict {
   /// masses that stay near the given ones cannot say the same.
   bool hangs_on_given = false;
   /// Whether it came since the reference log or acts in both: the data cannot tell.
-  bool may_be_of_other_time = false;
+  std::vector<When> other_times;
   /// Candidates that in its place do as well, as far as the data can tell.
   std::vector<std::size_t> ambiguous;
 };

@@ -27,7 +27,7 @@ Eigen::VectorXd row_rms(
 
 Series series(const Robot& robot, RowSource source, const RichModel& model,
               const Recording& recording, std::size_t stride) {
-  const Viewer viewer(robot, source, model.effects);
+  const Viewer viewer(robot, source, model.acting());
   Series result;
   result.index = recording.usable(stride);
   result.residual.resize(robot.dof(), std::ssize(result.index));

@@ -26,6 +26,12 @@ struct Series {
   [[nodiscard]] Eigen::VectorXd rms() const { return row_rms(residual, counted); }
 };
 
+/// A log, and what a model leaves of it. Refers to the log.
+struct Rest {
+  const Recording& log;
+  Series left;
+};
+
 [[nodiscard]] Series series(const Robot& robot, RowSource source, const RichModel& model,
                             const Recording& recording, std::size_t stride);
 

@@ -36,7 +36,7 @@ StrangerLaws::StrangerLaws(const Questions& asked) : fits_(asked.fits) {
     if (!is_law || carrier.effect->site != SiteKind::joint) continue;
     laws_.push_back(k);
     Term& term = terms_.emplace_back();
-    if (carrier.is_of_the_log_alone()) term.from_block = fits_.first_block();
+    fits_.limit_to_time_of(carrier, term);
     const Eigen::Index count = m.columns_of(carrier.value.size());
     for (Eigen::Index p = 0; p < count; ++p) {
       term.columns.push_back(tally.first_modulated[k] + p);
@@ -46,8 +46,7 @@ StrangerLaws::StrangerLaws(const Questions& asked) : fits_(asked.fits) {
   }
   for (const std::size_t k : laws_) {
     const double tried = parameters * asked.choices[tally.modulations[k].hypothesis];
-    least_z_.push_back(
-        limit_for(least_z(false_alarms, tried), fits_.held_blocks() / blocks_for_one));
+    least_z_.push_back(limit_for(least_z(false_alarms, tried), fits_.blocks() / blocks_for_one));
     least_squares_.push_back(
         least_squares_sum(false_alarms / tried, std::ssize(terms_[least_squares_.size()].columns)));
   }

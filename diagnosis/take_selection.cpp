@@ -49,7 +49,7 @@ void take_selection(const BlockFits& fits, const Term& fixed, const std::vector<
     found.effect.value = selection.fit.value.segment(column, n);
     found.only_with_others = !verdict.by_itself;
     found.hangs_on_given = verdict.hangs_on_given;
-    found.may_be_of_other_time = verdict.may_be_of_other_time;
+    found.other_times = verdict.other_times;
     column += n;
     auto& names = found.ambiguous_with;
     for (const std::size_t k : verdict.ambiguous) names.push_back(list[k].term.id);

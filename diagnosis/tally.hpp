@@ -21,7 +21,7 @@ struct Block {
   Eigen::MatrixXd sums;  ///< (columns + 1) square; F is the last column
   std::size_t samples = 0;
   double from = 0.0;       ///< s since the log's start
-  bool reference = false;  ///< of the reference log: never held out
+  bool reference = false;  ///< of the reference log
   std::size_t log = 0;     ///< which one of those in the recording
   double freedom = 0.0;    ///< how many numbers the noise of its rows has, behind its filter
 };

@@ -272,9 +272,10 @@ std::string rotor_code(const Robot& robot) {
 }  // namespace
 
 std::string torque_header(const Robot& robot, const RichModel& model) {
-  const Viewer viewer(robot, ContactTreatment::ignore, model.effects);
+  const std::vector<AppliedEffect> effects = model.acting();
+  const Viewer viewer(robot, ContactTreatment::ignore, effects);
   std::string inertias, motion, between, torque, scaling, left_out;
-  for (const AppliedEffect& a : model.effects) {
+  for (const AppliedEffect& a : effects) {
     const TorqueCode& code = a.effect->code;
     if (!code.motion.empty()) motion += scoped(a, code.motion);
     if (!code.link.empty()) between += scoped(a, code.link);
@@ -306,7 +307,7 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
   text += dynamics;
   text += contacts;
   if (!model.curves.empty()) text += interpolation;
-  const bool rate = needs_load_rate(model.effects);
+  const bool rate = needs_load_rate(effects);
   if (rate) text += load_code(motion);
   text +=
       "\n/// q, dq, ddq, tau: joint_count numbers each (rad, N m). base: gyro, its derivative, "
@@ -327,7 +328,7 @@ std::string torque_header(const Robot& robot, const RichModel& model) {
       "  Links rigid = at;\n  rigid.torques(load);\n  take_off(contact, load);\n" +
       between + "  at.torques(tau);\n  take_off(contact, tau);\n" + torque + scaling +
       rotor_code(robot) + "}\n";
-  if (rate) text += prediction_from_log(robot, model.effects);
+  if (rate) text += prediction_from_log(robot, effects);
   text += "\n}  // namespace shapeid_model\n";
   return text;
 }

@@ -1,7 +1,6 @@
 #include "shapeid/diagnosis/verdicts.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "shapeid/diagnosis/fits_around.hpp"
@@ -51,12 +50,17 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
   const FitsAround around(fits_, contenders_.terms(others));
   const Eigen::VectorXd& without = around.error();
   const Gain gain = credibility_.gain_by(k, without, error);
-  Verdict verdict{k, gain.share, gain.t, true, contenders_.is_contained(k, others), false, {}};
-  const std::optional<std::size_t> other_time = contenders_.of_other_time(k);
-  if (other_time && !contenders_.is_among(*other_time, others)) {
-    const Eigen::VectorXd instead = around.with(contenders_[*other_time].term);
-    verdict.may_be_of_other_time =
-        gains_something(gain_of(without, instead)) && as_good_as(error, instead);
+  Verdict verdict{k, gain.share, gain.t, true, contenders_.is_contained(k, others), {}, {}};
+  // Of two times at one place the third says the same as either, with other numbers.
+  const Chosen times = contenders_.of_other_times(k);
+  const bool is_changed = std::ranges::any_of(
+      times, [&](std::size_t other) { return contenders_.is_among(other, others); });
+  for (const std::size_t other : is_changed ? Chosen{} : times) {
+    const Eigen::VectorXd instead = around.with(contenders_[other].term);
+    if (gains_something(gain_of(without, instead)) && as_good_as(error, instead) &&
+        is_possible(other, others)) {
+      verdict.other_times.push_back(contenders_[other].effect.when);
+    }
   }
   for (const std::size_t rival : contenders_.rivals(others, rule_.rivals)) {
     // The same law with another width, or from the reference log on, is no other cause.
@@ -70,7 +74,7 @@ Verdict Verdicts::one(std::size_t k, const Chosen& others, const Eigen::VectorXd
     // was always there a load is hardly ever the cause, and one of any size within a metre of a
     // link says much: it would be named with every rotor.)
     const auto is_body = [&] {
-      return contenders_[k].effect.since_reference &&
+      return contenders_[k].effect.when != When::always &&
              contenders_[rival].effect.effect->is_payload &&
              credibility_.within_limits(rival, others, own);
     };
@@ -150,6 +154,13 @@ void Verdicts::name_common_causes(const Chosen& accepted, const Eigen::VectorXd&
       }
     }
   }
+}
+
+bool Verdicts::is_possible(std::size_t k, const Chosen& others) const {
+  const Fit own = fit_of(k, others);
+  const bool is_load = contenders_[k].effect.effect->is_payload;
+  return (is_load || !credibility_.wrong_sign(k, own, rival_sign_t)) &&
+         credibility_.within_limits(k, others, own);
 }
 
 Fit Verdicts::fit_of(std::size_t rival, const Chosen& others) const {

@@ -34,6 +34,8 @@ class Verdicts {
   void name_common_causes(const Chosen& accepted, const Eigen::VectorXd& error,
                           std::vector<Verdict>& verdicts) const;
   [[nodiscard]] Chosen not_superfluous_beside(std::size_t rival, Chosen chosen) const;
+  /// Whether its numbers could be these: no wrong sign, within limits, of a load a body.
+  [[nodiscard]] bool is_possible(std::size_t k, const Chosen& others) const;
   /// Of the rival beside the others the part of the rival.
   [[nodiscard]] Fit fit_of(std::size_t rival, const Chosen& others) const;
 

@@ -118,6 +118,38 @@ TEST(Plan, AReferenceTellsNothingOfWhatIsInATrial) {
   EXPECT_NE(mean(with), mean(read_log(m, offset.file(1, "log.csv"))));
 }
 
+/// What is in a trial of changes is in one of its two logs; by so many seeds both came and went.
+TEST(Plan, ChangesAreInOneOfTwoLogs) {
+  PlanOptions options;
+  options.seed = 3;
+  options.trials = 4;
+  options.quadruped_every = 0;
+  options.only = "torque_offset";
+  options.ratio = 8.0;
+  options.changes = true;
+  const test::ScratchFolder scratch;
+  const Machine m = arm();
+  std::set<Acts> seen;
+  generate(options, scratch.path("set"), [&](int number, const Trial& trial) {
+    EXPECT_TRUE(trial.reference);
+    EXPECT_EQ(trial_from_json(to_json(trial)).acts, trial.acts);
+    seen.insert(trial.acts);
+    const auto mean = [&](const std::string& name) {
+      const diagnosis::Recording log =
+          read_log(m, scratch.path(fmt::format("set/trial{:04d}/{}", number, name)));
+      double sum = 0.0;
+      for (const Sample& s : log.samples()) sum += s.tau[trial.items.at(0).amount.site];
+      return sum / static_cast<double>(log.samples().size());
+    };
+    const double size = trial.items.at(0).amount.size;
+    const double put = trial.acts == Acts::in_log ? size : -size;
+    EXPECT_NEAR(mean("log.csv") - mean("reference.csv"), put, 0.1 * size) << "of two noises";
+    EXPECT_EQ(items_in_log(trial).empty(), trial.acts == Acts::in_reference);
+    EXPECT_EQ(items_in_reference(trial).empty(), trial.acts == Acts::in_log);
+  });
+  EXPECT_EQ(seen, (std::set<Acts>{Acts::in_log, Acts::in_reference}));
+}
+
 TEST(Plan, ASealSaysWhetherThereIsAReference) {
   Trial t;
   t.machine = "arm";

@@ -215,6 +215,42 @@ TEST(ScoreTables, ReferencesThatWereNotNeededAreCounted) {
       has_row(all, "an effect said to have come since a reference log that has it too | 1 of 2 |"));
 }
 
+/// What nothing says is gone must not be said to be; where something went it may be, and its time
+/// is counted apart from its name.
+TEST(Score, WhatWentIsNamedWithItsTime) {
+  Trial both = trial({item("torque_offset", 0)});
+  both.reference = true;
+  json gone = finding("torque_offset", "turn");
+  gone["gone_since_reference"] = true;
+  json undecided = gone;
+  undecided["may_act_in_both"] = true;
+  EXPECT_EQ(judge(both, answer({gone})).outcome, Outcome::wrong_place);
+  EXPECT_EQ(judge(both, answer({undecided})).outcome, Outcome::right);
+  json came = finding("torque_offset", "turn");
+  came["since_reference"] = true;
+  const json always = finding("torque_offset", "turn");
+  json may_have_come = always;
+  may_have_come["may_have_come_since"] = true;
+  const auto is_false_time = [&](Acts acts, const json& said) {
+    Trial t = both;
+    t.acts = acts;
+    const Judgement j = judge(t, answer({said}));
+    EXPECT_EQ(j.outcome, Outcome::right);
+    return j.false_time;
+  };
+  EXPECT_FALSE(is_false_time(Acts::in_reference, gone));
+  EXPECT_TRUE(is_false_time(Acts::in_reference, came));
+  EXPECT_TRUE(is_false_time(Acts::in_reference, always));
+  EXPECT_FALSE(is_false_time(Acts::in_log, came));
+  EXPECT_FALSE(is_false_time(Acts::in_log, may_have_come));
+  EXPECT_TRUE(is_false_time(Acts::in_log, always));
+  Trial went = both;
+  went.acts = Acts::in_reference;
+  EXPECT_TRUE(has_row({scored_as(went, answer({gone})), scored_as(went, answer({always}))},
+                      "an effect that came since the reference log or went said to act otherwise | "
+                      "1 of 2 |"));
+}
+
 /// A load on the wrong link needed no reference; one that was never absent did.
 TEST(Score, AFalseLoadIsOneOfAKindThatIsNotThere) {
   const Trial later = trial({item("payload_from", 3)});

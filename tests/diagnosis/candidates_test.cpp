@@ -17,8 +17,8 @@ std::vector<AppliedEffect> hypotheses_beside(const std::vector<AppliedEffect>& e
   const Robot robot = test::arm();
   const Recording log = test::record({});
   const RichModel model{stacked_parameters(robot), effects};
-  return screened_hypotheses(robot, model, log,
-                             series(robot, ContactTreatment::ignore, model, log, 1));
+  return screened_hypotheses(
+      robot, model, {log, series(robot, ContactTreatment::ignore, model, log, 1)}, std::nullopt);
 }
 
 /// Within how much speed friction turns round may be one number of the joint, whichever law it
@@ -68,6 +68,33 @@ TEST(Candidates, ARippleIsLongIfTheJointGoesThroughLessThanTwoPeriods) {
   EXPECT_TRUE(periods(1.99));
   EXPECT_FALSE(periods(2.01));
   EXPECT_FALSE(is_long_ripple(log, test::effect("coulomb_friction", 2, {0.2})));
+}
+
+/// The period of a ripple that went is that of the reference log, until it is found.
+TEST(Candidates, ARippleThatWentIsSoughtWhereItWas) {
+  const Robot robot = test::arm();
+  AppliedEffect ripple = test::effect("cogging", 2, {0.3, 0.1});
+  ripple.shape[0] = 17.0;
+  const Recording log = test::record({}), earlier = test::record({{ripple}, 20.0, 0.02, 2});
+  RichModel model{stacked_parameters(robot), {}};
+  const auto period_of = [&](When when) {
+    const auto rest = [&](const Recording& of) {
+      return Rest{of, series(robot, ContactTreatment::ignore, model, of, 1)};
+    };
+    std::optional<double> period;
+    for (const AppliedEffect& a : screened_hypotheses(robot, model, rest(log), rest(earlier))) {
+      if (!is_ripple(a) || a.site != 2 || a.when != when) continue;
+      EXPECT_FALSE(period) << "once";
+      period = a.shape[0];
+    }
+    return period;
+  };
+  EXPECT_NEAR(period_of(When::gone).value(), 17.0, 0.1);
+  EXPECT_TRUE(std::abs(period_of(When::always).value() - 17.0) > 0.5);
+  ripple.when = When::gone;
+  ripple.shape[0] = 17.3;
+  model.effects = {ripple};
+  EXPECT_EQ(period_of(When::gone), 17.3);
 }
 
 }  // namespace

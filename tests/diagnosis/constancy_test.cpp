@@ -46,19 +46,22 @@ Tally of_a_number_that_follows_the_position(const AppliedEffect& hypothesis) {
 TEST(Constancy, WhatCameSinceTheReferenceIsAskedOfTheLogAlone) {
   AppliedEffect hypothesis = at_start(*find_effect("encoder_offset"), 0);
   const std::vector<Term> body = {{"masses", {0}, {false}, 0}};
-  const auto worth = [&](bool since_reference) {
-    hypothesis.since_reference = since_reference;
+  const auto worth = [&](When when) {
+    hypothesis.when = when;
     const BlockFits fits(of_a_number_that_follows_the_position(hypothesis),
                          Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1), 5);
-    const double all = fits.held_out(body).sum();
+    const double all = fits.held_out(body).tail(fits.log_blocks()).sum();
     const auto found = variations(fits, body, Eigen::VectorXd::Constant(1, all)).front();
     EXPECT_TRUE(found && found->signal == Signal::position && found->joint == 0);
     return found ? found->share : 0.0;
   };
   // 0.16 of 0.17: the square of what follows, and that of noise beside it.
-  EXPECT_NEAR(worth(true), 0.16 / 0.17, 0.02);
-  // Four of five folds of the log beside forty blocks without it: 16 of 56 of the number.
-  EXPECT_NEAR(worth(false), (1.0 - std::pow(40.0 / 56.0, 2)) * 0.16 / 0.17, 0.04);
+  EXPECT_NEAR(worth(When::since_reference), 0.16 / 0.17, 0.02);
+  // A third of the blocks have it: a third of the number, which leaves two thirds of it in these
+  // and puts a third into twice as many.
+  constexpr double third = 1.0 / 3.0;
+  const double taken = 1.0 - std::pow(1.0 - third, 2) - 2.0 * std::pow(third, 2);
+  EXPECT_NEAR(worth(When::always), taken * 0.16 / 0.17, 0.04);
 }
 
 }  // namespace

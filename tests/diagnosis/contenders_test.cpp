@@ -129,7 +129,7 @@ TEST(Contenders, MomentsOfOneLoadDoNotCrowdOutWhatIsSomethingElse) {
   EXPECT_TRUE(contenders.is_taken(onsets[0], {onsets[2]}));
   EXPECT_EQ(contenders.shortlist({onsets[2]}, 4).listed, (Chosen{other, elsewhere}));
   // What came since a reference log is another place, and the same law.
-  log.candidates()[onsets[0]].effect.since_reference = true;
+  log.candidates()[onsets[0]].effect.when = When::since_reference;
   EXPECT_FALSE(contenders.is_taken(onsets[0], {onsets[2]}));
   EXPECT_TRUE(contenders.same_law(onsets[0], onsets[2]));
   EXPECT_FALSE(contenders.same_law(onsets[2], elsewhere));

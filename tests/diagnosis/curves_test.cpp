@@ -156,16 +156,16 @@ TEST(EffectsYaml, OneEntryAnEffectAndPlaceAndOneOfWhatCameSince) {
   };
   const AppliedEffect friction = test::effect("viscous_friction", 1, {0.25});
   AppliedEffect more = test::effect("viscous_friction", 1, {0.1});
-  more.since_reference = true;
+  more.when = When::since_reference;
   const std::vector<AppliedEffect> both = read({friction, more});
   ASSERT_EQ(both.size(), 2U);
-  EXPECT_FALSE(both[0].since_reference);
-  EXPECT_TRUE(both[1].since_reference);
+  EXPECT_EQ(both[0].when, When::always);
+  EXPECT_EQ(both[1].when, When::since_reference);
   EXPECT_THROW(static_cast<void>(read({friction, friction})), InputError);
   // Two delays of one log together would look further than there is anything to see.
   const AppliedEffect delay = test::effect("torque_delay", 0, {0.018});
   AppliedEffect later = delay;
-  later.since_reference = true;
+  later.when = When::since_reference;
   EXPECT_THROW(static_cast<void>(read({delay, later})), InputError);
 }
 

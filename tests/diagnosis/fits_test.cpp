@@ -113,8 +113,7 @@ TEST(Fits, WhatThePriorHoldsMovesLessWithTheNoise) {
   }
 }
 
-/// A long log of the same robot taken earlier does not make errors of the log smaller.
-TEST(Fits, ASquareOfNoiseIsOfWhatIsHeldOut) {
+TEST(Fits, ASquareOfNoiseIsOfBothLogs) {
   Tally tally;
   tally.inertial = 1;
   tally.width = 2;
@@ -130,6 +129,52 @@ TEST(Fits, ASquareOfNoiseIsOfWhatIsHeldOut) {
   const std::vector<Term> mean = {{"mean", {0}, {false}, 0}};
   EXPECT_EQ(fits.square_of_noise(fits.held_out(mean).sum()), 1.0);
   EXPECT_EQ(fits.fit(mean).freedom, 99999.0);
+}
+
+/// Each block of either log is predicted without its stretch, and a term counts where it acts: what
+/// came in the log alone, what went in the reference alone.
+TEST(Fits, TermsCountInTheBlocksInWhichTheyAct) {
+  Tally tally;
+  tally.inertial = 2;
+  tally.width = 3;
+  constexpr int of_reference = 24, of_both = 40;
+  for (int b = 0; b < of_both; ++b) {
+    // A column of ones, one of nothing, and a force of 2 in the reference log and of 3 in the log.
+    const Eigen::Vector3d row(1.0, 0.0, b < of_reference ? 2.0 : 3.0);
+    Block& block = tally.blocks.emplace_back();
+    block.samples = 10;
+    block.sums = 10.0 * row * row.transpose();
+    block.freedom = 10.0;
+    block.reference = b < of_reference;
+  }
+  const BlockFits fits(tally, Eigen::VectorXd::Zero(2), Eigen::VectorXd::Constant(2, 1e6), 8);
+  ASSERT_EQ(fits.blocks(), of_both);
+  ASSERT_EQ(fits.log_blocks(), of_both - of_reference);
+  const auto of_time = [&](When when) {
+    AppliedEffect effect = test::effect("viscous_friction", 0, {0.0});
+    effect.when = when;
+    Term term{"number", {0}, {false}};
+    fits.limit_to_time_of(effect, term);
+    return term;
+  };
+  for (const auto& [when, number] : {std::pair(When::since_reference, 3.0), {When::gone, 2.0}}) {
+    const bool came = when == When::since_reference;
+    const Term term = of_time(when);
+    EXPECT_NEAR(fits.fit({term}).value[0], number, 1e-6);
+    const Term nothing{"nothing", {1}, {false}};
+    const Eigen::VectorXd error = fits.held_out({nothing, term}), none = fits.held_out({nothing});
+    const FitsAround around(fits, {nothing});
+    EXPECT_LT((around.with(term) - error).norm(), 1e-9 * none.norm());
+    EXPECT_LT((FitsAround(fits, {nothing, term}).error() - error).norm(), 1e-9 * none.norm());
+    for (int b = 0; b < of_both; ++b) {
+      const bool acts = (b >= of_reference) == came;
+      EXPECT_NEAR(error[b], acts ? 0.0 : none[b], 1e-6) << b;
+    }
+  }
+  const Fit both = fits.fit({of_time(When::always), of_time(When::gone)});
+  EXPECT_NEAR(both.value[0], 3.0, 1e-6);
+  EXPECT_NEAR(both.value[1], -1.0, 1e-6);
+  EXPECT_LT(fits.held_out({of_time(When::always), of_time(When::gone)}).sum(), 1e-6);
 }
 
 /// Where sums cancel to their rounding no error is negative, and none is less than another.

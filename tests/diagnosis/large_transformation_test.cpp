@@ -119,9 +119,9 @@ TEST(LargeTransformation, IsNotAskedOfOneCauseNorOfWhatCameSinceTheReference) {
   Several several(9);
   Selection before = several.log.selection();
   const std::size_t k = several.log.add(delay("delay"), several.sum_from(0));
-  several.log.candidates()[k].effect.since_reference = true;
+  several.log.candidates()[k].effect.when = When::since_reference;
   EXPECT_EQ(several.found(before), "");
-  several.log.candidates()[k].effect.since_reference = false;
+  several.log.candidates()[k].effect.when = When::always;
   EXPECT_EQ(several.found(before), "delay");
   before.accepted.resize(1);
   EXPECT_EQ(several.found(before), "");

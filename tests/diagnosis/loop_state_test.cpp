@@ -72,7 +72,7 @@ TEST(LoopState, TermsOfTheModelBeginWhereTheirEffectsDo) {
   const Recording reference = test::record({{}, 20.0, 0.02, 2});
   OnArm arm(Eigen::Vector3d(0.02, 0.02, 0.02), &reference);
   AppliedEffect came = test::effect("viscous_friction", 0, {0.2});
-  came.since_reference = true;
+  came.when = When::since_reference;
   for (const AppliedEffect& effect : {came, test::effect("viscous_friction", 1, {0.1}),
                                       test::effect("torque_delay", 0, {0.001})}) {
     arm.state.result.found.push_back({effect, "", Eigen::VectorXd::Zero(1)});
@@ -89,7 +89,8 @@ TEST(LoopState, TermsOfTheModelBeginWhereTheirEffectsDo) {
   EXPECT_EQ(terms[2].columns.front(), fits.tally().first[1]);
   EXPECT_EQ(terms[2].from_block, 0U);
   EXPECT_EQ(arm.state.terms_of_model(fits, 1).size(), 2U);
-  EXPECT_EQ(arm.state.earlier_model().effects.size(), 2U);
+  EXPECT_EQ(arm.state.earlier_model().acting().size(), 2U);
+  EXPECT_EQ(arm.state.result.model.acting().size(), 3U);
 }
 
 /// A tilt that is not there: a step from it leads back, and as it is it ruins everything.

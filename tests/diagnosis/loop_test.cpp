@@ -241,11 +241,11 @@ TEST(Loop, StaticLoadIsFoundAgainstAReferenceLogAndNotWithout) {
   EXPECT_EQ(found_ids(close_loop(arm(), with, nullptr, arm_settings())), Ids{});
   const LoopResult result = close_loop(arm(), with, &without, arm_settings());
   ASSERT_EQ(found_ids(result), Ids{"payload@link3"});
-  EXPECT_TRUE(result.found[0].effect.since_reference);
+  EXPECT_EQ(result.found[0].effect.when, When::since_reference);
   EXPECT_LT(std::abs(result.found[0].effect.value[0] - 0.8), 0.1);
 }
 
-TEST(Loop, AReferenceLogIsNotHeldOut) {
+TEST(Loop, WhatIsToldOfTheErrorIsOfTheLogAlone) {
   const Recording tiny = record({{}, 3.0}), reference = record({{}, 20.0, 0.02, 2});
   const LoopSettings settings = arm_settings();
   EXPECT_THROW(static_cast<void>(close_loop(arm(), tiny, &reference, settings)), Refusal);
@@ -262,7 +262,7 @@ TEST(Loop, AGainThatCameSinceIsFoundAsThat) {
   const Recording reference = record({});
   const LoopResult result = close_loop(arm(), log, &reference, arm_settings());
   ASSERT_EQ(found_ids(result), Ids{"torque_gain@joint2"});
-  EXPECT_TRUE(result.found[0].effect.since_reference);
+  EXPECT_EQ(result.found[0].effect.when, When::since_reference);
   expect_value(result.found[0], {0.2});
 }
 
@@ -273,8 +273,8 @@ TEST(Loop, ADelayThatCameSinceIsFoundAsThat) {
   for (const bool came : {true, false}) {
     const LoopResult result = close_loop(arm(), log, came ? &without : &with, arm_settings());
     ASSERT_EQ(found_ids(result), Ids{"torque_delay@all"});
-    EXPECT_EQ(result.found[0].effect.since_reference, came);
-    EXPECT_FALSE(result.found[0].may_be_of_other_time);
+    EXPECT_EQ(result.found[0].effect.when, came ? When::since_reference : When::always);
+    EXPECT_TRUE(result.found[0].other_times.empty());
     EXPECT_NEAR(result.found[0].effect.value[0], 0.012, 0.001);
   }
 }
@@ -294,7 +294,7 @@ TEST(Loop, WhatGrewSinceTheReferenceIsWhatItWasAndWhatCame) {
     EXPECT_EQ(found_ids(result), (Ids{name, name}));
     double was = 1.0, came = 1.0, sum = 0.0;
     for (const AppliedEffect& a : consistent.model.effects) {
-      (a.since_reference ? came : was) += a.value[0];
+      (a.when == When::since_reference ? came : was) += a.value[0];
       sum += a.value[0];
     }
     // A gain on top of a gain is their product.
@@ -306,23 +306,76 @@ TEST(Loop, WhatGrewSinceTheReferenceIsWhatItWasAndWhatCame) {
   grown("torque_gain", 0.2, 0.4);
 }
 
-/// Of what was not there yet the reference log knows nothing: it would make its number look twice
-/// as sure.
-TEST(Loop, WhatCameSinceHasNoColumnInTheReference) {
+/// What was in the reference log and is not in the log is no change of another sign.
+TEST(Loop, WhatWentIsFoundAsThat) {
+  const LoopSettings settings = arm_settings();
+  const AppliedEffect load =
+      effect("payload", 3, {0.8, 0.02, 0.0, 0.2, 0.06, 0.0, -0.004, 0.06, 0.0, 0.002});
+  const Recording log = record({{}, 20.0, 0.02, 2});
+  for (const AppliedEffect& was :
+       {load, effect("viscous_friction", 1, {0.3}), effect("torque_gain", 1, {0.2})}) {
+    const Recording reference = record({{was}, 20.0, 0.02, 1});
+    LoopResult result = close_loop(arm(), log, &reference, settings);
+    ASSERT_EQ(found_ids(result), Ids{hypothesis_id(arm(), was)});
+    EXPECT_EQ(result.found[0].effect.when, When::gone);
+    EXPECT_TRUE(result.found[0].other_times.empty());
+    const Consistent consistent = make_consistent(arm(), log, &reference, settings, result);
+    ASSERT_EQ(consistent.model.effects.size(), 1U);
+    EXPECT_NEAR(consistent.model.effects[0].value[0] / was.value[0], 1.0, 0.1);
+    EXPECT_TRUE(consistent.model.acting().empty());
+    const double given = stacked_parameters(arm())[30];
+    EXPECT_NEAR(consistent.model.Phi[30], given, 0.1 * given) << "the link is as it is now";
+  }
+}
+
+/// Of friction that fell a part is there still.
+TEST(Loop, WhatFellIsWhatIsThereAndWhatWent) {
+  const Recording log = record({{effect("viscous_friction", 1, {0.2})}});
+  const Recording reference = record({{effect("viscous_friction", 1, {0.5})}, 20.0, 0.02, 7});
+  const LoopResult result = close_loop(arm(), log, &reference, arm_settings());
+  const std::string name = "viscous_friction@joint2";
+  ASSERT_EQ(found_ids(result), (Ids{name, name}));
+  for (const Found& f : result.found) {
+    EXPECT_EQ(f.effect.when, f.effect.value[0] > 0.25 ? When::gone : When::always);
+    EXPECT_NEAR(f.effect.value[0], f.effect.when == When::gone ? 0.3 : 0.2, 0.02);
+  }
+}
+
+/// With every link known nothing but the reference log tells what was there already.
+TEST(Loop, WhatIsInBothLogsDidNotComeSinceWhereMassesAreKnown) {
+  LoopSettings settings = arm_settings();
+  settings.shapes.free_links.clear();
+  settings.shapes.shapes.clear();
+  settings.shapes.known = stacked_parameters(arm());
+  const Recording log = record({{effect("viscous_friction", 1, {0.3})}});
+  const Recording reference = record({{effect("viscous_friction", 1, {0.3})}, 20.0, 0.02, 7});
+  const LoopResult result = close_loop(arm(), log, &reference, settings);
+  ASSERT_EQ(found_ids(result), Ids{"viscous_friction@joint2"});
+  EXPECT_EQ(result.found[0].effect.when, When::always);
+  EXPECT_TRUE(result.found[0].other_times.empty());
+}
+
+/// Of what was not there yet the reference log knows nothing, and the log nothing of what went: it
+/// would make their numbers look twice as sure.
+TEST(Loop, TransformationsHaveNoColumnInALogInWhichTheyDoNotAct) {
   const Robot robot = arm();
   const Recording log = record({}), reference = record({{}, 20.0, 0.02, 2});
   const LoopSettings settings = arm_settings();
-  LoopState state(robot, log, &reference, settings);
-  state.fit_masses();
-  Found gain{effect("torque_gain", 1, {0.2}), "torque_gain@joint2", Eigen::VectorXd::Zero(1)};
-  gain.effect.since_reference = true;
-  state.result.found.push_back(gain);
-  state.collect_effects();
-  const BlockFits fits = state.tallied({gain.effect});
-  const Tally& tally = fits.tally();
-  ASSERT_GT(fits.first_block(), 0U);
-  for (const Block& block : tally.blocks) {
-    EXPECT_EQ(block.sums.col(tally.first[0]).isZero(0.0), block.reference);
+  for (const When when : every_when) {
+    LoopState state(robot, log, &reference, settings);
+    state.fit_masses();
+    Found gain{effect("torque_gain", 1, {0.2}), "torque_gain@joint2", Eigen::VectorXd::Zero(1)};
+    gain.effect.when = when;
+    state.result.found.push_back(gain);
+    state.collect_effects();
+    const BlockFits fits = state.tallied({gain.effect});
+    const Tally& tally = fits.tally();
+    ASSERT_GT(fits.first_block(), 0U);
+    for (const Block& block : tally.blocks) {
+      const bool acts =
+          block.reference ? gain.effect.acts_in_reference() : gain.effect.acts_in_log();
+      EXPECT_EQ(block.sums.col(tally.first[0]).isZero(0.0), !acts);
+    }
   }
 }
 
@@ -407,7 +460,7 @@ TEST(Consistent, AMassThatNoRowFeelsStaysAsGivenWithoutNoise) {
 TEST(Consistent, WhatCameSinceALongReferenceIsCertain) {
   const Recording log = record({{effect("viscous_friction", 1, {0.3})}, 20.0, 0.02, 2});
   AppliedEffect friction = effect("viscous_friction", 1, {0.3});
-  friction.since_reference = true;
+  friction.when = When::since_reference;
   const Told told(log, record({{}, 200.0}), friction);
   ASSERT_EQ(told.model.model.effects.size(), 1U);
   EXPECT_NEAR(told.model.model.effects[0].value[0], 0.3, 0.01);

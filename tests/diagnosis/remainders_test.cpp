@@ -153,9 +153,9 @@ TEST(Remainders, AfterThreeThatStayNoneIsAsked) {
 TEST(Remainders, WhatCameSinceTheReferenceStays) {
   Arrived arm({shaped("cogging", 1, {0.8, -0.5}, {14.0})},
               {shaped("cogging", 1, {0.0, 0.0}, {14.0}), test::effect("torque_offset", 1, {0.0})});
-  arm.state.result.found[1].effect.since_reference = true;
+  arm.state.result.found[1].effect.when = When::since_reference;
   EXPECT_EQ(arm.left_out(), Ids{});
-  arm.state.result.found[1].effect.since_reference = false;
+  arm.state.result.found[1].effect.when = When::always;
   EXPECT_EQ(arm.left_out(), Ids{"torque_offset@joint2"});
 }
 

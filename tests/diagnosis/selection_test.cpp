@@ -119,7 +119,7 @@ TEST(Selection, WhatAlwaysActsComesBeforeAChange) {
       Planted log(seed);
       const Eigen::MatrixXd column = log.normal(1);
       const std::size_t came = log.add(law("law"), column);
-      log.candidates()[came].effect.since_reference = true;
+      log.candidates()[came].effect.when = When::since_reference;
       const std::size_t always = log.add(law("law"), column + apart * log.normal(1));
       log.plant(came, one_number(Planted::size_of(40.0)));
       log.add_noise();
@@ -450,7 +450,7 @@ TEST(Selection, TheSecondSearchBeginsWithWhatIsAsked) {
   const std::size_t always = with_reference.add(usual, with_reference.normal(1), 1);
   with_reference.add(law("other"), with_reference.normal(1));
   with_reference.add_group({came, always});
-  with_reference.candidates()[came].effect.since_reference = true;
+  with_reference.candidates()[came].effect.when = When::since_reference;
   const BlockFits fits = with_reference.fits();
   EXPECT_EQ(Contenders(fits, with_reference.masses(), with_reference.candidates()).usual(),
             Numbers{always});

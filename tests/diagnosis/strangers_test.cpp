@@ -123,11 +123,11 @@ TEST(Turned, OfAJointThatStandsStillIsNothing) {
 TEST(Candidates, WhatIsBuiltInDoesNotComeSinceAReferenceLog) {
   const LoopResult result =
       close_loop(arm(), record({{effect("link_length", 1, {0.02})}}), nullptr, arm_settings());
-  for (const Found& f : result.found) EXPECT_FALSE(f.effect.since_reference);
+  for (const Found& f : result.found) EXPECT_EQ(f.effect.when, When::always);
   const Recording later = record({{effect("link_length", 1, {0.02})}, 20.0, 0.02, 2});
   const Recording earlier = record({{}, 20.0, 0.02, 1});
   for (const Found& f : close_loop(arm(), later, &earlier, arm_settings()).found) {
-    EXPECT_FALSE(f.effect.since_reference && f.effect.effect->built_in) << f.id;
+    EXPECT_TRUE(f.effect.when == When::always || !f.effect.effect->built_in) << f.id;
   }
 }
 

@@ -137,7 +137,7 @@ TEST(TorqueLag, HasASlopeOfItsOwn) {
 TEST(TorqueLag, OfTwoTimesHasTheSlopeOfTheirSum) {
   const Robot robot = test::arm();
   AppliedEffect more = test::effect("torque_lag", 2, {0.005});
-  more.since_reference = true;
+  more.when = When::since_reference;
   const std::vector<LoadRate> two =
       load_rates(robot, {test::effect("torque_lag", 2, {0.009}), more}, {});
   const std::vector<LoadRate> one = load_rates(robot, {test::effect("torque_lag", 2, {0.014})}, {});

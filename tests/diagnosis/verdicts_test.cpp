@@ -131,7 +131,7 @@ TEST(Verdicts, NameALoadThatContainsAFindingIfItIsABody) {
     Planted log(39);
     const Eigen::MatrixXd ten = log.normal(10);
     const std::size_t one = log.add(law("gain"), sign * ten * body);
-    log.candidates()[one].effect.since_reference = came;
+    if (came) log.candidates()[one].effect.when = When::since_reference;
     const std::size_t rival = log.add(load, ten);
     log.plant(one, number(Planted::size_of(60.0)));
     log.add_noise();
@@ -155,22 +155,27 @@ TEST(Verdicts, SayWhetherTheLogsTellWhatCameSince) {
       }
       const Eigen::MatrixXd column = log.normal(1);
       const std::size_t came = log.add(change, column);
-      log.candidates()[came].effect.since_reference = true;
+      log.candidates()[came].effect.when = When::since_reference;
       const std::size_t always = log.add(change, column + apart * log.normal(1));
       log.candidates()[always].effect.effect = log.candidates()[came].effect.effect;
       log.plant(came, number(Planted::size_of(25.0)));
       log.add_noise();
       const Verdict verdict = verdicts(log, {came})[0];
-      EXPECT_EQ(verdict.may_be_of_other_time, apart == 0.0);
+      EXPECT_EQ(verdict.other_times,
+                apart == 0.0 ? std::vector{When::always} : std::vector<When>{});
       EXPECT_EQ(verdict.ambiguous, Chosen{});
       if (apart == 0.0) {
         const Verdict other = verdicts(log, {always})[0];
-        EXPECT_TRUE(other.may_be_of_other_time);
+        EXPECT_EQ(other.other_times, std::vector{When::since_reference});
         EXPECT_EQ(other.ambiguous, Chosen{});
       }
-      // Where it grew it is named twice, and there is nothing to say.
+      // Where it grew it is named twice, and there is nothing to say: of three times each is the
+      // other two.
       if (transforms) continue;
-      for (const Verdict& v : verdicts(log, {came, always})) EXPECT_FALSE(v.may_be_of_other_time);
+      const std::size_t gone = log.add(change, column + apart * log.normal(1));
+      log.candidates()[gone].effect.effect = log.candidates()[came].effect.effect;
+      log.candidates()[gone].effect.when = When::gone;
+      for (const Verdict& v : verdicts(log, {came, always})) EXPECT_TRUE(v.other_times.empty());
     }
   }
 }

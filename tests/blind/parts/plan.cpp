@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 
+#include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
 #include "shapeid/tests/blind/parts/draws.hpp"
@@ -22,6 +23,15 @@ namespace fs = std::filesystem;
 
 constexpr std::array<double, 5> ratios = {0.5, 1.0, 2.0, 4.0, 8.0};
 constexpr std::uint64_t motions_of_each = 5;  // of each robot; clean ones are simulated once
+
+/// A load that comes at a moment comes by itself.
+bool can_change(const Kind& k) {
+  const diagnosis::Effect* effect = diagnosis::find_effect(k.id);
+  return effect != nullptr && !effect->built_in && !k.flags && k.id != "payload_from";
+}
+
+/// By numbers of its own, as has_spare_reference().
+bool has_gone(std::uint64_t noise_seed) { return Random(noise_seed * 7919 + 2).uniform() < 0.5; }
 
 /// Without anything in it a robot should walk; of those that are drawn not every one can.
 struct CleanFall : std::runtime_error {
@@ -55,7 +65,11 @@ class Generator {
     bool walked = false;
     try {
       put_items(m, number, random, trial);
-      trial.reference = needs_reference(trial) || has_spare_reference(trial.noise_seed);
+      trial.reference =
+          options_.changes || needs_reference(trial) || has_spare_reference(trial.noise_seed);
+      if (options_.changes) {
+        trial.acts = has_gone(trial.noise_seed) ? Acts::in_reference : Acts::in_log;
+      }
       walked = write_trial(m, trial, own);
     } catch (const CleanFall&) {
       if (!options_.drawn_quadrupeds) throw;
@@ -100,6 +114,7 @@ class Generator {
 
   /// The trial's truth before any noise. Empty if the robot falls.
   Readings readings_of(const Machine& m, const Trial& trial) {
+    if (trial.items.empty()) return clean(m, trial.motion_seed);
     if (is_dynamic(trial)) return simulate_trial(m, trial);
     Readings readings = clean(m, trial.motion_seed);
     change_signals(m, trial.items, readings);
@@ -108,22 +123,23 @@ class Generator {
 
   /// What the diagnosis may see. False if the robot falls: then nothing of it is written.
   bool write_trial(const Machine& m, const Trial& trial, const std::string& own) {
-    const Readings readings = readings_of(m, trial);
+    Trial later = trial;
+    later.items = items_in_log(trial);
+    const Readings readings = readings_of(m, later);
     if (readings.empty()) return false;
     if (trial.reference && !write_reference(m, trial, readings, own)) return false;
     write_logs(m, trial, readings, own);
     return true;
   }
 
-  /// The same robot earlier: without the loads, but with all else that is in the trial, and with
-  /// other noise. False if it falls so.
+  /// The same robot earlier, with other noise. False if it falls so. `readings`: of the log.
   bool write_reference(const Machine& m, const Trial& trial, const Readings& readings,
                        const std::string& own) {
     Trial earlier = trial;
-    earlier.items = without_loads(trial.items);
+    earlier.items = items_in_reference(trial);
     earlier.noise_seed = reference_seed(trial);
-    const bool no_load = earlier.items.size() == trial.items.size();
-    const Readings before = no_load ? readings : readings_of(m, earlier);
+    const bool is_same = earlier.items.size() == items_in_log(trial).size();
+    const Readings before = is_same ? readings : readings_of(m, earlier);
     if (before.empty()) return false;
     write_logs(m, earlier, before, scratch_);
     fs::rename(scratch_ + "/log.csv", own + "/reference.csv");
@@ -141,7 +157,7 @@ class Generator {
   void put_items(const Machine& m, int number, Random& random, Trial& trial) {
     const int place = number % 10;
     int count = 1;
-    bool foreign = place == 7 || place == 9;
+    bool foreign = !options_.changes && (place == 7 || place == 9);
     if (place == 0 || place == 5) count = 0;
     if (place == 4) count = 2;
     if (!options_.only.empty()) {
@@ -152,6 +168,7 @@ class Generator {
     std::vector<const Kind*> possible;
     for (const Kind& k : kinds()) {
       const bool wanted = one_kind ? k.id == options_.only : k.foreign == foreign;
+      if (options_.changes && !can_change(k)) continue;
       if (wanted && !sites(m, k).empty()) possible.push_back(&k);
     }
     constexpr int most_draws = 50;

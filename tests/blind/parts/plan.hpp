@@ -21,6 +21,9 @@ struct PlanOptions {
   /// Trials of this kind alone, of none ("clean") or of each that is not in the catalogue
   /// ("foreign"); empty: all kinds.
   std::string only;
+  /// Every trial has a reference log, and what of the catalogue is in it came since then or went:
+  /// each of both in half of them. What robots are built of does neither.
+  bool changes = false;
 };
 
 /// Whether a trial with this noise has a reference log that it does not need: a third do, whatever

@@ -21,9 +21,11 @@ struct Said {
   std::vector<std::string> set;  ///< other names for it
   bool doubted = false;          ///< a law without a name is said to do as well
   bool since = false;            ///< it is said to have come since the reference log, no doubt
+  std::vector<Acts> acts;        ///< as it is said to, or may as well
 };
 
-std::vector<Said> said_in(const json& result) {
+/// What is said to be gone for sure is no name of anything in a trial where nothing went.
+std::vector<Said> said_in(const json& result, bool something_went) {
   std::vector<Said> list;
   for (const json& f : result.at("findings")) {
     Said s;
@@ -32,7 +34,14 @@ std::vector<Said> said_in(const json& result) {
     s.id = fmt::format("{}@{}", s.effect, s.site);
     if (f.contains("ambiguous_with")) s.set = f.at("ambiguous_with");
     s.doubted = f.contains("or_without_name");
-    s.since = f.value("since_reference", false) && !f.value("may_act_in_both", false);
+    const bool since = f.value("since_reference", false);
+    const bool gone = f.value("gone_since_reference", false);
+    const bool in_both = f.value("may_act_in_both", false);
+    const bool may_since = f.value("may_have_come_since", false);
+    s.since = since && !in_both;
+    if (since || may_since) s.acts.push_back(Acts::in_log);
+    if (gone || f.value("may_have_gone_since", false)) s.acts.push_back(Acts::in_reference);
+    if (gone && !in_both && !may_since && !something_went) s.id += " (gone)";
     list.push_back(s);
   }
   return list;
@@ -178,6 +187,9 @@ void judge_reference(const Machine& m, const Trial& trial, const std::vector<Sai
     } else {
       j.false_since = j.false_since || (there && s.since);
     }
+    if (trial.acts != Acts::as_usual && there && std::ranges::count(s.acts, trial.acts) == 0) {
+      j.false_time = true;
+    }
   }
 }
 
@@ -283,7 +295,7 @@ Judgement judge(const Trial& trial, const json& result) {
     return j;
   }
   const Machine m = machine(trial.machine);
-  const std::vector<Said> said = said_in(result);
+  const std::vector<Said> said = said_in(result, trial.acts == Acts::in_reference);
   for (const Said& s : said) {
     j.said += (j.said.empty() ? "" : ", ") + s.id;
     if (!s.set.empty()) j.said += fmt::format(" (or {} others)", s.set.size());

@@ -38,8 +38,10 @@ struct Judgement {
                               ///< moment on), be it as one of a set
   bool false_since = false;   ///< what is there is said to have come since the reference log, which
                               ///< has it too
-  std::string said;           ///< the findings' names
-  std::size_t set_size = 0;   ///< other names in the largest set of inseparable ones
+  /// Of what came or went: it is named, and said to act in other logs than it does.
+  bool false_time = false;
+  std::string said;          ///< the findings' names
+  std::size_t set_size = 0;  ///< other names in the largest set of inseparable ones
   double error_ratio = 0.0;  ///< held-out error over that of the model told the truth; 0: not known
   /// Distance from the true inertias, of all numbers and of those that the diagnosis calls
   /// determined: relative to the links' masses and a decimetre, and in kg, kg m and kg m^2 apart.

@@ -89,9 +89,16 @@ double quantile(const std::vector<double>& sorted, double share) {
 /// these.
 std::string reference_rows(const std::vector<Scored>& all) {
   int unneeded = 0, without_load = 0, false_load = 0, others = 0, false_since = 0;
+  int changes = 0, false_time = 0;
   for (const Scored& s : all) {
     const bool answered =
         s.judgement.outcome != Outcome::refused && s.judgement.outcome != Outcome::crashed;
+    if (s.trial.acts != Acts::as_usual) {
+      if (!answered || s.trial.items.empty()) continue;
+      ++changes;
+      if (s.judgement.false_time) ++false_time;
+      continue;
+    }
     if (!needs_reference(s.trial)) {
       ++without_load;
       if (s.trial.reference) ++unneeded;
@@ -101,12 +108,16 @@ std::string reference_rows(const std::vector<Scored>& all) {
     ++others;
     if (s.judgement.false_since) ++false_since;
   }
+  const std::string of_changes =
+      share("an effect that came since the reference log or went said to act otherwise", false_time,
+            changes, "none");
   return share("trials without a static load that had a reference log", unneeded, without_load,
                "a third") +
          share("of these a load named where there is none, be it as one of several names",
                false_load, unneeded, "<= 1 %") +
          share("an effect said to have come since a reference log that has it too", false_since,
-               others, "none");
+               others, "none") +
+         (changes > 0 ? of_changes : "");
 }
 
 /// How much is hidden behind "ambiguous": a diagnosis that lists the whole catalogue is never

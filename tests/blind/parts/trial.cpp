@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "shapeid/models/file_output.hpp"
 #include "shapeid/models/log_writer.hpp"
@@ -15,6 +17,10 @@ namespace shapeid::blind {
 namespace {
 
 using nlohmann::json;
+
+const std::map<Acts, std::string> acts_words = {{Acts::as_usual, "as usual"},
+                                                {Acts::in_log, "in the log"},
+                                                {Acts::in_reference, "in the reference log"}};
 
 Ingredients ingredients(const Machine& machine, const std::vector<Item>& items) {
   Ingredients in;
@@ -72,6 +78,22 @@ std::vector<Item> without_loads(std::vector<Item> items) {
   return items;
 }
 
+std::vector<Item> items_in_log(const Trial& trial) {
+  return trial.acts == Acts::in_reference ? std::vector<Item>{} : trial.items;
+}
+
+std::vector<Item> items_in_reference(const Trial& trial) {
+  switch (trial.acts) {
+    case Acts::in_log:
+      return {};
+    case Acts::in_reference:
+      return trial.items;
+    case Acts::as_usual:
+      break;
+  }
+  return without_loads(trial.items);
+}
+
 json to_json(const Trial& trial) {
   json items = json::array();
   for (const Item& item : trial.items) {
@@ -89,6 +111,7 @@ json to_json(const Trial& trial) {
           {"items", items},
           {"reference", trial.reference},
           {"reference_needed", needs_reference(trial)},
+          {"acts", acts_words.at(trial.acts)},
           {"error", trial.error}};
 }
 
@@ -108,6 +131,10 @@ Trial trial_from_json(const json& document) {
          item.at("ratio")});
   }
   trial.reference = document.value("reference", needs_reference(trial));
+  const std::string acts = document.value("acts", acts_words.at(Acts::as_usual));
+  for (const auto& [which, words] : acts_words) {
+    if (words == acts) trial.acts = which;
+  }
   return trial;
 }
 

@@ -18,19 +18,29 @@ struct Item {
   double ratio = 0.0;  ///< size over the detectable one; 0 if no size can be detected
 };
 
+/// Which logs the items of a trial are in.
+enum class Acts {
+  as_usual,     ///< loads in the log, all else in the reference log, too
+  in_log,       ///< they came since the reference log
+  in_reference  ///< they went since then
+};
+
 struct Trial {
   std::string machine;
   std::uint64_t motion_seed = 1, noise_seed = 1, inertia_seed = 1;
   std::vector<Item> items;
   bool reference = false;  ///< a log without the loads comes with it
-  std::string error;       ///< why there is no log (the robot fell); else empty
+  Acts acts = Acts::as_usual;
+  std::string error;  ///< why there is no log (the robot fell); else empty
 };
 
 /// Whether something in it is told from its link only by a log without it: a load that was never
 /// absent.
 [[nodiscard]] bool needs_reference(const Trial& trial);
-/// What acts in the reference log: all but loads, which were put on since.
+/// Those of the items that act as usual in a reference log: all but loads, which were put on since.
 [[nodiscard]] std::vector<Item> without_loads(std::vector<Item> items);
+[[nodiscard]] std::vector<Item> items_in_log(const Trial& trial);
+[[nodiscard]] std::vector<Item> items_in_reference(const Trial& trial);
 
 [[nodiscard]] nlohmann::json to_json(const Trial& trial);
 /// Of seals that say nothing of a reference: there was one where it was needed.

@@ -251,7 +251,7 @@ ToldTruth told_truth(const Machine& machine, const Trial& trial, const Recording
                      const Recording& test) {
   const Robot given = with_inertias(machine, wrong_inertias(machine, trial.inertia_seed));
   RichModel model{stacked_parameters(given), {}};
-  for (const Item& item : trial.items) model.effects.push_back(applied(machine, item));
+  for (const Item& item : items_in_log(trial)) model.effects.push_back(applied(machine, item));
   const Eigen::MatrixXd none =
       Eigen::MatrixXd::Zero(machine.robot.dof(), std::ssize(log.usable(1)));
   const std::vector<Block> blocks = blocks_of(machine, log, model, none);

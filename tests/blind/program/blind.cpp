@@ -23,6 +23,19 @@ std::string items_text(const Trial& trial) {
   return text.empty() ? "clean" : text;
 }
 
+const char* reference_text(const Trial& trial) {
+  if (!trial.reference) return "";
+  switch (trial.acts) {
+    case Acts::in_log:
+      return ", not in the reference";
+    case Acts::in_reference:
+      return ", in the reference alone";
+    case Acts::as_usual:
+      break;
+  }
+  return ", reference";
+}
+
 void score(const std::vector<std::string>& folders) {
   const TrialFolders found = find_trials(folders);
   std::vector<Scored> all;
@@ -31,8 +44,8 @@ void score(const std::vector<std::string>& folders) {
     const Scored s = score_trial(trial);
     const double ratio = s.judgement.error_ratio;
     lines += fmt::format("| {} | {}{} | {} | {}{} | {} |\n", s.trial.machine, items_text(s.trial),
-                         s.trial.reference ? ", reference" : "", s.judgement.said,
-                         name_of(s.judgement.outcome), s.judgement.beside ? " beside" : "",
+                         reference_text(s.trial), s.judgement.said, name_of(s.judgement.outcome),
+                         s.judgement.beside ? " beside" : "",
                          ratio > 0.0 ? fmt::format("{:.3f}", ratio) : "-");
     all.push_back(s);
   }
@@ -64,6 +77,8 @@ int main(int argc, char** argv) {
   generating->add_option("--ratio", options.ratio, "times the detectable size (default: drawn)");
   generating->add_option("--only", options.only,
                          "this kind alone, clean, or foreign: any that is not in the catalogue");
+  generating->add_flag("--changes", options.changes,
+                       "each with a reference log, since which its effects came or went");
   CLI::App* scoring = app.add_subcommand("score", "opens the seals and prints the tables");
   std::vector<std::string> folders;
   scoring->add_option("folders", folders, "all in one table")->required();
