@@ -33,6 +33,7 @@ Eigen::VectorXd online_weight(const Eigen::VectorXd& given, Eigen::Index dof) {
     throw InputError("the weight is not a positive number for each of the robot's equations",
                      "one entry a generalised coordinate, 1 / sigma^2");
   }
+  if (dof == 0) return weight;  // a fixed base without joints has no equations
   constexpr double smallest = 1e-100, largest = 1e100;  // squares of what they weigh are numbers
   if (!(weight.minCoeff() >= smallest && weight.maxCoeff() <= largest)) {
     throw InputError("the weight's numbers are not from 1e-100 to 1e100",

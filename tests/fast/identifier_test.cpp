@@ -268,6 +268,26 @@ TEST(FastIdentifier, TheModelIsTheRobots) {
   refuse_both(robot, model, "has no shape");
 }
 
+/// A body that stands, and nothing that is sought: no equation, so every window is answered by
+/// nothing.
+TEST(FastIdentifier, ARobotWithoutEquations) {
+  Robot robot;
+  robot.root = Root::fixed;
+  robot.links.emplace_back();
+  BodyModel model;
+  model.known = stacked_parameters(robot);
+  fast::IdentifierSettings settings;
+  reference::OnlineSettings same;
+  settings.expected_mass = same.expected_mass = 1.0;
+  settings.window = settings.stride = same.window = same.stride = 1;
+  Identifier identifier(robot, model, settings);
+  reference::OnlineIdentifier expected(robot, model, same);
+  EXPECT_EQ(identifier.feed(Sample{}), Fed::answered);
+  EXPECT_TRUE(expected.feed(Sample{}).has_value());
+  EXPECT_EQ(identifier.answer().value.total(), 0.0);
+  EXPECT_EQ(identifier.Phi().size(), 0);
+}
+
 /// A log with contacts for a robot that has none, a joint too few: as if not fed, in every build.
 TEST(FastIdentifier, SamplesOfOtherSizesLeaveNoTrace) {
   const Robot robot = test::bundled_quadruped();
