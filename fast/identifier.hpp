@@ -62,8 +62,8 @@ struct WindowAnswer {
 /// of all links (torques: at a metre): it would leave its scale to lambda.
 class Identifier {
  public:
-  /// Copies what it needs. Throws InputError for settings that make no sense, and for a model that
-  /// is not this robot's.
+  /// Copies what it needs. Throws InputError for settings that make no sense, for a malformed
+  /// robot, and for a model that is not this robot's.
   Identifier(const Robot& robot, const BodyModel& model, const IdentifierSettings& settings);
 
   enum class Fed {

@@ -57,9 +57,16 @@ double squares_of_weight(const BodyModel& model, double expected_mass, std::size
 }
 
 void check_sought(const Robot& robot, const BodyModel& model) {
+  if (const Violation reason = why_malformed(robot)) {
+    throw InputError("the robot is malformed: " + *reason,
+                     "links after their parents, axes of length one, contacts on links");
+  }
   if (const Violation reason = why_malformed(model, robot)) {
     throw InputError("the model is not this robot's: " + *reason,
                      "make it for the robot that is given");
+  }
+  if (!model.known.allFinite()) {
+    throw InputError("a known parameter is not finite", "zeros for a link that is sought");
   }
   if (robot.root == Root::fixed && !model.free_links.empty() && model.free_links.front() == 0) {
     throw InputError("the base of a robot that does not move is sought",

@@ -21,7 +21,8 @@ struct OnlineNumbers {
 /// Throws InputError for numbers that make no sense.
 void check_online(const OnlineNumbers& numbers);
 
-/// Throws InputError unless the model is this robot's, and what it seeks moves.
+/// Throws InputError unless the robot is well-formed, the model is this robot's with finite known
+/// parameters, and what it seeks moves.
 void check_sought(const Robot& robot, const BodyModel& model);
 
 /// The diagonal of W, ones where none is given. Throws InputError unless there is a positive number

@@ -266,6 +266,39 @@ TEST(FastIdentifier, TheModelIsTheRobots) {
   refuse_both(standing, model, "does not move");
   model.shapes.clear();
   refuse_both(robot, model, "has no shape");
+  model = test::base_model(robot);
+  model.known[4] = std::numeric_limits<double>::quiet_NaN();  // every sample would be declined
+  refuse_both(robot, model, "not finite");
+}
+
+/// Robots that no reader has made: links and contacts would be looked for where none are, for ever
+/// where a link carries itself.
+TEST(FastIdentifier, TheRobotIsWellFormed) {
+  const Robot robot = test::bundled_quadruped();
+  const BodyModel model = test::bundled_shapes(robot);
+  const auto refused = [&](const std::string& says, auto change) {
+    Robot other = robot;
+    change(other);
+    fast::IdentifierSettings settings;
+    reference::OnlineSettings same;
+    settings.expected_mass = same.expected_mass = 1.0;
+    for (const bool fast_path : {true, false}) {
+      try {
+        if (fast_path) {
+          Identifier(other, model, settings);
+        } else {
+          reference::OnlineIdentifier(other, model, same);
+        }
+        ADD_FAILURE() << says;
+      } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+      }
+    }
+  };
+  refused("has no links", [](Robot& r) { r.links.clear(); });
+  refused("does not stand before it", [](Robot& r) { r.links[2].parent = 2; });
+  refused("is on no link", [](Robot& r) { r.contacts.front().link = r.link_count(); });
+  refused("not a unit vector", [](Robot& r) { r.links.back().joint.axis *= 2.0; });
 }
 
 /// A body that stands, and nothing that is sought: no equation, so every window is answered by
