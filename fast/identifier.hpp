@@ -48,7 +48,8 @@ struct WindowAnswer {
   int iterations = 0;  ///< small systems, of all divisions together
   int divisions = 0;
   Division::Stop stopped_by = Division::Stop::limit;  ///< what ended the divisions
-  double seconds = 0.0;         ///< of all calls since the last window, solve and divisions
+  double seconds = 0.0;  ///< of all calls that took a sample since the last window, its solve
+                         ///< and divisions
   double slowest_sample = 0.0;  ///< s, of the calls that only kept a sample
   double last_call = 0.0;       ///< s, of the call that completed the window
 };
@@ -69,9 +70,9 @@ class Identifier {
   enum class Fed {
     kept,             ///< no window is complete yet
     answered,         ///< a window was solved: answer(), masses(), Phi() and filtered() are new
-    sample_declined,  ///< sizes are not the robot's, a number is not finite (or its square), or
-                      ///< forces are missing: as if not fed
-    window_declined   ///< not solved, see outcome(): the last answer stays; ask the reference
+    sample_declined,  ///< sizes are not the robot's, a number is not finite or a square that
+                      ///< follows from it is not, or forces are missing: as if not fed
+    window_declined  ///< not solved, see outcome(): the last answer stays; ask the reference
   };
 
   /// Takes a sample; every `stride` samples, once `window` are there, solves.

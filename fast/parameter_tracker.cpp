@@ -69,6 +69,7 @@ bool ParameterTracker::set(const Eigen::VectorXd& mean, const Eigen::MatrixXd& c
   // x0.
   const Eigen::VectorXd unit = spread_.cwiseInverse();
   const Eigen::MatrixXd P = unit.asDiagonal() * covariance * unit.asDiagonal();
+  if (!P.allFinite()) return false;  // its rows would be zero, or no numbers
   Eigen::LLT<Eigen::MatrixXd> llt(P);
   if (llt.info() != Eigen::Success) {
     // What is known to more digits than a double has beside the rest is known to as many.

@@ -119,7 +119,7 @@ typedef struct shapeid_sample {
 typedef enum shapeid_status {
   SHAPEID_KEPT,     /**< no window is complete yet */
   SHAPEID_ANSWERED, /**< a window was solved: all that can be read below is new */
-  /** A number is not finite, also the time, or so large that its square is not; or forces are
+  /** A number is not finite, also the time, or a square that follows from it is not; or forces are
    * missing: as if not fed. */
   SHAPEID_SAMPLE_DECLINED,
   /** Not solved, and shapeid_last_outcome() says why: the last answer stays. */
@@ -176,10 +176,11 @@ typedef struct shapeid_answer {
   /** f is at most this much above its minimum over the present shapes, if the masses there add up
    * to no more than mass_bound. Rounding can leave it a little below zero. */
   double gap;
-  int iterations;                /**< small systems solved, of all divisions together */
-  int divisions;                 /**< done in this window */
-  shapeid_stop stopped_by;       /**< what ended them */
-  double window_seconds;         /**< of all calls since the last window, solve and divisions */
+  int iterations;          /**< small systems solved, of all divisions together */
+  int divisions;           /**< done in this window */
+  shapeid_stop stopped_by; /**< what ended them */
+  /** Of all calls that took a sample since the last window, its solve and divisions. */
+  double window_seconds;
   double slowest_sample_seconds; /**< of the calls that only kept a sample */
   double last_call_seconds;      /**< of the call that completed the window */
 } shapeid_answer;

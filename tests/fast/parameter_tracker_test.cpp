@@ -70,6 +70,16 @@ TEST(ParameterTracker, KeepsItsBeliefWhereNoOtherComesAbout) {
   EXPECT_TRUE(tracker.covariance().allFinite());
 }
 
+/// A variance that is a number, but none in units of the spread: rows of zeros would say nothing.
+TEST(ParameterTracker, KeepsItsBeliefWhereItWandersBeyondAllSpreads) {
+  ParameterTracker tracker(VectorXd::Zero(1), VectorXd::Constant(1, 1e-100),
+                           VectorXd::Constant(1, 1e100));
+  const MatrixXd before = tracker.rows().R();
+  EXPECT_FALSE(tracker.drift(1.0));
+  EXPECT_EQ(tracker.rows().R(), before);
+  EXPECT_TRUE(tracker.covariance().allFinite());
+}
+
 RC_GTEST_PROP(ParameterTracker, EqualsTheTextbook, ()) {
   const auto n = *rc::gen::inRange<Index>(1, 8);
   const VectorXd start = *test::vector(n, 2.0);
