@@ -111,7 +111,8 @@ static int make_line(const shapeid_identifier* identifier, line* made) {
   return 1;
 }
 
-static void take_numbers(line* from) {
+/* 0 if a contact neither touches nor does not. */
+static int take_numbers(line* from) {
   const double* contacts = from->sample.tau + from->sample.joint_count;
   size_t i = 0;
   from->sample.time = from->numbers[0];
@@ -120,7 +121,11 @@ static void take_numbers(line* from) {
     from->sample.base_angular_acceleration[i] = from->numbers[4 + i];
     from->sample.base_specific_force[i] = from->numbers[7 + i];
   }
-  for (i = 0; i < from->sample.contact_count; ++i) from->in_contact[i] = contacts[i] != 0.0;
+  for (i = 0; i < from->sample.contact_count; ++i) {
+    if (contacts[i] != 0.0 && contacts[i] != 1.0) return 0;
+    from->in_contact[i] = contacts[i] == 1.0;
+  }
+  return 1;
 }
 
 static int identify(shapeid_identifier* identifier, line* next) {
@@ -132,7 +137,10 @@ static int identify(shapeid_identifier* identifier, line* next) {
               found < next->count ? "fewer" : "more", (unsigned long)next->count);
       return bad_input;
     }
-    take_numbers(next);
+    if (!take_numbers(next)) {
+      fprintf(stderr, "samples:%lu: a contact is neither 0 nor 1\n", number);
+      return bad_input;
+    }
     switch (shapeid_feed(identifier, &next->sample)) {
       case SHAPEID_ANSWERED:
         print_answer(identifier);

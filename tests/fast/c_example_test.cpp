@@ -134,6 +134,15 @@ TEST(CExample, RefusesBadLines) {
   }
 }
 
+// What is no number would touch, unequal to zero as it is.
+TEST(CExample, RefusesContactsThatAreNeitherOneNorZero) {
+  const std::string good = line_of(samples(1)[0]);
+  for (const std::string wrong : {"nan", "2", "-1", "0.5"}) {
+    expect_refused(run_example(quadruped(), good + good.substr(0, good.size() - 2) + wrong + "\n"),
+                   "samples:2: a contact");
+  }
+}
+
 TEST(CExample, TooFewSamplesAreNoAnswer) {
   const ProgramRun run = run_example(quadruped(), line_of(samples(1)[0]));
   EXPECT_EQ(run.status, 1);
