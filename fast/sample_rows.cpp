@@ -1,3 +1,7 @@
+#if __FINITE_MATH_ONLY__ != 0
+#error "what is not finite is looked for: compile without -ffast-math or -ffinite-math-only"
+#endif
+
 #include "shapeid/fast/sample_rows.hpp"
 
 #include <string>
