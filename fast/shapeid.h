@@ -11,11 +11,19 @@
  * SI units and radians. A contact or link is told by its place in the robot's order, which the
  * ..._count and ..._name functions give; joints are in the order of shapeid_joint_name().
  *
- * Link against shapeid::fast; the linker is that of C++ (CMake: LANGUAGES C CXX). */
+ * Link against shapeid::fast; the linker is that of C++ (CMake: LANGUAGES C CXX). A program in C++
+ * that has Eigen as well shares Eigen's functions with the library, and must align as it does
+ * (README.md): include Eigen before this file, and the linker says so if it does not. */
 #ifndef SHAPEID_FAST_SHAPEID_H
 #define SHAPEID_FAST_SHAPEID_H
 
 #include <stddef.h>
+
+#if defined(__cplusplus) && (defined(EIGEN_CORE_H) || defined(EIGEN_CORE_MODULE_H))
+#if __cplusplus >= 201103L
+#include "shapeid/models/alignment.hpp"
+#endif
+#endif
 
 #ifdef __cplusplus
 extern "C" {

@@ -21,13 +21,17 @@ must(${CMAKE_COMMAND} --build ${work}/build)
 must(${work}/build/consumer)
 must(${work}/build/consumer_of_certificates)
 set(quadruped ${SOURCE}/models/robots/quadruped)
-must(${work}/build/consumer_in_c ${quadruped}.urdf ${quadruped}.robot.yaml ${quadruped}.shapes.yaml)
+set(files ${quadruped}.urdf ${quadruped}.robot.yaml ${quadruped}.shapes.yaml)
+must(${work}/build/consumer_in_c ${files})
+must(${work}/build/consumer_of_both ${files})
 
 # Of another alignment of Eigen the linker says that it is not the library's; the program would crash.
 if(CMAKE_HOST_SYSTEM_PROCESSOR STREQUAL "x86_64")
   must(${CMAKE_COMMAND} -S ${SOURCE}/tests/house/consumer -B ${work}/wider -G Ninja
        -DCMAKE_PREFIX_PATH=${work}/prefix "-DCMAKE_CXX_FLAGS=${FLAGS} -mavx")
-  must_fail("built_with_this_alignment_of_eigen" ${CMAKE_COMMAND} --build ${work}/wider --target consumer)
+  foreach(target consumer consumer_of_both)
+    must_fail("built_with_this_alignment_of_eigen" ${CMAKE_COMMAND} --build ${work}/wider --target ${target})
+  endforeach()
 endif()
 
 # What is asked for by name, and what each name needs.
