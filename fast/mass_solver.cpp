@@ -383,7 +383,8 @@ Violation MassSolver::why_changed() const {
     return "the division changes R Phi by " + std::to_string(std::sqrt(square));
   }
   // At lambda = 0 masses may move among dependent shapes, and no density term holds them.
-  if (!(std::abs(density - value().density) <= allowed * density)) {
+  const double change = std::abs(density - value().density);
+  if (!(change <= allowed * density + std::numeric_limits<double>::min())) {
     return "the division changes the density term from " + std::to_string(value().density) +
            " to " + std::to_string(density);
   }

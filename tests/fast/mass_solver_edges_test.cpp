@@ -540,6 +540,22 @@ TEST(FastMassEdges, DensityBesideALargeLambda) {
   }
 }
 
+/// A density term of so few digits that its parts round otherwise: where contracts are checked, an
+/// identifier that nearly nothing pulls at ended the program.
+TEST(FastMassEdges, DensityOfAFewDigitsMayRoundOtherwise) {
+  for (const double lambda : {1e-305, 1e-310, 1e-315, 1e-320}) {
+    MassSolver solver(1, 3);
+    solver.set_lambda(lambda);
+    ASSERT_TRUE(solver.append(0, MassSolver::Column::Unit(0), 1.0));
+    Eigen::MatrixXd R = Eigen::MatrixXd::Identity(11, 11);
+    R.col(10).setOnes();
+    ASSERT_EQ(solver.solve(R), Outcome::solved);
+    ASSERT_TRUE(
+        solver.divide(0, MassSolver::Column::Unit(0), 0.3, MassSolver::Column::Unit(0), 0.7));
+    EXPECT_EQ(solver.why_changed(), std::nullopt) << lambda;
+  }
+}
+
 /// Prices are of single precision: columns that it does not hold are left to the reference.
 TEST(FastMassEdges, ColumnsBeyondSinglePrecisionAreDeclined) {
   MassProblem problem;
