@@ -72,7 +72,7 @@ class Identifier {
     answered,         ///< a window was solved: answer(), masses(), Phi() and filtered() are new
     sample_declined,  ///< sizes are not the robot's, a number is not finite or a square that
                       ///< follows from it is not, or forces are missing: as if not fed
-    window_declined  ///< not solved, see outcome(): the last answer stays; ask the reference
+    window_declined   ///< not solved, see outcome(): the last answer stays; ask the reference
   };
 
   /// Takes a sample; every `stride` samples, once `window` are there, solves.
