@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +57,39 @@ TEST(Layout, NoFileIsLargerThanADocument) {
   for (const std::string& file : files) {
     if (fs::is_regular_file(root / file)) {
       EXPECT_LE(fs::file_size(root / file), largest) << file;
+    }
+  }
+}
+
+/// Words in `backticks` in the rows of a page's tables, without the ending of a source or header.
+std::set<std::string> files_in_tables(const std::string& page) {
+  const std::regex name(R"(`([\w./]+?)(?:\.cpp|\.hpp|\.h)?`)");
+  std::set<std::string> names;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with('|')) continue;
+    for (std::sregex_iterator m(line.begin(), line.end(), name), end; m != end; ++m) {
+      names.insert((*m)[1].str());
+    }
+  }
+  return names;
+}
+
+/// Who reads a folder's README learns of every file what it is for.
+TEST(Layout, EverySourceIsInATableOfItsFolder) {
+  for (const char* folder : {"app", "diagnosis", "diagnosis/effects", "fast", "models",
+                             "models/simbody", "proofs/certificate", "reference"}) {
+    const std::set<std::string> listed = files_in_tables(text_of(root / folder / "README.md"));
+    EXPECT_FALSE(listed.empty()) << folder;
+    std::set<std::string> missing;
+    for (const auto& file : fs::directory_iterator(root / folder)) {
+      const std::string ending = file.path().extension().string();
+      if (ending != ".cpp" && ending != ".hpp" && ending != ".h") continue;
+      const std::string name = file.path().stem().string();
+      if (!listed.contains(name)) missing.insert(name);
+    }
+    for (const std::string& name : missing) {
+      ADD_FAILURE() << folder << "/README.md does not list " << name;
     }
   }
 }
