@@ -45,7 +45,11 @@ class Finder {
     for (std::size_t i = 0; i < log.columns().size(); ++i) columns_[log.columns()[i]] = i;
     if (!mapping) return;
     for (const auto& [ours, rule] : mapping->columns) {
-      static_cast<void>(column(rule.from, fmt::format("the mapping takes {} from it", ours)));
+      if (column(rule.from)) continue;
+      throw InputError(
+          mapping->at(rule),
+          fmt::format("{} is to be column {}, which {} does not have", ours, rule.from, path_),
+          "name a column of the log");
     }
   }
 
@@ -58,12 +62,10 @@ class Finder {
                        [&](const std::string& name) { return has(name); });
   }
 
-  /// Index of a column of the log; `why` says who needs it.
-  std::size_t column(const std::string& from, const std::string& why) {
+  /// Index of a column of the log, which counts as used then; none where there is no such column.
+  std::optional<std::size_t> column(const std::string& from) {
     const auto found = columns_.find(from);
-    if (found == columns_.end()) {
-      throw InputError({path_, header_line}, fmt::format("has no column {}", from), why);
-    }
+    if (found == columns_.end()) return std::nullopt;
     used_.insert(from);
     return found->second;
   }
@@ -71,12 +73,15 @@ class Finder {
   Channel find(const std::string& ours) {
     asked_.insert(ours);
     const ColumnRule* const r = rule(ours);
-    if (r == nullptr) {
-      use_once(ours, ours);
-      return {ours, ours, column(ours, "add it, or name its source in a mapping file")};
+    const std::string from = r == nullptr ? ours : r->from;
+    use_once(from, ours);
+    const std::optional<std::size_t> at = column(from);
+    if (!at) {  // of a rule it is there: the mapping was looked at first
+      throw InputError({path_, header_line}, fmt::format("has no column {}", from),
+                       "add it, or name its source in a mapping file");
     }
-    Channel channel{ours, r->from, column(r->from, ""), r->sign * r->scale, r->offset};
-    use_once(r->from, ours);
+    if (r == nullptr) return {ours, ours, *at};
+    Channel channel{ours, from, *at, r->sign * r->scale, r->offset};
     if (!r->hold.empty()) {
       channel.hold_group =
           groups_.try_emplace(r->hold, static_cast<int>(groups_.size())).first->second;
@@ -97,7 +102,8 @@ class Finder {
     if (!mapping_) return;
     for (const auto& [ours, rule] : mapping_->columns) {
       if (asked_.contains(ours)) continue;
-      throw InputError(fmt::format("the mapping makes {} of {}, which means nothing for {}", ours,
+      throw InputError(mapping_->at(rule),
+                       fmt::format("{} is made of column {}, and means nothing for {}", ours,
                                    rule.from, robot.name),
                        "make time, base.gyro, base.accel, q, dq, ddq or tau of its joints, contact "
                        "or force of its contacts");
@@ -119,9 +125,12 @@ class Finder {
     if (ours.starts_with("contact.")) return;
     const auto [first, is_new] = makes_.try_emplace(from, ours);
     if (is_new || first->second == ours) return;
-    throw InputError({path_, header_line, from},
-                     fmt::format("is to be {} and {}", first->second, ours),
-                     "a column of its own for each, in the log or in the mapping");
+    // Names in a log are there once: one of the two at least is a rule.
+    const ColumnRule* const either = rule(ours) != nullptr ? rule(ours) : rule(first->second);
+    throw InputError(
+        mapping_->at(*either),
+        fmt::format("column {} of {} is to be {} and {}", from, path_, first->second, ours),
+        "a column of its own for each, in the log or in the mapping");
   }
 
   [[nodiscard]] const ColumnRule* rule(const std::string& ours) const {
@@ -148,14 +157,17 @@ void declare_torque(const std::optional<Mapping>& mapping, const std::string& pa
     if (!(mapping && mapping->torque) && tau.from != tau.name &&
         sounds_like_current_or_motor(tau.from)) {
       throw InputError(
-          {path, header_line, tau.from},
-          fmt::format("is to be {}, but sounds like a current or a motor-side torque", tau.name),
+          mapping->at(mapping->columns.at(tau.name)),
+          fmt::format("{} is to be column {} of {}, which sounds like a current or a motor-side "
+                      "torque",
+                      tau.name, tau.from, path),
           "declare torque: {kind: joint | motor | current, factor} in the mapping");
     }
     if (kind == TorqueKind::joint) continue;
     const auto factor = mapping->torque_factor.find(joint);
     if (factor == mapping->torque_factor.end()) {
-      throw InputError(fmt::format("the mapping gives no torque factor for joint {}", joint),
+      throw InputError(mapping->at_torque(),
+                       fmt::format("there is no torque factor for joint {}", joint),
                        kind == TorqueKind::motor ? "give the gear ratio of every joint"
                                                  : "give N m per A of every joint");
     }
@@ -165,8 +177,9 @@ void declare_torque(const std::optional<Mapping>& mapping, const std::string& pa
   if (mapping) {
     for (const auto& [joint, factor] : mapping->torque_factor) {
       if (robot.find_joint(joint)) continue;
-      throw InputError(fmt::format("the mapping gives a torque factor for {}", joint),
-                       fmt::format("a joint of {} that moves", robot.name));
+      throw InputError(mapping->at_factor(joint),
+                       fmt::format("{} has a torque factor, and is no joint that moves", joint),
+                       fmt::format("name joints of {} that move", robot.name));
     }
   }
 }
@@ -188,13 +201,13 @@ void check_root(Finder& finder, const std::string& path, const Robot& robot) {
   }
 }
 
-void check_contacts(const std::vector<std::string>& names, const std::string& path,
+void check_contacts(const LogTable& log, const std::optional<Mapping>& mapping,
                     const Robot& robot) {
-  for (const std::string& name : names) {
+  for (const std::string& name : contact_names(log, mapping)) {
     const bool known = std::any_of(robot.contacts.begin(), robot.contacts.end(),
                                    [&](const Contact& c) { return c.name == name; });
     if (!known) {
-      throw InputError({path, header_line, "contact." + name},
+      throw InputError(place_of_column("contact." + name, log, mapping),
                        robot.find_link(name) ? "is no contact of the robot"
                                              : fmt::format("the robot has no link {}", name),
                        "name links of the URDF, and declare them as contacts in robot.yaml");
@@ -217,11 +230,21 @@ std::vector<std::string> contact_names(const LogTable& log, const std::optional<
   return {names.begin(), names.end()};
 }
 
+Place place_of_column(const std::string& ours, const LogTable& log,
+                      const std::optional<Mapping>& mapping) {
+  if (mapping) {
+    if (const auto rule = mapping->columns.find(ours); rule != mapping->columns.end()) {
+      return {mapping->file, rule->second.line, ours};
+    }
+  }
+  return {log.path(), header_line, ours};
+}
+
 ChannelPlan plan_channels(const LogTable& log, const Robot& robot,
                           const std::optional<Mapping>& mapping) {
   Finder finder(log, mapping);
   check_root(finder, log.path(), robot);
-  check_contacts(contact_names(log, mapping), log.path(), robot);
+  check_contacts(log, mapping, robot);
 
   const auto per_joint = [&](const std::string& quantity) {
     std::vector<std::string> names;
@@ -257,7 +280,14 @@ ChannelPlan plan_channels(const LogTable& log, const Robot& robot,
 
   if (mapping) {
     for (const auto& [name, value] : mapping->keep_rows) {
-      plan.keep.push_back({finder.column(name, "the mapping keeps rows by it"), value});
+      const std::optional<std::size_t> column = finder.column(name);
+      if (!column) {
+        throw InputError(
+            mapping->at_kept(name),
+            fmt::format("rows are kept by column {}, which {} does not have", name, log.path()),
+            "name a column of the log");
+      }
+      plan.keep.push_back({*column, value});
     }
   }
   plan.hold_groups = finder.groups();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/models/error.hpp"
 #include "shapeid/models/log.hpp"
 #include "shapeid/models/resampler.hpp"
 #include "shapeid/models/robot.hpp"
@@ -43,13 +44,18 @@ struct ChannelPlan {
 
 /// Finds the channels by name. Throws InputError for missing columns, for a floating log of a
 /// fixed robot and the reverse, for contacts that the robot does not have, and for torque channels
-/// whose name says current or motor while the mapping does not declare them.
+/// whose name says current or motor while the mapping does not declare them; what a mapping says
+/// is complained of at its line.
 [[nodiscard]] ChannelPlan plan_channels(const LogTable& log, const Robot& robot,
                                         const std::optional<Mapping>& mapping);
 
 /// The links that the log, or the mapping, has contact.<link> columns for; in alphabetical order.
 [[nodiscard]] std::vector<std::string> contact_names(const LogTable& log,
                                                      const std::optional<Mapping>& mapping);
+
+/// Where a quantity of ours is said to be a column: in the mapping, or else in the log's header.
+[[nodiscard]] Place place_of_column(const std::string& ours, const LogTable& log,
+                                    const std::optional<Mapping>& mapping);
 
 /// What the rows of a table say in the order of its plan: SI units, sample-and-hold resolved.
 class RowMeaning {

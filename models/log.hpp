@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/models/error.hpp"
 #include "shapeid/models/log_table.hpp"
 
 namespace shapeid {
@@ -40,6 +41,7 @@ struct ColumnRule {
   double offset = 0.0;
   double sign = 1.0;
   std::string hold;  ///< sample-and-hold group; empty: every row is a measurement
+  int line = 0;      ///< of the file that says so; 0: not known
 };
 
 enum class TorqueKind { joint, motor, current };
@@ -49,6 +51,17 @@ struct Mapping {
   std::map<std::string, double> keep_rows;      ///< keep rows where column == value
   std::optional<TorqueKind> torque;             ///< what the torque channels are, if declared
   std::map<std::string, double> torque_factor;  ///< per joint: gear (motor) or N m / A (current)
+
+  // Where it was read, for what is found wrong with it beside a log and a robot.
+  std::string file = "the mapping";
+  int torque_line = 0;                                    ///< 0: not known
+  std::map<std::string, int> keep_lines, factor_lines{};  ///< of keep_rows and torque_factor
+
+  [[nodiscard]] Place at(const ColumnRule& rule) const { return {file, rule.line}; }
+  [[nodiscard]] Place at_torque() const { return {file, torque_line}; }
+  /// Of an entry of keep_rows; of one of torque_factor.
+  [[nodiscard]] Place at_kept(const std::string& column) const;
+  [[nodiscard]] Place at_factor(const std::string& joint) const;
 };
 
 /// Throws InputError.

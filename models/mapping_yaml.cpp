@@ -11,15 +11,19 @@
 namespace shapeid {
 namespace {
 
-std::map<std::string, double> read_numbers(const YamlInput& file, const YAML::Node& node,
-                                           const std::string& what) {
+void read_numbers(const YamlInput& file, const YAML::Node& node, const std::string& what,
+                  std::map<std::string, double>& values, std::map<std::string, int>& lines) {
   static_cast<void>(file.keys(node, what));  // a map, and no key twice
-  std::map<std::string, double> values;
   for (const auto& entry : node) {
     const std::string key = entry.first.Scalar();
     values[key] = file.number(entry.second, key);
+    lines[key] = file.at(entry.first).line;
   }
-  return values;
+}
+
+int line_of(const std::map<std::string, int>& lines, const std::string& key) {
+  const auto found = lines.find(key);
+  return found == lines.end() ? 0 : found->second;
 }
 
 /// `hold: true` is a group of its own, `hold: name` shares one.
@@ -70,7 +74,10 @@ TorqueKind read_kind(const YamlInput& file, const YAML::Node& node) {
 void read_torque(const YamlInput& file, const YAML::Node& node, Mapping& mapping) {
   file.check_keys(node, "torque", {"kind"}, {"factor"});
   mapping.torque = read_kind(file, node["kind"]);
-  if (node["factor"]) mapping.torque_factor = read_numbers(file, node["factor"], "factor");
+  mapping.torque_line = file.at(node).line;
+  if (node["factor"]) {
+    read_numbers(file, node["factor"], "factor", mapping.torque_factor, mapping.factor_lines);
+  }
   for (const auto& [joint, factor] : mapping.torque_factor) {
     if (factor != 0.0) continue;
     file.refuse(node["factor"][joint], fmt::format("the factor of {} is zero", joint),
@@ -86,20 +93,30 @@ void read_torque(const YamlInput& file, const YAML::Node& node, Mapping& mapping
 
 }  // namespace
 
+Place Mapping::at_kept(const std::string& column) const {
+  return {file, line_of(keep_lines, column)};
+}
+
+Place Mapping::at_factor(const std::string& joint) const {
+  return {file, line_of(factor_lines, joint)};
+}
+
 Mapping read_mapping_yaml(const std::string& path) {
   const YamlInput file(path);
   const YAML::Node& root = file.root();
   file.check_keys(root, "the mapping", {}, {"columns", "keep_rows", "torque"});
   Mapping mapping;
+  mapping.file = path;
   if (const YAML::Node columns = root["columns"]) {
     static_cast<void>(file.keys(columns, "columns"));
     for (const auto& entry : columns) {
       const std::string ours = entry.first.Scalar();
-      mapping.columns[ours] = read_rule(file, entry.second, ours);
+      ColumnRule& rule = mapping.columns[ours] = read_rule(file, entry.second, ours);
+      rule.line = file.at(entry.first).line;
     }
   }
   if (const YAML::Node keep = root["keep_rows"]) {
-    mapping.keep_rows = read_numbers(file, keep, "keep_rows");
+    read_numbers(file, keep, "keep_rows", mapping.keep_rows, mapping.keep_lines);
   }
   if (const YAML::Node torque = root["torque"]) read_torque(file, torque, mapping);
   return mapping;

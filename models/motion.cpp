@@ -273,8 +273,8 @@ void add_default_contacts(Robot& robot, const LogTable& log,
   for (const std::string& name : contact_names(log, mapping)) {
     const std::optional<int> link = robot.find_link(name);
     if (!link) {
-      throw InputError({log.path(), 1, "contact." + name}, "the robot has no link of this name",
-                       "name links of the URDF");
+      throw InputError(place_of_column("contact." + name, log, mapping),
+                       "the robot has no link of this name", "name links of the URDF");
     }
     const std::vector<Member>& members = robot.links[static_cast<std::size_t>(*link)].members;
     const auto member = std::find_if(members.begin(), members.end(),

@@ -67,7 +67,7 @@ TEST(Mapping, MakesNothingThatTheRobotDoesNotKnow) {
         read_mapping_yaml(scratch.write("m.yaml", "columns: {" + target + ": speed}\n"));
     const std::string said =
         message_of<InputError>([&] { MeasuredRows(log, chain(1, Root::fixed), mapping); }, log);
-    EXPECT_EQ(said.find("the mapping makes " + target + " of speed, which means nothing"), 0u)
+    EXPECT_EQ(said.find("m.yaml:1: " + target + " is made of column speed, and means nothing"), 0u)
         << said;
   }
   const Mapping right = read_mapping_yaml(scratch.write("m.yaml", "columns: {dq.j0: speed}\n"));
@@ -198,9 +198,19 @@ TEST(Channels, SayWhatALogLacks) {
       {"t,q.j0,tau.j0\n", "",
        "x.csv:1: has no column time; add it, or name its source in a mapping file"},
       {"time,q.j0,tau.j0\n", "columns: {q.j0: angle}",
-       "x.csv:1: has no column angle; the mapping takes q.j0 from it"},
-      {"time,q.j0,tau.j0\n", "keep_rows: {new: 1}",
-       "x.csv:1: has no column new; the mapping keeps rows by it"},
+       "m.yaml:1: q.j0 is to be column angle, which x.csv does not have; name a column of the log"},
+      {"time,q.j0,tau.j0\n", "keep_rows:\n  new: 1\n",
+       "m.yaml:2: rows are kept by column new, which x.csv does not have; name a column of the "
+       "log"},
+      {"time,q.j0,tau.j0\n", "columns:\n  dq.j0: q.j0\n",
+       "m.yaml:2: column q.j0 of x.csv is to be q.j0 and dq.j0; a column of its own for each, in "
+       "the log or in the mapping"},
+      {"time,a,tau.j0\n", "columns:\n  dq.j0: a\n  q.j0: a\n",
+       "m.yaml:2: column a of x.csv is to be q.j0 and dq.j0; a column of its own for each, in the "
+       "log or in the mapping"},
+      {"time,q.j0,tau.j0,touch\n", "columns:\n  contact.l0: touch\n",
+       "m.yaml:2, column contact.l0: is no contact of the robot; name links of the URDF, and "
+       "declare them as contacts in robot.yaml"},
       {"time,q.j0,tau.j0,base.gyro.x\n", "",
        "x.csv:1: has base.gyro.* or base.accel.* columns, but the robot's root is fixed; read the "
        "robot with a floating "
@@ -213,15 +223,19 @@ TEST(Channels, SayWhatALogLacks) {
        "declare "
        "them as contacts in robot.yaml"},
       {"time,q.j0,i1_A\n", "columns: {tau.j0: i1_A}",
-       "x.csv:1, column i1_A: is to be tau.j0, but sounds like a current or a motor-side torque; "
-       "declare torque: {kind: joint | motor | current, factor} in the mapping"},
+       "m.yaml:1: tau.j0 is to be column i1_A of x.csv, which sounds like a current or a "
+       "motor-side torque; declare torque: {kind: joint | motor | current, factor} in the mapping"},
       {"time,q.j0,MotorTorque\n", "columns: {tau.j0: MotorTorque}",
-       "x.csv:1, column MotorTorque: is to be tau.j0, but sounds like a current or a motor-side "
-       "torque; declare torque: {kind: joint | motor | current, factor} in the mapping"},
+       "m.yaml:1: tau.j0 is to be column MotorTorque of x.csv, which sounds like a current or a "
+       "motor-side torque; declare torque: {kind: joint | motor | current, factor} in the mapping"},
       {"time,q.j0,i1_A\n", "columns: {tau.j0: i1_A}\ntorque: {kind: current, factor: {j9: 1}}",
-       "the mapping gives no torque factor for joint j0; give N m per A of every joint"},
+       "m.yaml:2: there is no torque factor for joint j0; give N m per A of every joint"},
+      {"time,q.j0,i1_A\n",
+       "columns: {tau.j0: i1_A}\ntorque:\n  kind: current\n  factor:\n    j0: 1\n    j9: 1\n",
+       "m.yaml:6: j9 has a torque factor, and is no joint that moves; name joints of chain that "
+       "move"},
       {"time,q.j0,m\n", "columns: {tau.j0: m}\ntorque: {kind: motor, factor: {j9: 1}}",
-       "the mapping gives no torque factor for joint j0; give the gear ratio of every joint"},
+       "m.yaml:2: there is no torque factor for joint j0; give the gear ratio of every joint"},
       {"time,q.j0,tau.j0\n0,1,1\n0,1,1\n", "",
        "x.csv:3, column time: the clock stands still at 0 s; give rows in increasing time, each "
        "time once"},

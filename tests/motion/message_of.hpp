@@ -15,8 +15,10 @@ std::string message_of(const Call& call, const std::string& path) {
   } catch (const Error& error) {
     std::string text = error.what();
     const std::string folder = std::filesystem::path(path).parent_path().string() + "/";
-    const std::size_t at = text.find(folder);
-    return at == std::string::npos ? text : text.erase(at, folder.size());
+    for (std::size_t at = 0; (at = text.find(folder)) != std::string::npos;) {
+      text.erase(at, folder.size());
+    }
+    return text;
   }
   return "accepted";
 }
