@@ -35,7 +35,13 @@ void check_folder_writable(const std::string& folder) {
   std::error_code failed;
   const fs::file_status now = fs::status(folder, failed);
   if (fs::is_directory(now)) {
-    OutputPlace((fs::path(folder) / fmt::format("probe.{}", ::getpid())).string()).check_writable();
+    // Under a name that nobody gave, which is not said.
+    const OutputPlace probe((fs::path(folder) / fmt::format("probe.{}", ::getpid())).string());
+    try {
+      probe.check_writable();
+    } catch (const InputError&) {
+      throw InputError({folder}, "no file can be written into this folder", another_folder);
+    }
     return;
   }
   // A name that is too long, links in a circle: asking for more would say the same.
