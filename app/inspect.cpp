@@ -81,7 +81,12 @@ std::string robot_text(const UrdfFile& file) {
 void inspect_robot(const InspectArguments& options) {
   UrdfOptions reading;
   reading.reject_impossible = false;
-  const UrdfFile file = read_urdf(options.file, reading);
+  UrdfFile file = read_urdf(options.file, reading);
+  // A URDF does not say that its base is fixed. One without mass cannot float, and does not move.
+  if (file.robot.links.front().inertia.mass() == 0.0 && !file.says_floating) {
+    reading.root = Root::fixed;
+    file = read_urdf(options.file, reading);
+  }
   fmt::print("{}", options.json ? json_text(robot_json(file), 2) + "\n" : robot_text(file));
   const auto fatal = std::count_if(file.findings.begin(), file.findings.end(),
                                    [](const InertiaFinding& f) { return f.fatal; });

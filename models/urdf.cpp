@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "shapeid/models/inertia_lint.hpp"
@@ -29,6 +30,9 @@ bool can_exist_lumped(const Robot& robot, const std::string& member) {
 UrdfFile parse_urdf(const std::string& text, const std::string& name, const UrdfOptions& options) {
   const urdf::Document document = urdf::read_document(text, name);
   UrdfFile result;
+  result.says_floating = std::ranges::any_of(document.joints, [](const urdf::DocumentJoint& joint) {
+    return joint.type == urdf::DocumentJointType::floating;
+  });
   result.robot = urdf::lump(document, urdf::resolve(document), options);
   for (const urdf::DocumentLink& link : document.links) {
     std::optional<InertiaFinding> finding = urdf::lint(link, name);

@@ -36,6 +36,7 @@ struct UrdfOptions {
 struct UrdfFile {
   Robot robot;
   std::vector<InertiaFinding> findings;
+  bool says_floating = false;  ///< a joint of type floating stands above the root
 };
 
 /// Reads a URDF. Throws InputError (file, line, what is wrong, what would be right).
