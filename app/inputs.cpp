@@ -136,6 +136,8 @@ ContactRule contact_rule(const MotionInputs& inputs, const Robot& robot) {
   };
 }
 
+MotionOptionNames names_of_options() { return {"--cutoff", "--rate", "--contact-threshold"}; }
+
 void check_no_stream(const std::string& log) {
   std::error_code unknown;  // a log that is not there is said when it is opened
   const auto kind = std::filesystem::status(log, unknown).type();
@@ -175,6 +177,7 @@ RobotInputs read_robot(const MotionInputs& inputs, const LogTable& log) {
   UrdfOptions options;
   options.root = has_imu(log, result.mapping) ? Root::floating : Root::fixed;
   options.reject_impossible = !inputs.accept_impossible;
+  options.accepted_by = "--accept-impossible";
   UrdfFile file = read_urdf(inputs.robot, options);
   for (const InertiaFinding& finding : file.findings) {
     if (!finding.fatal) continue;
@@ -235,6 +238,7 @@ namespace {
 
 MotionOptions motion_options(const MotionInputs& inputs, const Robot& robot) {
   MotionOptions options;
+  options.names = names_of_options();
   options.rate = inputs.rate;
   options.exact_derivatives = inputs.exact;
   options.smoothing = inputs.causal ? Smoothing::causal : Smoothing::zero_phase;

@@ -56,6 +56,9 @@ struct RobotInputs {
 /// On standard error, where no notes of a result say them.
 void say_warnings(const RobotInputs& inputs);
 
+/// What complaints and notes about a log call options of the command.
+[[nodiscard]] MotionOptionNames names_of_options();
+
 /// Throws InputError for a log that flows by, which can be read once only.
 void check_no_stream(const std::string& log);
 

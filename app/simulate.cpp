@@ -49,7 +49,9 @@ void simulate_log(SimulateArguments& options) {
     options.robot = bundled("quadruped.urdf");
     if (options.robot_yaml.empty()) options.robot_yaml = bundled("quadruped.robot.yaml");
   }
-  Robot robot = read_urdf(options.robot).robot;
+  UrdfOptions reading;
+  reading.accepted_by.clear();  // a body that cannot be is not simulated
+  Robot robot = read_urdf(options.robot, reading).robot;
   if (options.robot_yaml.empty()) {
     options.robot_yaml = robot_yaml_beside(options.robot);
     if (options.robot_yaml.empty()) {

@@ -44,6 +44,7 @@ TrackSettings settings_for(const TrackArguments& options, const RobotInputs& rob
   identifier.expected_mass = expected_mass(options.sought, robot, model);
   identifier.warm = false;  // an answer must not depend on where a run was resumed
   estimates.natural_size = reference::natural_sizes(model, identifier.expected_mass);
+  settings.stream.names = names_of_options();
   settings.stream.cutoff = options.cutoff;
   settings.stream.rate = options.inputs.rate;
   settings.stream.contacts_needed = identifier.contacts == ContactTreatment::project;

@@ -121,6 +121,7 @@ std::unique_ptr<shapeid_identifier> create(const char* urdf, const char* robot_y
   if (urdf == nullptr) throw InputError("no URDF is named", "the path of a file");
   shapeid::UrdfOptions options;
   options.root = root_of(given.root);
+  options.accepted_by.clear();  // in C there is no way
   Robot robot = shapeid::read_urdf(urdf, options).robot;
   shapeid::RobotNotes notes;
   if (robot_yaml != nullptr) notes = shapeid::read_robot_yaml(robot_yaml, robot);

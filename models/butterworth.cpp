@@ -21,7 +21,7 @@ bool has_filter(double cutoff, double rate) { return cutoff > 0.0 && cutoff < ra
 
 }  // namespace
 
-void check_cutoff(const char* option, double cutoff, double rate) {
+void check_cutoff(std::string_view option, double cutoff, double rate) {
   if (has_filter(cutoff, rate)) return;
   throw InputError(
       fmt::format("{} {:g}: a filter of {:g} Hz for data at {:g} Hz", option, cutoff, cutoff, rate),

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <string_view>
 #include <vector>
 
 namespace shapeid {
@@ -39,7 +40,7 @@ class Butterworth {
 
 /// Throws InputError that names the option by which the cutoff was chosen if there is no filter
 /// with it; Hz.
-void check_cutoff(const char* option, double cutoff, double rate);
+void check_cutoff(std::string_view option, double cutoff, double rate);
 
 /// Of each of the passes that go over a log.
 inline constexpr int log_filter_order = 2;

@@ -74,9 +74,10 @@ struct MotionReader::State {
     report.forces_logged = plan.force >= 0;
     report.extra = plan.extra;
     if (report.contacts_derived) {
-      report.notes.emplace_back(
+      report.notes.push_back(fmt::format(
           "no contact.* columns: which feet touch is derived from joint torques and the given "
-          "masses (--contact-threshold)");
+          "masses ({})",
+          options.names.derive_contacts));
     }
     if (plan.dq < 0) {
       report.notes.emplace_back("no dq.* columns: units of q and time are not checked by slopes");
@@ -143,10 +144,10 @@ struct MotionReader::State {
     const Eigen::VectorXd steps = median_steps(head, source.plan(), source.path());
     const double logged_rate = 1.0 / row_step;
     report.rate = options.rate > 0.0 ? options.rate : logged_rate;
-    check_grid(report.rate, logged_rate);
+    check_grid(options.names.rate, report.rate, logged_rate);
     constexpr double of_any_rate = 0.25;
     const bool filters = options.smoothing != Smoothing::none;
-    if (filters) check_cutoff("--cutoff", options.cutoff, report.rate);
+    if (filters) check_cutoff(options.names.cutoff, options.cutoff, report.rate);
     const double cutoff = filters ? options.cutoff : of_any_rate * report.rate;  // of no effect
     const Butterworth design(options.order, cutoff, report.rate);
     if (options.smoothing == Smoothing::causal) report.group_delay = design.group_delay(0.0);

@@ -26,7 +26,13 @@ enum class ContactChange {
   drop    ///< samples near any change are left out
 };
 
+/// What complaints and notes call these options: a command has names of its own for them.
+struct MotionOptionNames {
+  std::string cutoff = "cutoff", rate = "rate", derive_contacts = "derive_contacts";
+};
+
 struct MotionOptions {
+  MotionOptionNames names;
   Smoothing smoothing = Smoothing::zero_phase;
   double cutoff = 20.0;  ///< Hz, -3 dB of one pass; the same for joints, IMU, torque and force
   int order = 2;         ///< of one pass, 1 to 8

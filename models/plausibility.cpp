@@ -44,10 +44,11 @@ void check_clock(const std::string& path, const std::string& column, double medi
   throw InputError({path, 0, column}, fmt::format("the median step is {:g} s", median_step), right);
 }
 
-void check_grid(double grid_rate, double logged_rate) {
+void check_grid(std::string_view option, double grid_rate, double logged_rate) {
   constexpr double slack = 0.99;  // a median of jittered stamps
   if (grid_rate >= slack * logged_rate) return;
-  throw InputError(fmt::format("a grid of {:g} Hz for a log of {:g} Hz", grid_rate, logged_rate),
+  throw InputError(fmt::format("{} {:g}: a grid of {:g} Hz for a log of {:g} Hz", option, grid_rate,
+                               grid_rate, logged_rate),
                    "leave the log's rate: picking rows would fold noise into the motion");
 }
 

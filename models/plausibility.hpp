@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "shapeid/models/channels.hpp"
@@ -17,8 +18,9 @@ namespace shapeid {
 /// Throws InputError for a median step (s) that only a clock in other units than seconds has.
 void check_clock(const std::string& path, const std::string& column, double median_step);
 
-/// Throws InputError for a regular grid (Hz) that is slower than the rows of the log are.
-void check_grid(double grid_rate, double logged_rate);
+/// Throws InputError that names the option by which a regular grid (Hz) was chosen if it is slower
+/// than the rows of the log are.
+void check_grid(std::string_view option, double grid_rate, double logged_rate);
 
 /// Watches the measured rows of a log, block by block:
 ///  * positions far outside the joint's limits, which fit them in radians if they are degrees;

@@ -46,12 +46,12 @@ void SampleStream::learn_rate() {
   check_clock(path_, plan_.time.from, step);
   row_step_ = step;
   rate_ = options_.rate > 0.0 ? options_.rate : 1.0 / step;
-  check_grid(rate_, 1.0 / step);
+  check_grid(options_.names.rate, rate_, 1.0 / step);
   longest_step_ = gap * median_steps(head_, plan_, path_).cwiseMax(step);
 }
 
 void SampleStream::prepare() {
-  check_cutoff("--cutoff", options_.cutoff, rate_);
+  check_cutoff(options_.names.cutoff, options_.cutoff, rate_);
   grid_.emplace(rate_, longest_step_);
   segments_.emplace(plan_, robot_, imu_, Butterworth(log_filter_order, options_.cutoff, rate_),
                     SegmentSamples::Options{Smoothing::causal, rate_, false});

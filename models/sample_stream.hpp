@@ -16,6 +16,7 @@
 namespace shapeid {
 
 struct StreamOptions {
+  MotionOptionNames names;
   double cutoff = 20.0;         ///< Hz, -3 dB; one pass of second order, every channel alike
   double rate = 0.0;            ///< Hz of the grid; 0: the median of the first rows
   ContactRule derive_contacts;  ///< for logs without flags

@@ -41,7 +41,10 @@ UrdfFile parse_urdf(const std::string& text, const std::string& name, const Urdf
     if (finding->fatal && options.reject_impossible) {
       throw InputError(
           finding->place, urdf::describe(*finding),
-          "correct it, leave it out, or read it with --accept-impossible where the link is known");
+          options.accepted_by.empty()
+              ? "correct it, or leave it out"
+              : fmt::format("correct it, leave it out, or read it with {} where the link is known",
+                            options.accepted_by));
     }
     result.findings.push_back(std::move(*finding));
   }

@@ -31,6 +31,8 @@ struct UrdfOptions {
   /// or with this option locked where its master stands where that is `locked`, else at zero.
   bool lock_mimic = false;
   bool reject_impossible = true;  ///< throw InputError at the first fatal finding
+  /// What that names as the way to read the file all the same; empty: there is none.
+  std::string accepted_by = "reject_impossible = false";
 };
 
 struct UrdfFile {

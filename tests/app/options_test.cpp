@@ -145,6 +145,12 @@ TEST_F(Options, AcceptImpossibleTakesAGivenInertiaAsItIsAndSaysSo) {
   const CommandRun refused = shapeid(words);
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("odd.urdf:"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("or read it with --accept-impossible where"), std::string::npos)
+      << refused.err;
+  expect_one_line(shapeid(fmt::format("simulate --robot odd.urdf --robot-yaml "
+                                      "{}quadruped.robot.yaml --out odd.csv",
+                                      robots)),
+                  2, "; correct it, or leave it out\n");
   const CommandRun taken = shapeid(words + "--accept-impossible");
   EXPECT_EQ(taken.status, 0) << taken.err;
   const json result = json::parse(taken.out);

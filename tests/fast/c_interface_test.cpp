@@ -466,6 +466,13 @@ TEST(CInterface, SaysWhatIsWrongWithFiles) {
   EXPECT_EQ(shapeid_create("nowhere.urdf", nullptr, nullptr, nullptr, little.data(), 5), nullptr);
   EXPECT_STREQ(little.data(), "nowh");
   EXPECT_EQ(little[5], '?');
+  // An option of the command, or of C++, helps nobody here.
+  const test::ScratchFolder scratch;
+  const std::string odd =
+      scratch.write("odd.urdf", R"(<robot name="odd"><link name="base"><inertial>
+<mass value="-2"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link></robot>)");
+  EXPECT_PRED2(is_one_line_with, complaint(odd, nullptr, defaults()),
+               "mass is negative (-2 kg); correct it, or leave it out");
 }
 
 TEST(CInterface, SaysWhatIsWrongWithSettings) {

@@ -336,14 +336,14 @@ TEST(Motion, SaysWhatItCannotDoWithALog) {
   MotionOptions options;
   options.rate = 100.0;
   EXPECT_EQ(reception(good, options),
-            "a grid of 100 Hz for a log of 500 Hz; leave the log's rate: picking rows would fold "
+            "rate 100: a grid of 100 Hz for a log of 500 Hz; leave the log's rate: picking rows "
+            "would fold "
             "noise into the motion");
   options = {};
   options.cutoff = 300.0;
-  EXPECT_EQ(
-      reception(good, options),
-      "--cutoff 300: a filter of 300 Hz for data at 500 Hz; choose a cutoff between 0 and 250 "
-      "Hz, half the rate");
+  EXPECT_EQ(reception(good, options),
+            "cutoff 300: a filter of 300 Hz for data at 500 Hz; choose a cutoff between 0 and 250 "
+            "Hz, half the rate");
   options = {};
   options.order = 0;
   EXPECT_EQ(reception(good, options), "filter of order 0; choose an order from 1 to 8");

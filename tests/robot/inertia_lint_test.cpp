@@ -251,7 +251,8 @@ TEST(InertiaLint, MessageOfARefusedFileNamesLinkInequalityAndCause) {
         "r.urdf:2: inertia of link arm: the triangle inequality is broken: principal "
         "moments 0.0379357 + 0.0691296 < 0.160935 kg m^2 (short by 0.0538694) (likely: the "
         "products of inertia have the wrong sign (URDF's ixy is minus the integral of x "
-        "y)); correct it, leave it out, or read it with --accept-impossible where the link is "
+        "y)); correct it, leave it out, or read it with reject_impossible = false where the link "
+        "is "
         "known");
   }
 }

@@ -151,14 +151,15 @@ const std::vector<Broken>& cases() {
        "r.urdf:4: a second <inertial> in <link>; keep one"},
       {"NegativeMass", inertial("-1"),
        "r.urdf:3: inertia of link a: mass is negative (-1 kg); correct it, leave it out, or read "
-       "it with --accept-impossible where the link is known"},
+       "it with reject_impossible = false where the link is known"},
       {"MomentsWithoutMass", inertial("0"),
        "r.urdf:3: inertia of link a: the body has moments but no mass; correct it, leave it out, "
-       "or read it with --accept-impossible where the link is known"},
+       "or read it with reject_impossible = false where the link is known"},
       {"ImpossibleTensor",
        inertial("1", "", R"(<inertia ixx="1" ixy="0" ixz="0" iyy="2" iyz="0" izz="4"/>)"),
        "r.urdf:3: inertia of link a: the triangle inequality is broken: principal moments 1 + 2 < "
-       "4 kg m^2 (short by 1); correct it, leave it out, or read it with --accept-impossible where "
+       "4 kg m^2 (short by 1); correct it, leave it out, or read it with reject_impossible = false "
+       "where "
        "the link is known"},
       {"NamelessLink", robot({.a = "<link/>"}),
        "r.urdf:2: <link> has no attribute \"name\"; name it"},
