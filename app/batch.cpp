@@ -74,11 +74,11 @@ void BatchOptions::add_to(CLI::App& verb) {
       ->check(zero_or_above())
       ->capture_default_str();
   verb.add_option("--threads", threads, "logs that are read at once, by each process")
-      ->check(above_zero())
+      ->check(count_from(1))
       ->capture_default_str();
   verb.add_option("--blocks", most_blocks,
                   "most blocks of neighbouring logs, by whose spread errors are judged")
-      ->check(CLI::Range(std::size_t{2}, reference::most_blocks))
+      ->check(count_from(2, reference::most_blocks))
       ->capture_default_str();
   verb.add_flag("--skip-refused", skip_refused, "go on without logs that cannot be used");
   add_delivery_options(verb, delivery);

@@ -5,6 +5,7 @@
 
 #include "shapeid/app/certificate_text.hpp"
 #include "shapeid/app/json_text.hpp"
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
@@ -73,7 +74,7 @@ void add_certify(CLI::App& app) {
                    "certificate.json: every claim in it must be what is proved");
   verb->add_option("--gap", options->tolerance.gap,
                    "accepted excess of the objective, relative to the objective of no mass")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_from(0.0, 1.0))
       ->capture_default_str();
   verb->add_option("--out", options->out, "file for a certificate of what is proved");
   verb->add_flag("--json", options->json, "print the proof as JSON");

@@ -127,7 +127,7 @@ void add_diagnose(CLI::App& app) {
   constexpr unsigned most_threads = 8;
   d.threads = std::clamp(std::thread::hardware_concurrency(), 1U, most_threads);
   verb->add_option("--threads", d.threads, "that go over a log at once; no number depends on it")
-      ->check(above_zero())
+      ->check(count_from(1))
       ->capture_default_str();
   verb->add_flag("--curves", d.curves,
                  "write effects.yaml and predict_torque.hpp with curves for what stays unexplained")

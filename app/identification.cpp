@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -270,7 +271,7 @@ void add_solver_options(CLI::App& verb, RunOptions& options) {
 void add_solver_options(CLI::App& verb, reference::IdentifySettings& settings) {
   DivisionOptions& division = settings.division;
   verb.add_option("--divisions", division.most_divisions, "most divisions; 0 does not divide")
-      ->check(zero_or_above())
+      ->check(count_from(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
   verb.add_option("--k1", division.k1, "equation (16): weight of large heavy shapes")
       ->check(weight_of_criterion())

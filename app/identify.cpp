@@ -11,6 +11,7 @@
 #include "shapeid/app/tell.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/online_numbers.hpp"
 #include "shapeid/reference/online.hpp"
 
 namespace shapeid::app {
@@ -102,11 +103,11 @@ void add_identify(CLI::App& app) {
       "a JSON line per window, as on the robot: smoothed forward in time, filter (17), no "
       "divisions");
   verb->add_option("--window", options->window, "samples a window (--online)")
-      ->check(above_zero())
+      ->check(count_from(1, longest_window))
       ->needs(online)
       ->capture_default_str();
   verb->add_option("--stride", options->stride, "samples from window to window (--online)")
-      ->check(above_zero())
+      ->check(count_from(1, longest_window))
       ->needs(online)
       ->capture_default_str();
   verb->add_option("--alpha", options->alpha, "filter (17) (--online)")

@@ -351,7 +351,7 @@ std::string held_out_words(const MotionInputs& inputs) {
 void add_hold_out_option(CLI::App& verb, MotionInputs& inputs) {
   verb.add_option("--hold-out", inputs.held_out_stretch,
                   "which of every five stretches of two seconds to test on, if no --test is given")
-      ->check(CLI::Range(1, stretches))
+      ->check(count_from(1, stretches))
       ->capture_default_str()
       ->excludes(verb.get_option("--test"));
 }

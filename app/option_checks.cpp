@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -31,7 +32,46 @@ CLI::Validator number_that(const std::function<bool(double)>& is_right, const st
           "NUMBER " + right};
 }
 
+/// A count, without a sign, that fits.
+bool is_count(const std::string& text, std::uint64_t& count) {
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, count);
+  return error == std::errc() && stop == end;
+}
+
+/// 0x10, 0b10 and 0o10, the first of which CLI11 would read.
+bool is_other_base(const std::string& text) {
+  const std::size_t first = text.find_first_not_of("+-");
+  return first != std::string::npos && text.size() > first + 1 && text[first] == '0' &&
+         std::isalpha(static_cast<unsigned char>(text[first + 1])) != 0;
+}
+
 }  // namespace
+
+CLI::Validator number_from(double lower, double upper, const std::string& unit) {
+  const std::string right = fmt::format("from {} to {}", lower, upper);
+  return number_that([=](double x) { return x >= lower && x <= upper; },
+                     unit.empty() ? right : right + " " + unit);
+}
+
+CLI::Validator count_from(std::uint64_t lowest, std::uint64_t highest) {
+  const bool is_open = highest == std::numeric_limits<std::uint64_t>::max();
+  const std::string bounds = is_open ? fmt::format(", {} or more", lowest)
+                                     : fmt::format(" from {} to {}", lowest, highest);
+  const auto why_not = [=](const std::string& given) -> std::string {
+    const std::string text = given.starts_with('+') ? given.substr(1) : given;
+    std::uint64_t count = 0;
+    if (is_other_base(text)) return {};  // which check_value() says
+    if (is_count(text, count) && count >= lowest && count <= highest) return {};
+    const std::string right = "must be a whole number" + bounds;
+    if (text.empty()) return "is empty; " + right;
+    const bool is_digits =
+        std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+    const bool overflows = is_digits && !is_count(text, count);
+    return fmt::format("is \"{}\"{}; {}", given, overflows ? ", which is too large" : "", right);
+  };
+  return {why_not, "COUNT" + bounds};
+}
 
 CLI::Validator above_zero() {
   return number_that([](double x) { return x > 0.0; }, "above 0");
@@ -58,21 +98,6 @@ CLI::Validator rate_of_a_log() {
 }
 
 namespace {
-
-/// A count, without a sign, that fits.
-bool is_count(const std::string& text) {
-  std::uint64_t count = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, count);
-  return error == std::errc() && stop == end;
-}
-
-/// 0x10, 0b10 and 0o10, the first of which CLI11 would read.
-bool is_other_base(const std::string& text) {
-  const std::size_t first = text.find_first_not_of("+-");
-  return first != std::string::npos && text.size() > first + 1 && text[first] == '0' &&
-         std::isalpha(static_cast<unsigned char>(text[first + 1])) != 0;
-}
 
 bool is_whole_number(const std::string& text) {
   std::int64_t number = 0;
@@ -104,8 +129,10 @@ void check_value(const CLI::Option& option, const std::string& value) {
   if (type.starts_with("INT") && !is_whole_number(value)) {
     throw InputError(fmt::format("{} is \"{}\"", name, value), "give a whole number");
   }
-  if (type.starts_with("UINT") && !is_count(value)) {
-    throw InputError(fmt::format("{} is \"{}\"", name, value), "give a count, 0 or more");
+  std::uint64_t count = 0;
+  if (type.starts_with("UINT") && !is_count(value, count)) {
+    throw InputError(fmt::format("{} is \"{}\"", name, value),
+                     "give a whole number without a sign");
   }
   if (is_whole && is_octal(value)) {
     throw InputError(fmt::format("{} is \"{}\", which some read as octal", name, value),

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +12,11 @@
 
 namespace shapeid::app {
 
+/// A finite number within these bounds, in words with its unit.
+[[nodiscard]] CLI::Validator number_from(double lower, double upper, const std::string& unit = "");
+/// A whole number within these bounds; what fits, where there is no upper one.
+[[nodiscard]] CLI::Validator count_from(
+    std::uint64_t lowest, std::uint64_t highest = std::numeric_limits<std::uint64_t>::max());
 /// A finite number above zero.
 [[nodiscard]] CLI::Validator above_zero();
 /// A finite number, zero or above.

@@ -83,6 +83,22 @@ void check_options(const CLI::App& app, int argc, char** argv) {
   }
 }
 
+/// CLI11 says how many values came and how many are wanted, not which: the option's help does.
+std::string with_what_is_right(const CLI::App& app, int argc, char** argv,
+                               const CLI::ArgumentMismatch& mismatch) {
+  const std::string said = mismatch.what();
+  std::vector<const CLI::App*> verbs = app.get_subcommands({});
+  if (verbs.empty()) verbs.push_back(&app);  // a program that is one
+  for (const CLI::App* verb : verbs) {
+    if (verb != &app && (argc < 2 || verb->get_name() != argv[1])) continue;
+    for (const CLI::Option* option : verb->get_options()) {
+      const bool is_meant = said.starts_with(option->get_name() + ":");
+      if (is_meant) return fmt::format("{}; {}", said, option->get_description());
+    }
+  }
+  return said;
+}
+
 /// CLI11 takes -0.5 for a number and -.5 for an option.
 std::vector<std::string> with_leading_digits(int argc, char** argv) {
   std::vector<std::string> words(argv, argv + argc);
@@ -141,6 +157,8 @@ int run_command(CLI::App& app, int argc, char** argv) {
     for (const std::string& word : words) pointers.push_back(word.c_str());
     app.parse(argc, pointers.data());
     return finish_output();
+  } catch (const CLI::ArgumentMismatch& e) {
+    return complain(with_what_is_right(app, argc, argv, e), bad_input);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0) return complain(e.what(), bad_input);
     app.exit(e);  // --help, --version

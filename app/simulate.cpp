@@ -1,8 +1,10 @@
 // shapeid simulate: a trotting quadruped, with or without a block on its back, writes a log.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -68,8 +70,9 @@ void simulate_log(SimulateArguments& options) {
     constexpr double heaviest = 1e4, furthest = 100.0;  // kg, m
     if (!(load.mass > 0.0 && load.mass <= heaviest) || !(load.sides[0] > 0.0) ||
         load.sides[0] > furthest || load.centre.cwiseAbs().maxCoeff() > furthest) {
-      throw InputError("--load: no block that a robot could carry",
-                       "MASS X Y Z [SIDE], kg and m, mass and side above 0");
+      throw InputError(
+          fmt::format("--load {}: no block that a robot could carry", fmt::join(options.load, " ")),
+          "MASS X Y Z [SIDE], kg and m, mass and side above 0");
     }
     if (const auto why = why_too_far(load.centre.norm(), robot)) {
       throw InputError("--load: the block is " + *why, "metres, in the base's frame");
@@ -77,8 +80,10 @@ void simulate_log(SimulateArguments& options) {
     options.simulation.load = load;
     if (!(options.simulation.load_from < options.simulation.duration &&
           options.simulation.load_from < options.simulation.load_until)) {
-      throw InputError("--load-from: the block is never there",
-                       "a moment before --load-until and before the end of the log");
+      throw InputError(
+          fmt::format("--load-from {}: the block is never there", options.simulation.load_from),
+          fmt::format("a moment before --load-until and before the end of the log, {} s",
+                      std::min(options.simulation.load_until, options.simulation.duration)));
     }
   }
   options.sensors.noise = !options.exact;
@@ -109,12 +114,13 @@ void add_simulate(CLI::App& app) {
   verb->add_option("--robot", options->robot, "URDF of a quadruped (default: the bundled one)");
   verb->add_option("--robot-yaml", options->robot_yaml, "its contacts, IMU pose and noise");
   verb->add_option("--seconds", options->simulation.duration, "s")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(number_from(0.1, 3600.0, "s"))
       ->capture_default_str();
   verb->add_option("--rate", options->simulation.rate, "Hz, of the samples")
-      ->check(CLI::Range(50.0, 5000.0))
+      ->check(number_from(50.0, 5000.0, "Hz"))
       ->capture_default_str();
   verb->add_option("--seed", options->simulation.seed, "of the wanted motion and of the noise")
+      ->check(count_from(0))
       ->capture_default_str();
   auto* load =
       verb->add_option("--load", options->load,

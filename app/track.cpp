@@ -16,6 +16,7 @@
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/file_output.hpp"
+#include "shapeid/models/online_numbers.hpp"
 #include "shapeid/models/strict_json.hpp"
 #include "shapeid/reference/identify.hpp"
 
@@ -210,13 +211,13 @@ void add_track(CLI::App& app) {
       ->check(rate_of_a_log());
   fast::IdentifierSettings& identifier = options->settings.estimates.identifier;
   verb->add_option("--window", identifier.window, "samples a window")
-      ->check(above_zero())
+      ->check(count_from(1, longest_window))
       ->capture_default_str();
   verb->add_option("--alpha", identifier.alpha, "filter (17)")
       ->check(share_above_zero())
       ->capture_default_str();
   verb->add_option("--recent", options->settings.estimates.recent, "s, of the longer window")
-      ->check(CLI::Range(0.001, 3600.0))
+      ->check(number_from(0.001, 3600.0, "s"))
       ->capture_default_str();
   verb->add_option("--wander", options->settings.estimates.wander,
                    "share of its size by which a parameter may wander in a second")
@@ -232,7 +233,7 @@ void add_track(CLI::App& app) {
   auto* checkpoint = verb->add_option("--checkpoint", options->checkpoint,
                                       "file that always holds a state to go on from");
   verb->add_option("--checkpoint-every", options->checkpoint_every, "lines between checkpoints")
-      ->check(above_zero())
+      ->check(count_from(1))
       ->capture_default_str()
       ->needs(checkpoint);
   verb->add_flag("--resume", options->resume, "go on from the checkpoint, if there is one")

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "shapeid/app/foreign_program.hpp"
+#include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/vector_cases.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
@@ -98,6 +99,7 @@ void add_vectors(CLI::App& app) {
   verb->add_option("--kind", options->kind, "only vectors of this kind");
   verb->add_option("--vectors", options->folder, "folder with index.json")->capture_default_str();
   verb->add_option("--shown", options->shown, "failures of a kind that are shown")
+      ->check(count_from(0))
       ->capture_default_str();
   verb->add_flag("--json", options->json_wanted, "print the report as JSON");
   verb->callback([options] { vectors(*options); });

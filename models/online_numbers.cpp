@@ -10,8 +10,7 @@ void check_online(const OnlineNumbers& numbers) {
   if (numbers.window == 0 || numbers.stride == 0) {
     throw InputError("a window or stride of no samples", "both count samples, at least 1");
   }
-  constexpr std::size_t longest = 1'000'000'000;  // a negative number in C comes as more
-  if (numbers.window > longest || numbers.stride > longest) {
+  if (numbers.window > longest_window || numbers.stride > longest_window) {
     throw InputError("a window or stride of more than a billion samples", "some dozens");
   }
   constexpr double lightest = 1e-6, heaviest = 1e6;

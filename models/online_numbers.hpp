@@ -11,6 +11,9 @@
 
 namespace shapeid {
 
+/// Samples of a window or stride, at most. (A negative number in C comes as more.)
+inline constexpr std::size_t longest_window = 1'000'000'000;
+
 struct OnlineNumbers {
   std::size_t window, stride;    ///< samples
   double alpha;                  ///< equation (17)

@@ -34,7 +34,7 @@ TEST_F(Given, NumbersThatAreNoneOrBeyondAnyRobot) {
   expect_refused(identify + "--contact-threshold 5", "at most 1");
   expect_refused(identify + "--contact-threshold nan", "nan");
   expect_refused(fmt::format("track {} given.csv --recent 1e9", quadruped_files), "--recent");
-  expect_refused("certify given.csv given.csv --gap nan", "--gap is not a finite number");
+  expect_refused("certify given.csv given.csv --gap nan", "--gap: is not a finite number");
   expect_refused("simulate --out a.csv --seed -1", "--seed");
   expect_refused("simulate --out a.csv --seed 99999999999999999999", "--seed");
   expect_refused("simulate --out a.csv --load 1 1e308 0 0", "--load");
@@ -171,11 +171,86 @@ TEST_F(Given, CountsThatAreNone) {
   const std::string track = fmt::format("track {} given.csv ", quadruped_files);
   expect_refused(words + "--hold-out 0x1",
                  "--hold-out is \"0x1\", which is no decimal number; give a decimal count");
-  expect_refused(words + "--hold-out 1.5", "--hold-out: Value 1.5 not in range 1 to 5");
-  expect_refused(track + "--window 3.7", "--window is \"3.7\"; give a count, 0 or more");
+  expect_refused(words + "--hold-out 1.5",
+                 "--hold-out: is \"1.5\"; must be a whole number from 1 to 5");
+  expect_refused(track + "--window 3.7",
+                 "--window: is \"3.7\"; must be a whole number from 1 to 1000000000");
   expect_refused(words + "--divisions many", "--divisions");
   expect_refused(words + "--divisions 1 --divisions 2", "--divisions is given twice; give it once");
   expect_refused(track + "--robot given.csv", "--robot is given twice; give it once");
+}
+
+/// Every number among the options, of every verb: what was given, and what is right.
+TEST_F(Given, NumbersThatAreNoneNameTheirOption) {
+  struct Numbers {
+    std::string words, options, right;
+    bool is_count;
+  };
+  const std::string identify = fmt::format("identify {} --log given.csv ", quadruped_files);
+  const std::string batch = fmt::format("batch {} --log given.csv ", quadruped_files);
+  const std::string diagnose = fmt::format("diagnose {} --log given.csv ", quadruped_files);
+  const std::string track = fmt::format("track {} given.csv ", quadruped_files);
+  const Numbers table[] = {
+      {identify, "--hold-out", "a whole number from 1 to 5", true},
+      {identify, "--divisions", "a whole number from 0 to 2147483647", true},
+      {identify + "--online ", "--window", "a whole number from 1 to 1000000000", true},
+      {identify + "--online ", "--stride", "a whole number from 1 to 1000000000", true},
+      {identify, "--cutoff", "at least 0", false},
+      {identify, "--row-cutoff", "above 0", false},
+      {identify, "--rate", "from 1 to 20000 Hz", false},
+      {identify, "--lambda", "at least 0", false},
+      {identify, "--min-mass", "at least 0", false},
+      {identify, "--expected-mass", "from 1e-6 to 1e6 kg", false},
+      {batch, "--threads", "a whole number, 1 or more", true},
+      {batch, "--blocks", "a whole number from 2 to 64", true},
+      {diagnose, "--threads", "a whole number, 1 or more", true},
+      {diagnose, "--least-t", "above 0", false},
+      {track, "--window", "a whole number from 1 to 1000000000", true},
+      {track, "--recent", "from 0.001 to 3600 s", false},
+      {track, "--wander", "at least 0", false},
+      {track + "--checkpoint c.json ", "--checkpoint-every", "a whole number, 1 or more", true},
+      {"certify p.json a.json ", "--gap", "from 0 to 1", false},
+      {"simulate --out s.csv ", "--seconds", "from 0.1 to 3600 s", false},
+      {"simulate --out s.csv ", "--rate", "from 50 to 5000 Hz", false},
+      {"simulate --out s.csv ", "--seed", "a whole number, 0 or more", true},
+      {"vectors --check true ", "--shown", "a whole number, 0 or more", true},
+  };
+  for (const Numbers& n : table) {
+    const auto expect_says = [&](const std::string& value, const std::string& wrong) {
+      expect_refused(fmt::format("{}{} '{}'", n.words, n.options, value),
+                     fmt::format("shapeid: {}: {}; must be {}\n", n.options, wrong, n.right));
+    };
+    expect_says("", "is empty");
+    if (n.is_count) {
+      for (const char* value : {"-1", "nan", "inf", "1e400", "2.5", "many"}) {
+        expect_says(value, fmt::format("is \"{}\"", value));
+      }
+      expect_says("99999999999999999999", "is \"99999999999999999999\", which is too large");
+    } else {
+      expect_says("-1", "is -1");
+      expect_says("nan", "is not a finite number (\"nan\")");
+      expect_says("inf", "is not a finite number (\"inf\")");
+      expect_says("1e400", "does not fit into a double (\"1e400\")");
+      expect_says("many", "is not a number (\"many\")");
+    }
+  }
+  expect_refused(identify + "--rate 2.5",
+                 "--rate 2.5: a grid of 2.5 Hz for a log of 500 Hz; leave the log's rate");
+  expect_refused(identify + "--divisions 3000000000",
+                 "--divisions: is \"3000000000\"; must be a whole number from 0 to 2147483647");
+}
+
+/// So do lists of numbers, of which some are missing or cannot be.
+TEST_F(Given, ListsOfNumbersSayWhichTheyAre) {
+  const std::string load = fmt::format("load {} --log given.csv --area base ", quadruped_files);
+  expect_refused(load + "0 1 0 1 0", "; LINK x0 x1 y0 y1 z0 z1: where the load may be, m");
+  expect_refused("simulate --out s.csv --load 1 0 0", "; MASS X Y Z [SIDE]: a block");
+  expect_refused("simulate --out s.csv --load 0 0 0 0.1",
+                 "--load 0 0 0 0.1: no block that a robot");
+  expect_refused("simulate --out s.csv --seconds 1 --load 1 0 0 0.1 --load-from 2.5",
+                 "--load-from 2.5: the block is never there; a moment before --load-until and "
+                 "before the end of the log, 1 s");
+  expect_refused("simulate --out", "; log to write, .csv or .csv.gz");
 }
 
 /// Options that would do nothing beside each other.
