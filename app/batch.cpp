@@ -89,10 +89,11 @@ void batch(const BatchOptions& options, Peers& peers) {
   if (peers.rank() == 0) check_delivery(options.delivery);
   for (const std::string& log : options.logs) check_no_stream(log);
   check_solver(options.settings);
-  const RobotInputs robot = read_robot_with_any(options.inputs, options.logs);
+  RobotInputs robot = read_robot_with_any(options.inputs, options.logs);
   // The same measurements twice would say that the answer is twice as sure. One process looks.
   if (peers.rank() == 0) refuse_same_data({options.logs}, robot.mapping, options.threads);
   const BodyModel model = sought_bodies(options.sought, robot);
+  warn_of_unused_masses(model.free_links, robot);
   BatchOptions with_mass = options;
   with_mass.settings.expected_mass = expected_mass(options.sought, robot, model);
   const std::optional<BatchResult> found = run_batch(with_mass, robot, model, peers);

@@ -14,6 +14,7 @@
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/output_folder.hpp"
+#include "shapeid/app/sought.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
@@ -53,6 +54,8 @@ void diagnose(DiagnoseArguments& options) {
   check_no_stream(d.reference);
   const RobotInputs robot = read_robot(d.inputs);
   DiagnosisRun run = run_diagnosis(robot, options.diagnose);
+  const std::string unused = unused_masses(run.settings.shapes.free_links, robot);
+  if (!unused.empty()) run.notes.push_back(unused);
   if (!options.delivery.folder.empty()) write_files(options, robot, run);
   if (options.delivery.json) {
     fmt::print("{}\n", json_text(diagnosis_json(run, robot.robot, options.diagnose), 2));

@@ -66,8 +66,9 @@ void identify_windows(const IdentifyArguments& options, const RobotInputs& robot
 
 void identify(IdentifyArguments& options) {
   check_delivery(options.delivery);
-  const RobotInputs robot = read_robot(options.inputs);
+  RobotInputs robot = read_robot(options.inputs);
   const BodyModel model = sought_bodies(options.sought, robot);
+  warn_of_unused_masses(model.free_links, robot);
   const double mass = expected_mass(options.sought, robot, model);
   if (options.online) return identify_windows(options, robot, model, mass);
 

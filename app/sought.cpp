@@ -1,6 +1,10 @@
 #include "shapeid/app/sought.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
 
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/models/error.hpp"
@@ -57,6 +61,25 @@ double expected_mass(const SoughtLinks& sought, const RobotInputs& robot, const 
                      "give --expected-mass, or expected_mass in robot.yaml");
   }
   return mass;
+}
+
+std::string unused_masses(const std::vector<int>& sought, const RobotInputs& robot) {
+  std::vector<std::string> names;
+  for (int i = 0; i < robot.robot.link_count(); ++i) {
+    const std::string& name = robot.robot.links[static_cast<std::size_t>(i)].name;
+    const bool is_sought = std::ranges::find(sought, i) != sought.end();
+    if (!is_sought && robot.notes.expected_mass.contains(name)) names.push_back(name);
+  }
+  if (names.empty()) return {};
+  return fmt::format(
+      "{}: expected_mass counts for links that are sought; these are not, and have their given "
+      "mass: {}",
+      robot.robot_yaml, fmt::join(names, ", "));
+}
+
+void warn_of_unused_masses(const std::vector<int>& sought, RobotInputs& robot) {
+  std::string warning = unused_masses(sought, robot);
+  if (!warning.empty()) robot.warnings.push_back(std::move(warning));
 }
 
 }  // namespace shapeid::app

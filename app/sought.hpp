@@ -27,4 +27,10 @@ struct SoughtLinks {
 [[nodiscard]] double expected_mass(const SoughtLinks& sought, const RobotInputs& robot,
                                    const BodyModel& model);
 
+/// What robot.yaml expects of links that are not sought does not count, and is a warning of the
+/// robot's from here on.
+void warn_of_unused_masses(const std::vector<int>& sought, RobotInputs& robot);
+/// The same in words; empty where all of it counts.
+[[nodiscard]] std::string unused_masses(const std::vector<int>& sought, const RobotInputs& robot);
+
 }  // namespace shapeid::app

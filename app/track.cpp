@@ -156,8 +156,9 @@ void track(TrackArguments& options) {
   if (!options.checkpoint.empty()) OutputPlace(options.checkpoint).check_writable();
   Source source(options, checkpoint);
   LogTable table(options.inputs.log, source.position().header, 1);
-  const RobotInputs robot = read_robot(options.inputs, table);
+  RobotInputs robot = read_robot(options.inputs, table);
   const BodyModel model = sought_bodies(options.sought, robot);
+  warn_of_unused_masses(model.free_links, robot);
   const TrackSettings settings = settings_for(options, robot, model);
   const std::string setup = setup_digest(robot, model, settings);
   TrackRun run(table, robot, model, settings);

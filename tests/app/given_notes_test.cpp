@@ -65,6 +65,33 @@ TEST_F(Given, TheMassOfALoadThatIsExpected) {
   EXPECT_NE(heavy, usual);
 }
 
+/// Of a link that is known it would do nothing: its given mass counts.
+TEST_F(Given, TheMassThatIsExpectedOfALinkThatIsNotSought) {
+  const std::string notes = read_small_file(robots + "quadruped.robot.yaml", 1 << 20);
+  const std::size_t at = notes.find("  base: [4.0, 8.0]\n");
+  ASSERT_NE(at, std::string::npos);
+  std::string changed = notes;
+  scratch_file("thigh.yaml", changed.insert(at, "  FR_thigh: [0.1, 3]\n  RL_thigh: [0.2, 3]\n"));
+  const std::string given =
+      fmt::format(" --robot {}quadruped.urdf --robot-yaml thigh.yaml ", robots);
+  const std::string says =
+      "thigh.yaml: expected_mass counts for links that are sought; these are not, and have their "
+      "given mass: FR_thigh, RL_thigh\n";
+  const CommandRun base = shapeid("identify --divisions 0 --log given.csv" + given);
+  EXPECT_NE(base.out.find("note: " + says), std::string::npos) << base.out << base.err;
+  const CommandRun tracked = shapeid("track given.csv" + given);
+  EXPECT_NE(tracked.err.find("warning: " + says), std::string::npos) << tracked.err;
+  const CommandRun thighs =
+      shapeid("identify --divisions 0 --log given.csv --free FR_thigh RL_thigh base" + given);
+  EXPECT_EQ((thighs.out + thighs.err).find("expected_mass counts"), std::string::npos);
+  simulated_log("longer.csv", "--seconds 5 --seed 3");
+  const CommandRun diagnosis =
+      shapeid("diagnose --trust --log longer.csv --test given.csv" + given);
+  ASSERT_EQ(diagnosis.status, 0) << diagnosis.err;
+  EXPECT_NE(diagnosis.out.find("given mass: base, FR_thigh, RL_thigh"), std::string::npos)
+      << diagnosis.out;
+}
+
 /// A mapping that says nothing of the base leaves the log's own names, and with them the base.
 TEST_F(Given, AMappingNeedsNoEntryForOurOwnNames) {
   scratch_file("torque.yaml", "torque: {kind: joint}\n");
