@@ -12,6 +12,7 @@
 #include "shapeid/app/batch.hpp"
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/merge_order.hpp"
+#include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/app/tell.hpp"
 #include "shapeid/diagnosis/in_parallel.hpp"
@@ -83,18 +84,18 @@ CompressedLog compressed(const std::string& path, const BatchOptions& options,
                          const RobotInputs& robot, const BodyModel& model) {
   CompressedLog result;
   result.log.path = path;
+  std::optional<LogSamples> samples;
   try {
-    LogSamples samples(path, robot, options.inputs);
+    samples.emplace(path, robot, options.inputs);
     const reference::CompressedRows rows = compress(
-        robot.robot, model, [&] { return samples.next(); },
-        settings_for(samples, robot, options.inputs, options.settings));
-    const MotionReport& report = samples.report();
+        robot.robot, model, [&] { return samples->next(); },
+        settings_for(*samples, robot, options.inputs, options.settings));
+    const MotionReport& report = samples->report();
     result.log.rows = report.rows;
     result.log.samples = rows.samples;
     result.log.gaps = report.gaps;
     result.log.rate = report.rate;
     result.log.contacts_derived = report.contacts_derived;
-    result.log.notes = report.notes;
     refuse_without_samples(report);
     result.rows = merged(rows.blocks);
     if (!result.rows.allFinite()) {
@@ -106,6 +107,7 @@ CompressedLog compressed(const std::string& path, const BatchOptions& options,
     result.log.refused = e.what();
     result.log.code = e.code();
   }
+  if (samples) result.log.notes = samples->report().notes;
   if (!result.log.refused.empty()) result.rows.resize(0, 0);
   return result;
 }
@@ -305,6 +307,15 @@ MotionReport motion_of(const std::vector<BatchLog>& logs) {
   return motion;
 }
 
+/// Also of logs that are refused.
+std::vector<std::string> notes_of(const std::vector<BatchLog>& logs, const RobotInputs& robot) {
+  std::vector<std::string> notes = robot.all_notes();
+  for (const BatchLog& log : logs) {
+    for (const std::string& note : log.notes) notes.push_back(log.path + ": " + note);
+  }
+  return notes;
+}
+
 Result solved(const std::vector<BatchLog>& logs, std::vector<reference::RowBlock> blocks,
               const BatchOptions& options, const RobotInputs& robot, const BodyModel& model) {
   judge_refused(logs, options.skip_refused);
@@ -322,8 +333,7 @@ Result solved(const std::vector<BatchLog>& logs, std::vector<reference::RowBlock
   result.motion = motion_of(logs);
   result.found = identify(model, {std::move(blocks), result.motion.samples}, options.settings);
   check_some_mass(result, options.settings.expected_mass);
-  result.notes = robot.all_notes();
-  result.notes.insert(result.notes.end(), result.motion.notes.begin(), result.motion.notes.end());
+  result.notes = robot.notes_with(result.motion);
   choose_written_links(result, robot.robot, options.least_mass);
   return result;
 }
@@ -340,7 +350,9 @@ std::optional<BatchResult> run_batch(const BatchOptions& options, const RobotInp
     return std::nullopt;
   }
   BatchResult batch;
-  batch.result = solved(shares.logs(), std::move(blocks), options, robot, model);
+  const std::vector<BatchLog> logs = shares.logs();
+  batch.result = with_notes([&] { return notes_of(logs, robot); },
+                            [&] { return solved(logs, std::move(blocks), options, robot, model); });
   shares.gather_residuals(batch.result.found.run.solution.Phi);
   batch.logs = shares.logs();
   return batch;

@@ -12,6 +12,7 @@
 #include "shapeid/app/gnuplot.hpp"
 #include "shapeid/app/identification.hpp"
 #include "shapeid/app/json_text.hpp"
+#include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/output_folder.hpp"
 #include "shapeid/app/sought.hpp"
@@ -53,7 +54,8 @@ void diagnose(DiagnoseArguments& options) {
   }
   check_no_stream(d.reference);
   const RobotInputs robot = read_robot(d.inputs);
-  DiagnosisRun run = run_diagnosis(robot, options.diagnose);
+  DiagnosisRun run = with_notes([&] { return robot.all_notes(); },
+                                [&] { return run_diagnosis(robot, options.diagnose); });
   const std::string unused = unused_masses(run.settings.shapes.free_links, robot);
   if (!unused.empty()) run.notes.push_back(unused);
   if (!options.delivery.folder.empty()) write_files(options, robot, run);

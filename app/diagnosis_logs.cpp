@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/app/shared_stretches.hpp"
 #include "shapeid/diagnosis/checks.hpp"
 #include "shapeid/diagnosis/joint_signs.hpp"
@@ -79,9 +80,13 @@ DiagnosedLogs read_logs(const RobotInputs& robot, const DiagnoseOptions& options
   const bool split = options.test.empty();
   const std::vector<std::string> fitted_paths = fitted_logs(options);
   RecordedLog fitted = read_recordings(fitted_paths, robot, options.inputs, fitted_part(options));
-  if (split && fitted.recording.samples().empty()) refuse_all_held_out(fitted.motion.samples);
-  diagnosis::check_excitation(robot.robot, fitted.recording);
-  check_meaning_of_each(robot.robot, options, fitted, fitted_paths, fitted.contacts);
+  with_notes([&] { return fitted.motion.notes; },
+             [&] {
+               if (split && fitted.recording.samples().empty())
+                 refuse_all_held_out(fitted.motion.samples);
+               diagnosis::check_excitation(robot.robot, fitted.recording);
+               check_meaning_of_each(robot.robot, options, fitted, fitted_paths, fitted.contacts);
+             });
 
   const std::vector<std::string>& test_paths = split ? fitted_paths : options.test;
   const std::optional<Part> test_part = split ? std::optional(Part::held_out) : std::nullopt;
@@ -97,17 +102,22 @@ DiagnosedLogs read_logs(const RobotInputs& robot, const DiagnoseOptions& options
   std::optional<RecordedLog> earlier;
   if (!options.reference.empty()) {
     earlier = read_recording(options.reference, robot, options.inputs, std::nullopt);
-    check_other(options.reference, [&] {
-      diagnosis::check_excitation(robot.robot, earlier->recording);
-      diagnosis::check_meaning(robot.robot, earlier->recording, earlier->contacts);
-    });
+    with_notes([&] { return earlier->motion.notes; },
+               [&] {
+                 check_other(options.reference, [&] {
+                   diagnosis::check_excitation(robot.robot, earlier->recording);
+                   diagnosis::check_meaning(robot.robot, earlier->recording, earlier->contacts);
+                 });
+               });
     check_contacts_alike(contacts, {options.reference, earlier->motion.contacts_derived},
                          fitted.contacts);
   }
   return {std::move(fitted), std::move(test), std::move(raw), std::move(earlier)};
 }
 
-void check_logs(const RobotInputs& robot, const DiagnoseOptions& options, const DiagnosedLogs& logs,
+namespace {
+
+void check_each(const RobotInputs& robot, const DiagnoseOptions& options, const DiagnosedLogs& logs,
                 const diagnosis::LoopSettings& settings) {
   const RecordedLog &fitted = logs.fitted, &test = logs.test;
   if (test.recording.usable(stride_of(options.inputs, test.motion.rate)).empty()) {
@@ -125,6 +135,14 @@ void check_logs(const RobotInputs& robot, const DiagnoseOptions& options, const 
   check_meaning_of_each(robot.robot, options, test, options.test, fitted.contacts);
   diagnosis::check_clocks(robot.robot, test.recording, settings_for(test, options, settings),
                           test.starts, options.test);
+}
+
+}  // namespace
+
+void check_logs(const RobotInputs& robot, const DiagnoseOptions& options, const DiagnosedLogs& logs,
+                const diagnosis::LoopSettings& settings) {
+  with_notes([&] { return logs.fitted.motion.notes; },
+             [&] { check_each(robot, options, logs, settings); });
 }
 
 std::size_t stride_of(const MotionInputs& inputs, double rate) {

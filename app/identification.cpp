@@ -10,6 +10,7 @@
 
 #include "shapeid/app/certificate_text.hpp"
 #include "shapeid/app/json_text.hpp"
+#include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/output_folder.hpp"
 #include "shapeid/app/recordings.hpp"
@@ -202,23 +203,32 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   result.robot_yaml_file = robot.robot_yaml;
   result.log_file = inputs.log;
   result.sought = model;
-  try {
-    result.found = identify(
-        robot.robot, model, [&] { return effects ? effects->next() : samples.next(); }, settings,
-        watch);
-  } catch (const Refusal& refusal) {
-    // A stretch of the log alone is fitted: that it holds nothing is no fault of the samples.
-    const MotionReport& read = effects ? effects->log().motion : log.report();
-    if (refusal.code() == "no-data") refuse_without_samples(read);
-    if (refusal.code() == "no-data" && options.test_log.empty()) refuse_all_held_out(read.samples);
-    throw;
-  }
-  result.motion = effects ? effects->log().motion : log.report();
-  result.notes = robot.all_notes();
-  result.notes.insert(result.notes.end(), result.motion.notes.begin(), result.motion.notes.end());
+  const auto read = [&]() -> const MotionReport& {
+    return effects ? effects->log().motion : log.report();
+  };
+  const auto find = [&] {
+    try {
+      result.found = identify(
+          robot.robot, model, [&] { return effects ? effects->next() : samples.next(); }, settings,
+          watch);
+    } catch (const Refusal& refusal) {
+      if (refusal.code() != "no-data") throw;
+      // A stretch of the log alone is fitted: that it holds nothing is no fault of the samples.
+      refuse_without_samples(read());
+      if (options.test_log.empty()) refuse_all_held_out(read().samples);
+      throw;
+    }
+  };
+  with_notes([&] { return robot.notes_with(read()); }, find);
+  result.motion = read();
+  result.notes = robot.notes_with(result.motion);
   choose_written_links(result, robot.robot, options.least_mass);
-  result.heldout = effects ? effects->compare(robot, inputs, options, result.found.Phi)
-                           : compare(robot, inputs, options, result.found.Phi);
+  result.heldout =
+      with_notes([&] { return robot.notes_with(result.motion); },
+                 [&] {
+                   return effects ? effects->compare(robot, inputs, options, result.found.Phi)
+                                  : compare(robot, inputs, options, result.found.Phi);
+                 });
   note_worse_prediction(robot.robot, result);
   if (result.sought.free_links.size() < moving_links(robot.robot).size()) {
     result.notes.emplace_back(

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "shapeid/app/identification.hpp"
+#include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/sought.hpp"
 #include "shapeid/app/tell.hpp"
@@ -56,9 +57,11 @@ void identify_windows(const IdentifyArguments& options, const RobotInputs& robot
     fmt::print("{}\n", line.dump());
   }
   if (windows == 0) {
-    throw Refusal("too-short",
-                  fmt::format("the log has {} samples, and the first answer needs {}",
-                              log.report().samples, std::max(options.window, options.stride)));
+    throw NotedRefusal(
+        Refusal("too-short",
+                fmt::format("the log has {} samples, and the first answer needs {}",
+                            log.report().samples, std::max(options.window, options.stride))),
+        log.report().notes);
   }
   tell(fmt::format("smoothed forward in time; group delay {:.1f} ms\n",
                    1e3 * log.report().group_delay));
@@ -75,7 +78,8 @@ void identify(IdentifyArguments& options) {
   options.run.settings.expected_mass = mass;
   check_test_log(robot, options.inputs, options.run);
   const Result result = run_identification(robot, model, options.inputs, options.run);
-  check_some_mass(result, mass);
+  with_notes([&] { return robot.notes_with(result.motion); },
+             [&] { check_some_mass(result, mass); });
   const Judgement judged = judge(result);
   const std::optional<double>& floor = judged.certified.proof.floor;
   deliver(options.delivery, result_json(result, floor, robot.robot),

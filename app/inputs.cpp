@@ -166,6 +166,12 @@ std::vector<std::string> RobotInputs::all_notes() const {
   return all;
 }
 
+std::vector<std::string> RobotInputs::notes_with(const MotionReport& log) const {
+  std::vector<std::string> all = all_notes();
+  all.insert(all.end(), log.notes.begin(), log.notes.end());
+  return all;
+}
+
 RobotInputs read_robot(const MotionInputs& inputs) {
   check_no_stream(inputs.log);
   return read_robot(inputs, LogReader(inputs.log).table());

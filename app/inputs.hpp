@@ -51,6 +51,8 @@ struct RobotInputs {
   [[nodiscard]] std::string of_floating_base() const;
   /// What a result notes of its inputs: of the robot, remarks, warnings.
   [[nodiscard]] std::vector<std::string> all_notes() const;
+  /// These, and what was noted of a log.
+  [[nodiscard]] std::vector<std::string> notes_with(const MotionReport& log) const;
 };
 
 /// On standard error, where no notes of a result say them.

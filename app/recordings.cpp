@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/models/butterworth.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/text.hpp"
@@ -49,7 +50,7 @@ RecordedLog read_recording(const std::string& path, const RobotInputs& robot,
     if (!wanted || part_of(sample->time - *start, inputs) == *wanted) samples.push_back(*sample);
   }
   const MotionReport& report = log.report();
-  refuse_without_samples(report);
+  with_notes([&] { return report.notes; }, [&] { refuse_without_samples(report); });
   const double begins = start.value_or(0.0);
   return {recording_of(std::move(samples), report, inputs, begins),
           report,

@@ -19,6 +19,7 @@
 #include <system_error>
 #include <vector>
 
+#include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/tell.hpp"
 #include "shapeid/models/error.hpp"
@@ -30,10 +31,21 @@ namespace {
 
 constexpr int no = 1, bad_input = 2, our_defect = 3;
 
+constexpr std::size_t longest_line = 2000;  // bytes: a screen
+
 int complain(const std::string& message, int status) {
-  constexpr std::size_t longest = 2000;  // bytes: a screen
-  tell(fmt::format("shapeid: {}\n", one_line(message, longest)));
+  tell(fmt::format("shapeid: {}\n", one_line(message, longest_line)));
   return status;
+}
+
+/// What was noted first: the reason is the last line.
+int refuse(const Refusal& refusal) {
+  if (const auto* noted = dynamic_cast<const NotedRefusal*>(&refusal)) {
+    for (const std::string& note : noted->notes()) {
+      tell(fmt::format("note: {}\n", one_line(note, longest_line)));
+    }
+  }
+  return complain(refusal.what(), no);
 }
 
 bool says_no_threads(const std::exception& e) {
@@ -166,7 +178,7 @@ int run_command(CLI::App& app, int argc, char** argv) {
   } catch (const InputError& e) {
     return complain(e.what(), bad_input);
   } catch (const Refusal& e) {
-    return complain(e.what(), no);
+    return refuse(e);
   } catch (const std::bad_alloc&) {
     return complain("there is not enough memory for this; a shorter log, or more memory",
                     bad_input);

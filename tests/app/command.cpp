@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <system_error>
 
 #include "shapeid/tests/support/files.hpp"
@@ -86,11 +87,20 @@ std::string simulated_log(const std::string& name, const std::string& arguments)
   return path;
 }
 
+std::ptrdiff_t lines_said(const CommandRun& run) {
+  std::ptrdiff_t lines = 0;
+  std::istringstream text(run.err);
+  for (std::string line; std::getline(text, line);) {
+    if (run.status != 1 || !line.starts_with("note: ")) ++lines;
+  }
+  return lines;
+}
+
 void expect_one_line(const CommandRun& run, int status, const std::string& words) {
   // Not all of what a command says that prints without end.
   const std::string said = run.err.substr(0, 1000);
   EXPECT_EQ(run.status, status) << said;
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << said;
+  EXPECT_EQ(lines_said(run), 1) << said;
   EXPECT_NE(run.err.find(words), std::string::npos) << said;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -47,6 +48,10 @@ std::string scratch_file(const std::string& name, const std::string& text);
 /// says how it is written (NAME.csv, NAME.csv.gz); arguments name no files. Returns the path;
 /// expects that the command succeeds.
 std::string simulated_log(const std::string& name, const std::string& arguments);
+
+/// How many lines a command said on standard error. Notes stand before a refusal (exit status 1),
+/// and do not count.
+[[nodiscard]] std::ptrdiff_t lines_said(const CommandRun& run);
 
 /// Expects that the command said what is wrong in one line that holds `words`.
 void expect_one_line(const CommandRun& run, int status, const std::string& words);

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 
 #include "shapeid/tests/app/command.hpp"
@@ -21,7 +20,7 @@ class Given : public testing::Test {
     const CommandRun run = shapeid(arguments);
     EXPECT_EQ(run.status, status) << run.err;
     EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(lines_said(run), 1) << run.err;
     EXPECT_TRUE(run.out.empty()) << run.out;
   }
 };

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -99,7 +98,7 @@ TEST(Refusals, OneLineThatSaysWhatIsWrongAndWhatWouldBeRight) {
     const CommandRun run = shapeid(r.arguments);
     EXPECT_EQ(run.status, r.status) << run.err;
     EXPECT_NE(run.err.find(r.says), std::string::npos) << run.err;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(lines_said(run), 1) << run.err;
     EXPECT_TRUE(run.out.empty()) << run.out;
   }
 }
