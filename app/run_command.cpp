@@ -98,7 +98,7 @@ void check_options(const CLI::App& app, int argc, char** argv) {
 /// CLI11 says how many values came and how many are wanted, not which: the option's help does.
 std::string with_what_is_right(const CLI::App& app, int argc, char** argv,
                                const CLI::ArgumentMismatch& mismatch) {
-  const std::string said = mismatch.what();
+  std::string said = mismatch.what();
   std::vector<const CLI::App*> verbs = app.get_subcommands({});
   if (verbs.empty()) verbs.push_back(&app);  // a program that is one
   for (const CLI::App* verb : verbs) {
