@@ -100,7 +100,7 @@ void add_diagnose(CLI::App& app) {
                    "logs for the final comparison (default: every fifth two seconds of the log)");
   add_hold_out_option(*verb, d.inputs);
   verb->add_option("--reference", d.reference,
-                   "earlier log of the same robot: what has come since is then a finding");
+                   "earlier log of the same robot: what has come or gone since is then a finding");
   auto* shapes = verb->add_option(
       "--shapes", d.shapes, "shapes.yaml (default: a grid of 216 cells about each sought link)");
   auto* named = verb->add_option("--free", d.free_links,

@@ -11,6 +11,7 @@
 
 #include "shapeid/app/diagnosis_logs.hpp"
 #include "shapeid/app/motion_noise.hpp"
+#include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/app/result.hpp"
 #include "shapeid/diagnosis/contact_reach.hpp"
 #include "shapeid/diagnosis/contacts_in_loop.hpp"
@@ -265,8 +266,8 @@ void note_contact_reach(const diagnosis::ContactReach& reach, DiagnosisRun& run)
       1e3 * reach.before, 1e3 * reach.after));
 }
 
-/// Errors are of the log alone. So a change is also "found" where something went, or was there all
-/// along: then the model, without what came since, leaves much of the reference log.
+/// Errors before and after are of the log alone. What the reference log has besides, and no effect
+/// describes, may make changes of others.
 void note_reference(const Robot& robot, const Recording& log, const Recording& reference,
                     const diagnosis::Series& remaining, DiagnosisRun& run) {
   diagnosis::RichModel earlier = run.consistent.model;
@@ -288,8 +289,7 @@ void note_reference(const Robot& robot, const Recording& log, const Recording& r
   if (joints.empty()) return;
   run.notes.push_back(fmt::format(
       "of the reference log the model leaves far more than of the log, at {}: something "
-      "went since then, or was there already, and what is said to have come may stand "
-      "for it",
+      "was there that no effect is, and what is said to have come or gone may stand for it",
       fmt::join(joints, ", ")));
 }
 
@@ -306,6 +306,7 @@ class Diagnosis {
   void measure_errors();
   void find_remains();
   void add_notes();
+  [[nodiscard]] const std::vector<std::string>& notes() const { return run_.notes; }
   [[nodiscard]] DiagnosisRun take() &&;
 
  private:
@@ -481,11 +482,14 @@ DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& opti
   const diagnosis::LoopSettings settings = settings_for(robot, options, logs.fitted);
   check_logs(robot, options, logs, settings);
   Diagnosis diagnosis(robot, options, settings, std::move(logs));
-  diagnosis.close_loop();
-  diagnosis.find_bodies();
-  diagnosis.measure_errors();
-  diagnosis.find_remains();
-  diagnosis.add_notes();
+  with_notes([&] { return diagnosis.notes(); },
+             [&] {
+               diagnosis.close_loop();
+               diagnosis.find_bodies();
+               diagnosis.measure_errors();
+               diagnosis.find_remains();
+               diagnosis.add_notes();
+             });
   return std::move(diagnosis).take();
 }
 

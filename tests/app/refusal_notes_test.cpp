@@ -14,8 +14,8 @@ void turn_torques(NamedRow& values) {
   values.each("tau.", [](double& torque) { torque = -torque; });
 }
 
-/// Readings of a knee are held where it swings, and every torque has the other sign.
-void write_held_and_turned() {
+/// Readings of a knee are held where it swings.
+void write_held(void (*other)(NamedRow&)) {
   simulated_log("sound.csv", "--seconds 2");
   int row = 0;
   double held = 0.0;
@@ -25,9 +25,12 @@ void write_held_and_turned() {
     if (row == begin) held = knee;
     if (row >= begin && row < end) knee = held;
     ++row;
-    turn_torques(values);
+    other(values);
   });
 }
+
+/// Likewise, and every torque has the other sign.
+void write_held_and_turned() { write_held(turn_torques); }
 
 void expect_notes_before(const CommandRun& run, const std::string& refusal) {
   const std::string note = "note: ", says = "held.csv:741: q.FR_knee stays the same for 0.24 s";
@@ -49,6 +52,14 @@ TEST(RefusalNotes, StandBeforeTheReasonWhateverTheVerb) {
   expect_notes_before(shapeid("batch --divisions 0 " + given + "other.csv"), "refused (no-mass): ");
   expect_notes_before(shapeid("identify --online --window 100000 " + given),
                       "refused (too-short): ");
+}
+
+/// What the loop itself finds too little of.
+TEST(RefusalNotes, StandBeforeTheReasonOfTheLoop) {
+  write_held([](NamedRow&) {});
+  simulated_log("another.csv", "--seconds 2 --seed 2");
+  expect_notes_before(shapeid("diagnose " + quadruped_files + " --log held.csv --test another.csv"),
+                      "refused (too-short): the log gives ");
 }
 
 /// Of a log that is refused by itself, too: what was read of it before is noted.

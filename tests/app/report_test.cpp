@@ -27,7 +27,9 @@ std::size_t times_in(const std::string& text, const std::string& what) {
 
 /// A bar of 2 kg, 0.4 m from a level axis, whose joint holds so much friction (N m) against its
 /// motion; 20 s, with noise of the torque.
-void write_hinge(const std::string& name = "hinge", double friction = 0.5, unsigned seed = 5) {
+/// `waves` (N m): of a sum of torques with a clock of their own, which no effect is.
+void write_hinge(const std::string& name = "hinge", double friction = 0.5, unsigned seed = 5,
+                 double waves = 0.0) {
   scratch_file("hinge.urdf",
                "<robot name='hinge'><link name='post'/><link name='bar'><inertial><origin xyz='0.4 "
                "0 0'/><mass value='2'/><inertia ixx='0.01' iyy='0.02' izz='0.02' ixy='0' ixz='0' "
@@ -43,6 +45,7 @@ void write_hinge(const std::string& name = "hinge", double friction = 0.5, unsig
     constexpr double g = 9.81, inertia = 0.02 + 2 * 0.4 * 0.4;
     log += fmt::format("{},{},{},{},{}\n", t, q, dq, ddq,
                        inertia * ddq + 2 * g * 0.4 * std::cos(q) + friction * std::tanh(dq / 0.05) +
+                           waves * (std::sin(17.0 * t) + std::sin(11.3 * t + 1.0)) +
                            0.02 * random.normal());
   }
   scratch_file(name + ".csv", log);
@@ -156,11 +159,34 @@ TEST(Report, TheNoiseFloorIsExplainedAndNoneWithoutAFilter) {
   }
 }
 
-/// Friction that went is no finding, but the model does not know the reference log; of friction
-/// that came it does.
+/// Friction that went is a finding, with its time, and no part of the model that is written out.
+TEST(Report, SaysWhatWentSinceTheReferenceLog) {
+  write_hinge();
+  write_hinge("smooth", 0.0, 6);
+  const CommandRun run = shapeid(
+      "diagnose --robot hinge.urdf --log smooth.csv --reference hinge.csv --trust --exact "
+      "--out went");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("was in the reference log and is gone"), std::string::npos) << run.out;
+  const auto folder = [](const std::string& name) { return text_of(scratch() + "/went/" + name); };
+  const auto result = nlohmann::json::parse(folder("result.json"));
+  ASSERT_EQ(result["findings"].size(), 1U) << result["findings"];
+  const nlohmann::json& finding = result["findings"][0];
+  EXPECT_EQ(finding["effect"], "coulomb_friction");
+  EXPECT_NEAR(finding["value"].get<double>(), 0.5, 0.02);
+  EXPECT_TRUE(finding["gone_since_reference"].get<bool>());
+  EXPECT_FALSE(finding["since_reference"].get<bool>());
+  EXPECT_FALSE(finding["may_act_in_both"].get<bool>());
+  EXPECT_EQ(folder("effects.yaml"), "effects: []\n");
+  EXPECT_EQ(folder("predict_torque.hpp").find("coulomb"), std::string::npos);
+  EXPECT_NE(folder("report.html").find("was in the reference log and is gone"), std::string::npos);
+}
+
+/// Of what no effect is the model knows nothing, in either log.
 TEST(Report, SaysWhatIsLeftOfTheReferenceLog) {
   write_hinge();
   write_hinge("smooth", 0.0, 6);
+  write_hinge("strange", 0.5, 6, 0.3);
   const auto is_said = [](const std::string& log, const std::string& reference) {
     const auto result = diagnosed(fmt::format(
         "--robot hinge.urdf --log {}.csv --reference {}.csv --trust --cutoff 20", log, reference));
@@ -168,7 +194,8 @@ TEST(Report, SaysWhatIsLeftOfTheReferenceLog) {
       return note.find("of the reference log the model leaves far more") != std::string::npos;
     });
   };
-  EXPECT_TRUE(is_said("smooth", "hinge"));
+  EXPECT_TRUE(is_said("hinge", "strange"));
+  EXPECT_FALSE(is_said("smooth", "hinge"));
   EXPECT_FALSE(is_said("hinge", "smooth"));
 }
 
