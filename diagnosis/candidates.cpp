@@ -105,8 +105,8 @@ std::optional<AppliedEffect> with_shape_of_neighbours(AppliedEffect hypothesis,
   return has_any ? std::optional(hypothesis) : std::nullopt;
 }
 
-/// A candidate that always acts as one that came or went, or went as it is. Empty if there can be
-/// none, or the tally has it with numbers of its own.
+/// The candidate as one that acts at that time. Empty if it cannot (one of the model's that came
+/// always did), or if the tally has that one with numbers of its own.
 std::optional<Candidate> of_time(When when, Candidate c, const BlockFits& fits,
                                  const CandidateRule& rule) {
   const AppliedEffect known = c.effect;

@@ -139,8 +139,7 @@ double BlockFits::sum_between(int left_out, std::size_t from, std::size_t to, Ei
                               Eigen::Index j) const {
   const std::size_t last = tally_.blocks.size();
   to = std::min(to, last);
-  // Sums of a log, or of both, are asked for many times; moments of loads are many, and each
-  // seldom.
+  // Sums of a log, or of both, are asked for many times, those from a load's moment on seldom.
   const bool starts = from == 0 || from == first_block_;
   const bool ends = to == last || to == first_block_;
   if (starts && ends && from < to) return sums(left_out, from, to)(i, j);
