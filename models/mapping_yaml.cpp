@@ -28,7 +28,7 @@ int line_of(const std::map<std::string, int>& lines, const std::string& key) {
 
 /// `hold: true` is a group of its own, `hold: name` shares one.
 std::string read_hold(const YamlInput& file, const YAML::Node& node, const ColumnRule& rule) {
-  const std::string word = file.text(node, "hold");
+  std::string word = file.text(node, "hold");
   if (word == "true") return rule.from;
   if (word == "false") return "";
   // YAML has had many spellings of these; as a name none of them is meant.
