@@ -166,14 +166,16 @@ Eigen::MatrixXd BlockFits::normal(const Columns& a, const Columns& b, int left_o
     return std::ranges::all_of(list.from, [](std::size_t f) { return f == 0; }) &&
            std::ranges::all_of(list.to, [last](std::size_t t) { return t >= last; });
   };
-  if (at_once(a) && at_once(b)) return sums(left_out, 0, last)(a.index, b.index);
+  const Eigen::MatrixXd& all = sums(left_out, 0, last);
+  if (at_once(a) && at_once(b)) return all(a.index, b.index);
   Eigen::MatrixXd N(a.count(), b.count());
   for (Eigen::Index j = 0; j < b.count(); ++j) {
     for (Eigen::Index i = 0; i < a.count(); ++i) {
       const auto ui = static_cast<std::size_t>(i), uj = static_cast<std::size_t>(j);
       const std::size_t from = std::max(a.from[ui], b.from[uj]);
       const std::size_t to = std::min(a.to[ui], b.to[uj]);
-      N(i, j) = sum_between(left_out, from, to, a.index[ui], b.index[uj]);
+      N(i, j) = from == 0 && to >= last ? all(a.index[ui], b.index[uj])
+                                        : sum_between(left_out, from, to, a.index[ui], b.index[uj]);
     }
   }
   return N;
