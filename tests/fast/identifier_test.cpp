@@ -237,26 +237,28 @@ TEST(FastIdentifier, TheReferenceRefusesTheSameSettings) {
   });
 }
 
+/// Neither path makes an identifier of these.
+void refuse_both(const Robot& robot, const BodyModel& model, const std::string& says) {
+  fast::IdentifierSettings settings;
+  reference::OnlineSettings same;
+  settings.expected_mass = same.expected_mass = 1.0;
+  for (const bool fast_path : {true, false}) {
+    try {
+      if (fast_path) {
+        Identifier(robot, model, settings);
+      } else {
+        reference::OnlineIdentifier(robot, model, same);
+      }
+      ADD_FAILURE() << says;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+    }
+  }
+}
+
 /// Another robot's model would be read beyond its end, and a base that stands has no rows.
 TEST(FastIdentifier, TheModelIsTheRobots) {
   const Robot robot = read_urdf(SHAPEID_SOURCE_DIR "/models/robots/quadruped.urdf").robot;
-  const auto refuse_both = [](const Robot& of, const BodyModel& model, const std::string& says) {
-    fast::IdentifierSettings settings;
-    reference::OnlineSettings same;
-    settings.expected_mass = same.expected_mass = 1.0;
-    for (const bool fast_path : {true, false}) {
-      try {
-        if (fast_path) {
-          Identifier(of, model, settings);
-        } else {
-          reference::OnlineIdentifier(of, model, same);
-        }
-        ADD_FAILURE() << says;
-      } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
-      }
-    }
-  };
   BodyModel model = test::base_model(robot);
   Robot other = robot;
   other.links.pop_back();
@@ -279,21 +281,7 @@ TEST(FastIdentifier, TheRobotIsWellFormed) {
   const auto refused = [&](const std::string& says, auto change) {
     Robot other = robot;
     change(other);
-    fast::IdentifierSettings settings;
-    reference::OnlineSettings same;
-    settings.expected_mass = same.expected_mass = 1.0;
-    for (const bool fast_path : {true, false}) {
-      try {
-        if (fast_path) {
-          Identifier(other, model, settings);
-        } else {
-          reference::OnlineIdentifier(other, model, same);
-        }
-        ADD_FAILURE() << says;
-      } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
-      }
-    }
+    refuse_both(other, model, says);
   };
   refused("has no links", [](Robot& r) { r.links.clear(); });
   refused("does not stand before it", [](Robot& r) { r.links[2].parent = 2; });

@@ -6,11 +6,6 @@ file(COPY ${SOURCE}/tests/house/consumer/main.cpp DESTINATION ${WORK})
 file(WRITE ${WORK}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(embeds LANGUAGES C CXX)\n"
      "add_subdirectory(${SOURCE} shapeid)\nadd_executable(embeds main.cpp)\n"
      "target_link_libraries(embeds PRIVATE shapeid::reference shapeid::fast)\n")
-function(must)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
-  if(NOT status EQUAL 0)
-    message(FATAL_ERROR "${ARGV} failed (${status}):\n${out}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/must.cmake)
 must(${CMAKE_COMMAND} -S ${WORK} -B ${WORK}/build -G Ninja)
 must(${CMAKE_COMMAND} --build ${WORK}/build --target CMakeFiles/embeds.dir/main.cpp.o)

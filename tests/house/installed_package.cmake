@@ -2,12 +2,7 @@
 # Called by ctest: cmake -DBUILD=... -DSOURCE=... -DFLAGS=... -P installed_package.cmake
 set(work ${BUILD}/installed_package)
 file(REMOVE_RECURSE ${work})
-function(must)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
-  if(NOT status EQUAL 0)
-    message(FATAL_ERROR "${ARGV} failed (${status}):\n${out}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/must.cmake)
 function(must_fail words)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
   if(status EQUAL 0 OR NOT out MATCHES "${words}")
