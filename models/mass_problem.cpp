@@ -5,6 +5,16 @@
 #include <cmath>
 
 namespace shapeid {
+namespace {
+
+Violation why_not_positive(const char* what, const Eigen::VectorXd& numbers) {
+  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
+    if (!(numbers[i] > 0.0)) return fmt::format("{} {} is {:g}, not positive", what, i, numbers[i]);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 Violation why_malformed(const MassProblem& p) {
   if (p.Y.rows() != p.F.size() || p.F.size() != p.W.size()) {
@@ -20,8 +30,8 @@ Violation why_malformed(const MassProblem& p) {
   const bool finite =
       p.Y.allFinite() && p.F.allFinite() && p.W.allFinite() && p.U.allFinite() && p.V.allFinite();
   if (!finite) return "a number of the mass problem is not finite";
-  if (p.W.size() > 0 && p.W.minCoeff() <= 0.0) return "a weight is not positive";
-  if (p.V.size() > 0 && p.V.minCoeff() <= 0.0) return "a volume is not positive";
+  if (Violation why = why_not_positive("weight", p.W)) return why;
+  if (Violation why = why_not_positive("volume", p.V)) return why;
   if (!(p.lambda >= 0.0 && std::isfinite(p.lambda))) {
     return fmt::format("lambda is {:g}, must be finite and >= 0", p.lambda);
   }

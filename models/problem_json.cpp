@@ -62,10 +62,11 @@ std::vector<Region> regions_from(const json& list, const std::string& key,
                                  const JsonSource& source) {
   if (!list.is_array()) throw InputError({source.name, 0, key}, "not a list", "of shapes");
   std::vector<Region> regions;
-  for (const json& item : list) {
-    Shape shape = shape_from_json(item, key, source);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const JsonSource place{fmt::format("{}, {}[{}]", source.name, key, i), source.manual};
+    Shape shape = shape_from_json(list[i], "", place);
     regions.push_back(
-        {count(member(item, "link", source), most_links, "link", source), std::move(shape)});
+        {count(member(list[i], "link", place), most_links, "link", place), std::move(shape)});
   }
   return regions;
 }

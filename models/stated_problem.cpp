@@ -7,12 +7,19 @@
 namespace shapeid {
 namespace {
 
-Violation why_misplaced(const Region& region, const char* what, const StatedProblem& p) {
-  if (region.link < 0 || 10 * region.link >= p.masses.U.rows()) {
-    return fmt::format("{} is on free link {}, there are {}", what, region.link,
-                       p.masses.U.rows() / 10);
+Violation why_misplaced(const std::vector<Region>& regions, const char* what,
+                        const StatedProblem& p) {
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const Region& region = regions[i];
+    if (region.link < 0 || 10 * region.link >= p.masses.U.rows()) {
+      return fmt::format("{} {} is on free link {}, there are {}, counted from 0", what, i,
+                         region.link, p.masses.U.rows() / 10);
+    }
+    if (const Violation why = why_malformed(region.shape)) {
+      return fmt::format("{} {}: {}", what, i, *why);
+    }
   }
-  return why_malformed(region.shape);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -37,12 +44,8 @@ Violation why_malformed(const StatedProblem& p) {
       return fmt::format("column {} has no value between its bounds", k);
     }
   }
-  for (const Region& region : p.regions) {
-    if (Violation why = why_misplaced(region, "a region", p)) return why;
-  }
-  for (const Region& shape : p.shapes) {
-    if (Violation why = why_misplaced(shape, "a shape", p)) return why;
-  }
+  if (Violation why = why_misplaced(p.regions, "region", p)) return why;
+  if (Violation why = why_misplaced(p.shapes, "shape", p)) return why;
   if (!p.shapes.empty() && static_cast<Eigen::Index>(p.shapes.size()) != p.masses.shapes()) {
     return fmt::format("{} shapes are stated, U has {} columns", p.shapes.size(),
                        p.masses.shapes());

@@ -64,6 +64,21 @@ std::optional<double> hexadecimal(std::string_view text) {
   return negative ? -value : value;
 }
 
+std::optional<double> finite_number(const json& value) {
+  std::optional<double> read;
+  if (value.is_string()) read = hexadecimal(value.get<std::string>());
+  if (value.is_number()) read = value.get<double>();
+  return read && std::isfinite(*read) ? read : std::nullopt;
+}
+
+/// A number of a list; `name` says which, where it is none.
+template <class Name>
+double entry(const json& value, Name name, const std::string& key, const JsonSource& source) {
+  const auto read = finite_number(value);
+  if (!read) refuse(source, key, name() + " is not a finite number", "write finite decimals");
+  return *read;
+}
+
 }  // namespace
 
 json parse_json(const std::string& text, const JsonSource& source) {
@@ -106,14 +121,9 @@ const json& member(const json& object, const std::string& key, const JsonSource&
 }
 
 double number(const json& value, const std::string& key, const JsonSource& source) {
-  if (value.is_string()) {
-    const auto read = hexadecimal(value.get<std::string>());
-    if (read && std::isfinite(*read)) return *read;
-  }
-  if (!value.is_number() || !std::isfinite(value.get<double>())) {
-    refuse(source, key, "not a finite number", "write finite decimals");
-  }
-  return value.get<double>();
+  const auto read = finite_number(value);
+  if (!read) refuse(source, key, "not a finite number", "write finite decimals");
+  return *read;
 }
 
 Eigen::Index count(const json& value, Eigen::Index most, const std::string& key,
@@ -134,7 +144,8 @@ Eigen::VectorXd numbers(const json& value, const std::string& key, const JsonSou
   if (!value.is_array()) refuse(source, key, "not a list", "a list of numbers");
   Eigen::VectorXd v(static_cast<Eigen::Index>(value.size()));
   for (Eigen::Index i = 0; i < v.size(); ++i) {
-    v[i] = number(value[static_cast<std::size_t>(i)], key, source);
+    v[i] = entry(value[static_cast<std::size_t>(i)], [&] { return fmt::format("entry {}", i); },
+                 key, source);
   }
   return v;
 }
@@ -144,7 +155,9 @@ Eigen::MatrixXd matrix(const json& value, Eigen::Index columns, const std::strin
   if (!value.is_array()) refuse(source, key, "not a list", "a list of rows");
   // All sizes before any memory: ten thousand empty rows of a stated width would ask for all of it.
   for (std::size_t i = 0; i < value.size(); ++i) {
-    if (!value[i].is_array()) refuse(source, key, "not a list", "a list of numbers");
+    if (!value[i].is_array()) {
+      refuse(source, key, fmt::format("row {} is not a list", i), "a list of numbers");
+    }
     if (std::cmp_not_equal(value[i].size(), columns)) {
       refuse(source, key, fmt::format("row {} has {} numbers", i, value[i].size()),
              fmt::format("every row has {}", columns));
@@ -154,7 +167,8 @@ Eigen::MatrixXd matrix(const json& value, Eigen::Index columns, const std::strin
   for (Eigen::Index i = 0; i < M.rows(); ++i) {
     const json& row = value[static_cast<std::size_t>(i)];
     for (Eigen::Index k = 0; k < columns; ++k) {
-      M(i, k) = number(row[static_cast<std::size_t>(k)], key, source);
+      M(i, k) = entry(row[static_cast<std::size_t>(k)],
+                      [&] { return fmt::format("entry {} of row {}", k, i); }, key, source);
     }
   }
   return M;

@@ -217,6 +217,33 @@ struct Broken {
   std::string find, replace, says;
 };
 
+TEST(ProblemJson, SaysWhichShapeIsWrong) {
+  const std::string good = R"({"kind":"point","link":0,"position":[0,0,0],"nominal_volume":1})";
+  const auto says = [&](const std::string& second) {
+    const std::string text =
+        R"({"format":"shapeid-problem-1","free_links":1,"Y":[],"F":[],"W":[],"U":[[],[],[],[],[],)"
+        R"([],[],[],[],[]],"V":[],"lambda":0,"mass_bound":0,"regions":[)" +
+        good + "," + second + "]}";
+    try {
+      (void)stated_problem_from_json(text, "p.json");
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(says(good), "accepted");
+  EXPECT_EQ(says("1"), "p.json, regions[1]: not an object; a shape");
+  EXPECT_EQ(says(R"({"kind":"ball"})"),
+            "p.json, regions[1], column kind: unknown kind of shape 'ball'; cuboid, cylinder, "
+            "ellipsoid, polyhedron or point");
+  EXPECT_EQ(says(R"({"kind":"point","link":0,"position":[0,0,0],"nominal_volume":-1})")
+                .find("p.json, regions[1]: "),
+            0U);
+  EXPECT_EQ(says(R"({"kind":"point","link":1,"position":[0,0,0],"nominal_volume":1})"),
+            "p.json: region 1 is on free link 1, there are 1, counted from 0; see "
+            "docs/formats/problem.md");
+}
+
 TEST(ProblemJson, SaysWhatIsWrongWithBrokenFiles) {
   const std::string good =
       R"({"format":"shapeid-problem-1","free_links":0,"Y":[[],[]],"F":[1.5,2.5],"W":[1.0,2.0],)"
@@ -234,10 +261,13 @@ TEST(ProblemJson, SaysWhatIsWrongWithBrokenFiles) {
       {"0.25", "-0.25",
        "p.json: lambda is -0.25, must be finite and >= 0; see docs/formats/problem.md"},
       {"[1.0,2.0]", "[1.0]", "p.json: rows disagree: Y 2, F 2, W 1; see docs/formats/problem.md"},
-      {"[1.0,2.0]", "[1.0,-2.0]", "p.json: a weight is not positive; see docs/formats/problem.md"},
-      {"[1.5,2.5]", "[1.5,null]", "p.json, column F: not a finite number; write finite decimals"},
+      {"[1.0,2.0]", "[1.0,-2.0]",
+       "p.json: weight 1 is -2, not positive; see docs/formats/problem.md"},
+      {"[1.5,2.5]", "[1.5,null]",
+       "p.json, column F: entry 1 is not a finite number; write finite decimals"},
       {"[[],[]]", "[[],[1]]", "p.json, column Y: row 1 has 1 numbers; every row has 0"},
       {"[[],[]]", "3", "p.json, column Y: not a list; a list of rows"},
+      {"[[],[]]", "[[],3]", "p.json, column Y: row 1 is not a list; a list of numbers"},
       {"\"free_links\":0", "\"free_links\":-1",
        "p.json, column free_links: not a count; a whole number from 0 to 10000"},
       {"\"free_links\":0", "\"free_links\":1e300",
