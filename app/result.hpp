@@ -10,15 +10,14 @@
 #include <vector>
 
 #include "shapeid/app/inputs.hpp"
+#include "shapeid/models/inertia.hpp"
 #include "shapeid/models/stated_problem.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/reference/identify.hpp"
 
 namespace shapeid::app {
 
-/// Of a link's ten numbers, as text has them.
-inline constexpr std::array<const char*, 10> parameter_names = {
-    "m", "m rx", "m ry", "m rz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz"};
+/// Of the parameters of `parameter_names`.
 inline constexpr std::array<const char*, 10> parameter_units = {
     "kg", "kg m", "kg m", "kg m", "kg m^2", "kg m^2", "kg m^2", "kg m^2", "kg m^2", "kg m^2"};
 

@@ -9,12 +9,18 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <array>
+
 #include "shapeid/models/alignment.hpp"
 #include "shapeid/models/contract.hpp"
 
 namespace shapeid {
 
 using Vector10 = Eigen::Matrix<double, 10, 1>;
+
+/// The ten in their order, as messages call them.
+inline constexpr std::array<const char*, 10> parameter_names = {
+    "m", "m rx", "m ry", "m rz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz"};
 
 /// Sigma = [[ integral r r^T dm, m r ], [ (m r)^T, m ]], link axes, about the link origin.
 /// With m > 0 it is positive semidefinite if and only if some nonnegative mass distribution has

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "shapeid/models/inertia.hpp"
 #include "shapeid/models/strict_json.hpp"
 #include "shapeid/proofs/certificate/bound.hpp"
 #include "shapeid/proofs/certificate/cone.hpp"
@@ -122,7 +123,8 @@ class Certifier {
     const Rational rounding = exact(tolerance_.rounding);
     for (std::size_t i = 0; i < Phi_.size(); ++i) {
       if (abs(exact(claimed(i)) - Phi_[i]) <= rounding * terms[i]) continue;
-      reject("parameter {} is said to be {}, {} {}", i, claimed(i),
+      reject("parameter {}, {} of free link {}, is said to be {}, {} {}", i,
+             parameter_names[i % 10], i / 10, claimed(i),
              masses_given() ? "the masses make it" : "the nearest body of the shapes has",
              words(Phi_[i]));
     }

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "shapeid/models/inertia.hpp"
 #include "shapeid/proofs/certificate/exact_moments.hpp"
 #include "shapeid/proofs/certificate/linear.hpp"
 
@@ -40,8 +41,9 @@ std::string disagreement(const MassProblem& p, Eigen::Index j, const Region& reg
                         : k < 4 ? off * off <= rounding * rounding * square
                                 : off <= rounding * square;
     if (!agrees) {
-      return fmt::format("parameter {} of column {} is said to be {}, its shape has {}", k, j,
-                         written, made.lower.get_d());
+      return fmt::format("{} of column {} of U is said to be {}, its shape has {}",
+                         parameter_names[static_cast<std::size_t>(k)], j, written,
+                         made.lower.get_d());
     }
   }
   return "";

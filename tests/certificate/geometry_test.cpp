@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "shapeid/proofs/certificate/certify.hpp"
@@ -96,7 +97,12 @@ TEST(Geometry, EntriesAreMeasuredByTheirUnits) {
         for (const double sign : {-1.0, 1.0}) {
           StatedProblem p = of_shapes({shape}, shape);
           p.masses.U(10 + i, 0) += sign * share * rounding.get_d() * measure;
-          EXPECT_EQ(check_geometry(p, rounding).agree, agrees) << distance << " " << i;
+          const Geometry found = check_geometry(p, rounding);
+          EXPECT_EQ(found.agree, agrees) << distance << " " << i;
+          const std::string name = parameter_names[static_cast<std::size_t>(i)];
+          EXPECT_EQ(found.first_disagreement.starts_with(name + " of column 0 of U is said"),
+                    agrees == 0)
+              << found.first_disagreement;
         }
       }
     }
