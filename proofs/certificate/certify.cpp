@@ -143,7 +143,9 @@ class Certifier {
     proof.objective_above = rounded_up(f_);
     if (!result_.proof.feasible) {
       proof.lower = 0.0;  // a sum of squares
-      proof.upper = proof.gap = proof.mass_distance = proof.mass_bound = infinity;
+      proof.upper = proof.gap = proof.mass_distance = infinity;
+      proof.mass_bound = p_.mass_bound ? rounded_up(*p_.mass_bound) : infinity;
+      proof.mass_bound_declared = p_.mass_bound.has_value();
       proof.parameter_distance.setConstant(infinity);
       return;
     }

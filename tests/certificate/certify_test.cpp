@@ -47,7 +47,8 @@ TEST(Certify, AcceptsBothPathsAndKnowsTheOptimum) {
 }
 
 TEST(Certify, NamesEveryNegativeMass) {
-  const StatedProblem p = test::load_problem();
+  StatedProblem p = test::load_problem();
+  p.masses.mass_bound = 10.0;
   const Eigen::VectorXd m = reference::solve_masses(p.masses).m;
   for (const Eigen::Index j : {Eigen::Index{0}, m.size() / 2, m.size() - 1}) {
     Eigen::VectorXd wrong = m;
@@ -55,6 +56,8 @@ TEST(Certify, NamesEveryNegativeMass) {
     const Certified c = certify(p, honest_answer(p, wrong));
     EXPECT_FALSE(c.proof.feasible);
     EXPECT_EQ(first_reason(c), "mass " + std::to_string(j) + " is negative: -0.125 kg");
+    EXPECT_EQ(c.proof.mass_bound, 10.0);
+    EXPECT_TRUE(c.proof.mass_bound_declared);
   }
 }
 
