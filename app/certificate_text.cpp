@@ -25,6 +25,14 @@ std::string bodies_text(const Proof& p) {
       count(Existence::definite), count(Existence::semidefinite), count(Existence::impossible));
 }
 
+/// With masses >= 0 bodies that cannot exist are the columns' doing.
+std::string no_bodies_text(const Proof& p) {
+  const bool exist =
+      std::find(p.bodies.begin(), p.bodies.end(), Existence::impossible) == p.bodies.end();
+  if (exist || !p.feasible) return "";
+  return "some column of U, as written, is no body's; it counts beside bodies and regions\n";
+}
+
 std::string where_from(const Proof& p) {
   if (p.optimum_known) {
     return p.free_set_right ? "solved exactly on the answer's own free set"
@@ -105,6 +113,7 @@ std::string certified_text(const certificate::Certified& certified) {
       distance_text(p), mass_bound_text(p));
   text += bodies_text(p);
   text += columns_text(p);
+  text += no_bodies_text(p);
   if (!p.made_of_shapes) {
     text += p.plane.size() > 0
                 ? "the parameters as written are not made of the shapes: a plane separates them\n"

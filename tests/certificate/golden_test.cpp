@@ -160,6 +160,20 @@ TEST(GoldenCertificate, OfAnAnswerThatMissesItsOptimumInWords) {
             "reason: another\\x0aaccepted\\x1b[2J\n");
 }
 
+/// A tensor without Ixx and Iyy, which with mass at the origin is no body's.
+TEST(GoldenCertificate, SaysThatAColumnIsNoBodys) {
+  const std::string words = "some column of U, as written, is no body's";
+  StatedProblem p = test::one_point_problem();
+  const auto text = [&](double mass) {
+    return app::certified_text(
+        certify(p, test::honest_answer(p, Eigen::VectorXd::Constant(1, mass))));
+  };
+  EXPECT_EQ(text(0.125).find(words), std::string::npos);
+  p.masses.U(9, 0) = 0.5;
+  EXPECT_NE(text(0.125).find(words), std::string::npos);
+  EXPECT_EQ(text(-0.125).find(words), std::string::npos);  // which may be the mass's doing
+}
+
 /// No mass at all, where 1/8 kg is best: the residual is -1, and -1 + 2 + 2 (-1) t + t^2 is least
 /// at t = 1/8, 49/64. From 1 that is 15/64, and no mass is farther away than the root of as much,
 /// rounded up.
