@@ -33,20 +33,32 @@ std::optional<std::vector<double>> number_list(const json& value) {
   return list;
 }
 
+/// Why the member is no list of as many finite numbers, if it is none.
+std::optional<std::string> why_no_list(const json& output, const std::string& name,
+                                       Eigen::Index size) {
+  if (!output.contains(name)) {
+    return fmt::format("{} is missing: a list of {} finite numbers", name, size);
+  }
+  const auto list = number_list(output[name]);
+  if (!list) return fmt::format("{} is not a list of {} finite numbers", name, size);
+  if (std::cmp_equal(list->size(), size)) return std::nullopt;
+  return fmt::format("{} is a list of {} numbers, expected {}", name, list->size(), size);
+}
+
 void compare_numbers(const std::string& name, const json& expected, const json& within,
                      const json& output, Sentences& found) {
-  const auto observed = number_list(output.contains(name) ? output[name] : json());
   const JsonSource source{"vector", manual};
   const Eigen::VectorXd wanted = numbers(expected, name, source);
   const Eigen::VectorXd bounds =
       within.is_array() ? numbers(within, name, source)
                         : Eigen::VectorXd::Constant(wanted.size(), number(within, name, source));
-  if (!observed || std::cmp_not_equal(observed->size(), wanted.size())) {
-    found.push_back(fmt::format("{} is not a list of {} finite numbers", name, wanted.size()));
+  if (auto why = why_no_list(output, name, wanted.size())) {
+    found.push_back(std::move(*why));
     return;
   }
+  const Eigen::VectorXd observed = numbers(output[name], name, source);
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
-    const double here = (*observed)[static_cast<std::size_t>(i)];
+    const double here = observed[i];
     if (std::abs(here - wanted[i]) <= bounds[i]) continue;
     found.push_back(fmt::format("{}[{}]: observed {:.17g}, expected {:.17g} within {:.1e}", name, i,
                                 here, wanted[i], bounds[i]));
@@ -56,14 +68,11 @@ void compare_numbers(const std::string& name, const json& expected, const json& 
 /// Masses are judged by what can be proved of them, not by other masses.
 void judge_masses(const json& vector, const json& output, Sentences& found) {
   const StatedProblem problem = stated_problem_from_json(vector["input"].dump(), "input");
-  const auto masses = number_list(output.contains("masses") ? output["masses"] : json());
-  if (!masses || static_cast<Eigen::Index>(masses->size()) != problem.masses.shapes()) {
-    found.push_back(
-        fmt::format("masses are not a list of {} finite numbers", problem.masses.shapes()));
+  if (auto why = why_no_list(output, "masses", problem.masses.shapes())) {
+    found.push_back(std::move(*why));
     return;
   }
-  const Eigen::VectorXd m =
-      Eigen::Map<const Eigen::VectorXd>(masses->data(), problem.masses.shapes());
+  const Eigen::VectorXd m = numbers(output["masses"], "masses", {"answer", manual});
   const Answer answer{problem_digest(problem), m, problem.masses.U * m,
                       objective(problem.masses, m).total()};
   if (const Violation unfit = certificate::why_unfit(problem, answer)) {

@@ -74,6 +74,18 @@ TEST(Vectors, ProgramsThatDoNotAnswerAreSaid) {
   EXPECT_EQ(stubborn.status, 1) << stubborn.err;
 }
 
+/// A number where a list of one belongs, a list of another length, none at all.
+TEST(Vectors, ListsThatAreNoneAreSaid) {
+  const auto says = [](const std::string& answer, const std::string& kind) {
+    return check("sed -u \"s/.*/" + answer + "/\"", "--kind " + kind).out;
+  };
+  const std::string number = says(R"({\"rank\":3,\"gram\":[1,2]})", "projection");
+  EXPECT_NE(number.find("rank is not a list of 1 finite numbers"), std::string::npos) << number;
+  EXPECT_NE(number.find("gram is a list of 2 numbers, expected 121"), std::string::npos) << number;
+  const std::string nothing = says("{}", "masses");
+  EXPECT_NE(nothing.find("masses is missing: a list of 4 finite"), std::string::npos) << nothing;
+}
+
 TEST(Vectors, ChangedFilesAreRefused) {
   const std::string copy = scratch() + "/changed";
   std::filesystem::remove_all(copy);

@@ -120,7 +120,7 @@ json projection_cases(test::Draw& draw) {
 json masses_cases(test::Draw& draw) {
   json cases = json::array();
   for (int i = 0; i < 6; ++i)
-    cases.push_back(masses_case(drawn_problem(draw, {2, 2, 1}, 0.05), {}));
+    cases.push_back(masses_case(drawn_problem(draw, {2, 2, 1}, 0.05), json::array()));
   for (int i = 0; i < 3; ++i) {
     StatedProblem p = drawn_problem(draw, {3, 2, 1}, 0.0);
     p.masses.lambda = 0.0;
