@@ -144,8 +144,9 @@ Eigen::VectorXd numbers(const json& value, const std::string& key, const JsonSou
   if (!value.is_array()) refuse(source, key, "not a list", "a list of numbers");
   Eigen::VectorXd v(static_cast<Eigen::Index>(value.size()));
   for (Eigen::Index i = 0; i < v.size(); ++i) {
-    v[i] = entry(value[static_cast<std::size_t>(i)], [&] { return fmt::format("entry {}", i); },
-                 key, source);
+    v[i] = entry(
+        value[static_cast<std::size_t>(i)], [&] { return fmt::format("entry {}", i); }, key,
+        source);
   }
   return v;
 }
@@ -167,8 +168,9 @@ Eigen::MatrixXd matrix(const json& value, Eigen::Index columns, const std::strin
   for (Eigen::Index i = 0; i < M.rows(); ++i) {
     const json& row = value[static_cast<std::size_t>(i)];
     for (Eigen::Index k = 0; k < columns; ++k) {
-      M(i, k) = entry(row[static_cast<std::size_t>(k)],
-                      [&] { return fmt::format("entry {} of row {}", k, i); }, key, source);
+      M(i, k) = entry(
+          row[static_cast<std::size_t>(k)], [&] { return fmt::format("entry {} of row {}", k, i); },
+          key, source);
     }
   }
   return M;
