@@ -58,13 +58,12 @@ Eigen::VectorXd sized(const json& object, const std::string& key, Eigen::Index s
   return v;
 }
 
-Guess guess_from(const json& object, const std::string& key, const StatedProblem& problem,
-                 const JsonSource& source) {
-  check_keys(object, key, source, {"parameters", "columns"});
+Guess guess_from(const json& object, const StatedProblem& problem, const JsonSource& source) {
+  check_keys(object, "", source, {"parameters", "columns"});
   Guess guess{sized(object, "parameters", problem.masses.U.rows(), source),
               sized(object, "columns", problem.others.values.cols(), source)};
   if (guess.parameters.size() > 0 && guess.others.size() != problem.others.values.cols()) {
-    throw InputError({source.name, 0, key}, "has parameters without columns", "one a column");
+    throw InputError({source.name}, "has parameters without columns", "one a column");
   }
   return guess;
 }
@@ -129,8 +128,8 @@ Certificate certificate_from_json(const std::string& text, const std::string& na
   for (const auto& [guess, place] : guesses) names.insert(guess);
   check_keys(evidence, "evidence", source, names);
   for (const auto& [guess, place] : guesses) {
-    certificate.evidence.*place =
-        guess_from(member(evidence, guess, source), guess, problem, source);
+    certificate.evidence.*place = guess_from(member(evidence, guess, source), problem,
+                                             {fmt::format("{}, evidence.{}", name, guess), manual});
   }
   return certificate;
 }
