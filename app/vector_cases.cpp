@@ -90,12 +90,14 @@ void judge_masses(const json& vector, const json& output, Sentences& found) {
 void check_expectation(const std::string& name, const json& expected, const json& within,
                        const JsonSource& source) {
   const Eigen::VectorXd wanted = numbers(expected, name, source);
-  if (!within.is_object()) throw InputError({source.name, 0, "within"}, "not an object", "bounds");
+  if (!within.is_object())
+    throw InputError(place_of_key(source, "within"), "not an object", "bounds");
   const json& bound = member(within, name, source);
   if (!bound.is_array()) {
     static_cast<void>(number(bound, name, source));
   } else if (numbers(bound, name, source).size() != wanted.size()) {
-    throw InputError({source.name, 0, name}, "has as many bounds as numbers", "one, or one each");
+    throw InputError(place_of_key(source, name), "has as many bounds as numbers",
+                     "one, or one each");
   }
 }
 
@@ -104,12 +106,13 @@ void check_case(const json& vector, const std::string& kind, const JsonSource& s
   static_cast<void>(text(member(vector, "id", source), "id", source));
   const json& flags = member(vector, "flags", source);
   if (!flags.is_array() && !flags.is_null()) {
-    throw InputError({source.name, 0, "flags"}, "not a list", "names, or null");
+    throw InputError(place_of_key(source, "flags"), "not a list", "names, or null");
   }
   for (const json& flag : flags) static_cast<void>(text(flag, "flags", source));
   const json& input = member(vector, "input", source);
   const json& expected = member(vector, "expected", source);
-  if (!expected.is_object()) throw InputError({source.name, 0, "expected"}, "not an object", "one");
+  if (!expected.is_object())
+    throw InputError(place_of_key(source, "expected"), "not an object", "one");
   for (const auto& [name, value] : expected.items()) {
     if (name == "certified_gap") {
       static_cast<void>(number(value, name, source));
@@ -127,7 +130,8 @@ VectorFile vector_file_from_json(const std::string& text, const std::string& nam
   const json document = parse_document(text, source, format, {"kind", "seed", "cases"});
   VectorFile file{shapeid::text(member(document, "kind", source), "kind", source),
                   member(document, "cases", source)};
-  if (!file.cases.is_array()) throw InputError({name, 0, "cases"}, "not a list", "of cases");
+  if (!file.cases.is_array())
+    throw InputError(place_of_key(source, "cases"), "not a list", "of cases");
   for (const json& vector : file.cases) check_case(vector, file.kind, source);
   return file;
 }
@@ -146,13 +150,14 @@ Vectors read_vectors(const std::string& folder) {
                                     {"made_by", "flags", "files"});
   Vectors vectors{member(index, "flags", source), {}};
   if (!vectors.flags.is_object())
-    throw InputError({source.name, 0, "flags"}, "not an object", "one");
+    throw InputError(place_of_key(source, "flags"), "not an object", "one");
   for (const auto& [flag, meaning] : vectors.flags.items()) {
     static_cast<void>(text(meaning, flag, source));
   }
   for (const auto& [kind, recorded] : member(index, "files", source).items()) {
     if (kind.find('/') != std::string::npos) {
-      throw InputError({source.name, 0, kind}, "leads out of the folder", "a name without slashes");
+      throw InputError(place_of_key(source, kind), "leads out of the folder",
+                       "a name without slashes");
     }
     const std::string name = fmt::format("{}/{}.json", folder, kind);
     const std::string text = read_small_file(name, largest_file);

@@ -30,7 +30,8 @@ json bounds_json(const Eigen::VectorXd& bounds) {
 Eigen::VectorXd bounds_from(const json& value, double none, const std::string& key,
                             const JsonSource& source) {
   if (!value.is_array()) {
-    throw InputError({source.name, 0, key}, "not a list", "numbers, null where there is no bound");
+    throw InputError(place_of_key(source, key), "not a list",
+                     "numbers, null where there is no bound");
   }
   Eigen::VectorXd bounds(static_cast<Eigen::Index>(value.size()));
   for (Eigen::Index k = 0; k < bounds.size(); ++k) {
@@ -60,7 +61,7 @@ json regions_json(const std::vector<Region>& regions) {
 
 std::vector<Region> regions_from(const json& list, const std::string& key,
                                  const JsonSource& source) {
-  if (!list.is_array()) throw InputError({source.name, 0, key}, "not a list", "of shapes");
+  if (!list.is_array()) throw InputError(place_of_key(source, key), "not a list", "of shapes");
   std::vector<Region> regions;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const JsonSource place{fmt::format("{}, {}[{}]", source.name, key, i), source.manual};
@@ -124,7 +125,8 @@ StatedProblem stated_problem_from_json(const std::string& text, const std::strin
 MassProblem problem_from_json(const std::string& text, const std::string& name) {
   StatedProblem stated = stated_problem_from_json(text, name);
   if (stated.others.values.cols() > 0) {
-    throw InputError({name, 0, "columns"}, "has columns besides masses", "a problem of masses");
+    throw InputError(place_of_key({name, manual}, "columns"), "has columns besides masses",
+                     "a problem of masses");
   }
   return std::move(stated.masses);
 }
@@ -152,7 +154,7 @@ Answer answer_from_json(const std::string& text, const std::string& name) {
   if (document.contains("masses")) {
     answer.masses = numbers(document["masses"], "masses", source);
     if (answer.masses.size() == 0) {
-      throw InputError({name, 0, "masses"}, "an empty list",
+      throw InputError(place_of_key(source, "masses"), "an empty list",
                        "leave the key out where parameters alone are claimed");
     }
   }

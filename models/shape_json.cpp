@@ -28,7 +28,7 @@ struct Writer {
 
 Eigen::Vector3d triple(const json& object, const std::string& key, const JsonSource& source) {
   const Eigen::VectorXd v = numbers(member(object, key, source), key, source);
-  if (v.size() != 3) throw InputError({source.name, 0, key}, "not three numbers", "x, y, z");
+  if (v.size() != 3) throw InputError(place_of_key(source, key), "not three numbers", "x, y, z");
   return v;
 }
 
@@ -36,7 +36,8 @@ template <class Celled>
 Shape celled(const json& object, const std::string& key, const JsonSource& source) {
   check_keys(object, key, source, {"kind", "link", "frame", "lower", "upper"});
   const Eigen::MatrixXd frame = matrix(member(object, "frame", source), 4, "frame", source);
-  if (frame.rows() != 3) throw InputError({source.name, 0, "frame"}, "not 3 x 4", "[L t], 3 x 4");
+  if (frame.rows() != 3)
+    throw InputError(place_of_key(source, "frame"), "not 3 x 4", "[L t], 3 x 4");
   Celled shape{Eigen::Affine3d::Identity(),
                {triple(object, "lower", source), triple(object, "upper", source)}};
   shape.frame.affine() = frame;
@@ -49,10 +50,11 @@ Shape polyhedron(const json& object, const std::string& key, const JsonSource& s
   const Eigen::MatrixXd V = matrix(member(object, "vertices", source), 3, "vertices", source);
   for (Eigen::Index i = 0; i < V.rows(); ++i) shape.vertices.emplace_back(V.row(i).transpose());
   const json& faces = member(object, "faces", source);
-  if (!faces.is_array()) throw InputError({source.name, 0, "faces"}, "not a list", "triangles");
+  if (!faces.is_array()) throw InputError(place_of_key(source, "faces"), "not a list", "triangles");
   for (const json& face : faces) {
     if (!face.is_array() || face.size() != 3) {
-      throw InputError({source.name, 0, "faces"}, "not three numbers", "indices of three vertices");
+      throw InputError(place_of_key(source, "faces"), "not three numbers",
+                       "indices of three vertices");
     }
     std::vector<int> corners(3);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -61,7 +63,7 @@ Shape polyhedron(const json& object, const std::string& key, const JsonSource& s
     shape.sides.push_back(std::move(corners));
   }
   const json& convex = member(object, "convex", source);
-  if (!convex.is_boolean()) throw InputError({source.name, 0, "convex"}, "no", "true or false");
+  if (!convex.is_boolean()) throw InputError(place_of_key(source, "convex"), "no", "true or false");
   shape.convex = convex.get<bool>();
   return shape;
 }
@@ -77,7 +79,7 @@ Shape read(const json& object, const std::string& key, const JsonSource& source)
     return Point{triple(object, "position", source),
                  number(member(object, "nominal_volume", source), "nominal_volume", source)};
   }
-  throw InputError({source.name, 0, "kind"}, "unknown kind of shape '" + kind + "'",
+  throw InputError(place_of_key(source, "kind"), "unknown kind of shape '" + kind + "'",
                    "cuboid, cylinder, ellipsoid, polyhedron or point");
 }
 
@@ -90,10 +92,10 @@ json shape_json(const Shape& shape) {
 }
 
 Shape shape_from_json(const json& value, const std::string& key, const JsonSource& source) {
-  if (!value.is_object()) throw InputError({source.name, 0, key}, "not an object", "a shape");
+  if (!value.is_object()) throw InputError(place_of_key(source, key), "not an object", "a shape");
   Shape shape = read(value, key, source);
   if (const Violation why = why_malformed(shape)) {
-    throw InputError({source.name, 0, key}, *why, "see " + source.manual);
+    throw InputError(place_of_key(source, key), *why, "see " + source.manual);
   }
   return shape;
 }

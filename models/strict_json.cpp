@@ -19,7 +19,7 @@ using nlohmann::json;
 
 [[noreturn]] void refuse(const JsonSource& source, const std::string& key, const std::string& wrong,
                          const std::string& right) {
-  throw InputError({source.name, 0, key}, wrong, right);
+  throw InputError(place_of_key(source, key), wrong, right);
 }
 
 /// What the parser would take: it keeps the last of two equal keys, and nests as deep as the file
@@ -80,6 +80,10 @@ double entry(const json& value, Name name, const std::string& key, const JsonSou
 }
 
 }  // namespace
+
+Place place_of_key(const JsonSource& source, const std::string& key) {
+  return {key.empty() ? source.name : fmt::format("{}, key {}", source.name, key)};
+}
 
 json parse_json(const std::string& text, const JsonSource& source) {
   try {

@@ -8,6 +8,8 @@
 #include <set>
 #include <string>
 
+#include "shapeid/models/error.hpp"
+
 namespace shapeid {
 
 /// Where members of one document are read from: its name and its manual stand in every message.
@@ -15,6 +17,9 @@ struct JsonSource {
   std::string name;    ///< of the file
   std::string manual;  ///< "docs/formats/problem.md"
 };
+
+/// Where a key's value stands: "p.json, key lambda". An empty key is the document itself.
+[[nodiscard]] Place place_of_key(const JsonSource& source, const std::string& key);
 
 /// What the text spells. Throws InputError for what is no JSON, for a key that is there twice, for
 /// numbers beyond double and for values nested deeper than any format of ours.

@@ -52,7 +52,7 @@ Eigen::VectorXd sized(const json& object, const std::string& key, Eigen::Index s
                       const JsonSource& source) {
   Eigen::VectorXd v = numbers(member(object, key, source), key, source);
   if (v.size() != 0 && v.size() != size) {
-    throw InputError({source.name, 0, key}, fmt::format("{} numbers", v.size()),
+    throw InputError(place_of_key(source, key), fmt::format("{} numbers", v.size()),
                      fmt::format("none, or {}", size));
   }
   return v;

@@ -54,7 +54,7 @@ TEST(HostileJson, SizesThatAreOnlyStated) {
   const std::string text = "{\"format\":\"shapeid-problem-1\",\"free_links\":10000,\"Y\":" + rows +
                            ",\"F\":[],\"W\":[],\"U\":" + rows +
                            ",\"V\":[],\"lambda\":0,\"mass_bound\":0}";
-  EXPECT_EQ(problem(text), "p.json, column Y: row 0 has 0 numbers; every row has 100000");
+  EXPECT_EQ(problem(text), "p.json, key Y: row 0 has 0 numbers; every row has 100000");
 }
 
 TEST(HostileJson, NumbersAtTheEndsOfDouble) {
@@ -77,12 +77,12 @@ TEST(HostileJson, ListsWhereObjectsBelong) {
     EXPECT_TRUE(says(problem(other), "p.json: has no or another format")) << other;
     const std::string claim =
         std::string("{\"format\":\"shapeid-certificate-2\",\"claim\":") + other;
-    EXPECT_TRUE(says(certificate_of(claim + ",\"evidence\":{}}"), "column claim: not an object"))
+    EXPECT_TRUE(says(certificate_of(claim + ",\"evidence\":{}}"), "key claim: not an object"))
         << other;
     const std::string problem_with_columns =
         "{\"format\":\"shapeid-problem-1\",\"free_links\":0,\"Y\":[],\"F\":[],\"W\":[],\"U\":[],"
         "\"V\":[],\"mass_bound\":0,\"lambda\":0,\"columns\":";
-    EXPECT_TRUE(says(problem(problem_with_columns + other + "}"), "column columns: not an object"))
+    EXPECT_TRUE(says(problem(problem_with_columns + other + "}"), "key columns: not an object"))
         << other;
   }
 }
@@ -101,17 +101,17 @@ TEST(HostileJson, FacesThatAreNoTriangles) {
   };
   EXPECT_EQ(with_face("[1,2,3]"), "accepted");
   for (const char* bad : {"[]", "[1,2]", "[1,2,3,0]", "{\"a\":1,\"b\":2,\"c\":3}", "1", "null"}) {
-    EXPECT_EQ(with_face(bad), "p.json, column faces: not three numbers; indices of three vertices")
+    EXPECT_EQ(with_face(bad), "p.json, key faces: not three numbers; indices of three vertices")
         << bad;
   }
   for (const char* bad : {"[1,2,4]", "[1,2,-1]", "[1,2,0.5]", "[1,2,\"a\"]"}) {
-    EXPECT_TRUE(says(with_face(bad), "p.json, column faces: ")) << bad;
+    EXPECT_TRUE(says(with_face(bad), "p.json, key faces: ")) << bad;
   }
 }
 
 TEST(HostileJson, KeysThatNoTerminalShouldSee) {
   EXPECT_EQ(problem("{\"format\":\"shapeid-problem-1\",\"a\\u001b[2J\\nb\":1}"),
-            "p.json, column a\\x1b[2J\\x0ab: unknown key; see docs/formats/problem.md");
+            "p.json, key a\\x1b[2J\\x0ab: unknown key; see docs/formats/problem.md");
   EXPECT_TRUE(
       says(problem("{\"format\":\"shapeid-problem-1\",\"" + repeated("k", 100000) + "\":1}"),
            "unknown key"));

@@ -234,7 +234,7 @@ TEST(ProblemJson, SaysWhichShapeIsWrong) {
   EXPECT_EQ(says(good), "accepted");
   EXPECT_EQ(says("1"), "p.json, regions[1]: not an object; a shape");
   EXPECT_EQ(says(R"({"kind":"ball"})"),
-            "p.json, regions[1], column kind: unknown kind of shape 'ball'; cuboid, cylinder, "
+            "p.json, regions[1], key kind: unknown kind of shape 'ball'; cuboid, cylinder, "
             "ellipsoid, polyhedron or point");
   EXPECT_EQ(says(R"({"kind":"point","link":0,"position":[0,0,0],"nominal_volume":-1})")
                 .find("p.json, regions[1]: "),
@@ -253,10 +253,10 @@ TEST(ProblemJson, SaysWhatIsWrongWithBrokenFiles) {
       {"}", "", "p.json: is not JSON (at byte 130); see docs/formats/problem.md"},
       {"shapeid-problem-1", "shapeid-problem-9",
        "p.json: has no or another format; \"format\" must be \"shapeid-problem-1\""},
-      {"\"lambda\":0.25,", "", "p.json, column lambda: missing key; it is required"},
+      {"\"lambda\":0.25,", "", "p.json, key lambda: missing key; it is required"},
       {"\"lambda\"", "\"lambda2\"",
-       "p.json, column lambda2: unknown key; see docs/formats/problem.md"},
-      {"0.25", "\"x\"", "p.json, column lambda: not a finite number; write finite decimals"},
+       "p.json, key lambda2: unknown key; see docs/formats/problem.md"},
+      {"0.25", "\"x\"", "p.json, key lambda: not a finite number; write finite decimals"},
       {"0.25", "1e999", "p.json: a number is larger than any double; write finite decimals"},
       {"0.25", "-0.25",
        "p.json: lambda is -0.25, must be finite and >= 0; see docs/formats/problem.md"},
@@ -264,17 +264,17 @@ TEST(ProblemJson, SaysWhatIsWrongWithBrokenFiles) {
       {"[1.0,2.0]", "[1.0,-2.0]",
        "p.json: weight 1 is -2, not positive; see docs/formats/problem.md"},
       {"[1.5,2.5]", "[1.5,null]",
-       "p.json, column F: entry 1 is not a finite number; write finite decimals"},
-      {"[[],[]]", "[[],[1]]", "p.json, column Y: row 1 has 1 numbers; every row has 0"},
-      {"[[],[]]", "3", "p.json, column Y: not a list; a list of rows"},
-      {"[[],[]]", "[[],3]", "p.json, column Y: row 1 is not a list; a list of numbers"},
+       "p.json, key F: entry 1 is not a finite number; write finite decimals"},
+      {"[[],[]]", "[[],[1]]", "p.json, key Y: row 1 has 1 numbers; every row has 0"},
+      {"[[],[]]", "3", "p.json, key Y: not a list; a list of rows"},
+      {"[[],[]]", "[[],3]", "p.json, key Y: row 1 is not a list; a list of numbers"},
       {"\"free_links\":0", "\"free_links\":-1",
-       "p.json, column free_links: not a count; a whole number from 0 to 10000"},
+       "p.json, key free_links: not a count; a whole number from 0 to 10000"},
       {"\"free_links\":0", "\"free_links\":1e300",
-       "p.json, column free_links: not a count; a whole number from 0 to 10000"},
+       "p.json, key free_links: not a count; a whole number from 0 to 10000"},
       {"\"lambda\":0.25,", "\"lambda\":0.25,\"lambda\":0.25,",
-       "p.json, column lambda: the key is there twice; once"},
-      {"0.25", "\"0x1p\"", "p.json, column lambda: not a finite number; write finite decimals"},
+       "p.json, key lambda: the key is there twice; once"},
+      {"0.25", "\"0x1p\"", "p.json, key lambda: not a finite number; write finite decimals"},
       {"3.0", "-3.0",
        "p.json: the mass bound is negative or not finite; see docs/formats/problem.md"},
   };
