@@ -87,7 +87,8 @@ std::string relaxations_text(const Proof& p) {
     return fmt::format("  {:<36}[{:.17g}, {:.17g}]{}\n", set, lower, upper, next);
   };
   const auto relation = [&](std::size_t k) {
-    return of.apart[k] ? "  less, proved by the numbers, than" : "  at most, as it asks less than";
+    return of.apart[k] ? "  less than the next, proved by the numbers"
+                       : "  at most the next: it asks less";
   };
   return "least data terms, in the proved order of their sets:\n" +
          line("parameters with no negative mass", of.masses.lower, of.masses.upper, relation(0)) +

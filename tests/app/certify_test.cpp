@@ -85,6 +85,15 @@ TEST(CertifyVerb, AcceptsMassesAndParametersAlone) {
   EXPECT_EQ(document["proof"]["bodies"], nlohmann::json({"semidefinite"}));
 }
 
+TEST(CertifyVerb, TheExampleIsAccepted) {
+  const std::string examples = SHAPEID_SOURCE_DIR "/docs/examples/";
+  const CommandRun run =
+      shapeid("certify " + examples + "problem.json " + examples + "answer.json --json");
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto columns = nlohmann::json::parse(run.out)["proof"]["columns"];
+  EXPECT_EQ(columns, nlohmann::json({{"declared", 2}, {"agree", 2}, {"inside", 2}}));
+}
+
 TEST(CertifyVerb, SaysWhyItRejects) {
   nlohmann::json wrong = answer(digest_of_problem());
   wrong["masses"] = {2.0, 0.5};

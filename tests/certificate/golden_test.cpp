@@ -152,9 +152,9 @@ TEST(GoldenCertificate, OfAnAnswerThatMissesItsOptimumInWords) {
             "the parameters as written are not exactly the masses', or a mass is negative\n"
             "floor of infinitely many divisions: 0.25; the answer is 0.375 above it\n"
             "least data terms, in the proved order of their sets:\n"
-            "  parameters with no negative mass    [0, 0.5]  at most, as it asks less than\n"
-            "  bodies that can exist               [0, 0.5]  at most, as it asks less than\n"
-            "  mass anywhere in the regions        [0, 0.5]  at most, as it asks less than\n"
+            "  parameters with no negative mass    [0, 0.5]  at most the next: it asks less\n"
+            "  bodies that can exist               [0, 0.5]  at most the next: it asks less\n"
+            "  mass anywhere in the regions        [0, 0.5]  at most the next: it asks less\n"
             "  the shapes, with the density term   [0.5, 0.5]\n"
             "reason: one\n"
             "reason: another\\x0aaccepted\\x1b[2J\n");
