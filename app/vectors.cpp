@@ -7,10 +7,12 @@
 #include <memory>
 
 #include "shapeid/app/foreign_program.hpp"
+#include "shapeid/app/json_text.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/vector_cases.hpp"
 #include "shapeid/app/verbs.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/text.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -44,6 +46,12 @@ std::string failure_text(const json& vector, const std::vector<std::string>& fou
   return text;
 }
 
+/// A line that a program printed besides its answers is known by its beginning.
+std::string no_object(const std::string& line) {
+  constexpr std::size_t shown = 60;
+  return "the answer is not a JSON object: " + one_line(line, shown);
+}
+
 void check_kind(const Vectors& all, const std::string& kind) {
   std::vector<std::string> kinds;
   for (const VectorFile& file : all.files) kinds.push_back(file.kind);
@@ -63,7 +71,10 @@ void vectors(const VectorsArguments& options) {
     Tally& tally = tallies[file.kind];
     for (const json& vector : file.cases) {
       const json question = {{"id", vector["id"]}, {"kind", file.kind}, {"input", vector["input"]}};
-      const auto found = differences(vector, parsed_answer(program.ask(question.dump())));
+      const std::string line = program.ask(question.dump());
+      const json answer = parsed_answer(line);
+      const auto found =
+          answer.is_object() ? differences(vector, answer) : std::vector{no_object(line)};
       ++tally.cases;
       if (found.empty()) continue;
       ++failed;
@@ -81,7 +92,7 @@ void vectors(const VectorsArguments& options) {
     }
   }
   if (options.json_wanted) {
-    fmt::print("{}\n", json{{"kinds", summary}, {"failures", failures}}.dump(2));
+    fmt::print("{}\n", json_text({{"kinds", summary}, {"failures", failures}}, 2));
   }
   if (failed > 0) throw Refusal("vectors-failed", fmt::format("{} vectors failed", failed));
 }

@@ -66,6 +66,9 @@ TEST(Vectors, ProgramsThatDoNotAnswerAreSaid) {
   EXPECT_EQ(check("cat", "--kind nonsense").status, 2);
   const CommandRun echo = check("cat", "--kind moments");  // answers, but not the question
   EXPECT_EQ(echo.status, 1);
+  const CommandRun chatty = check(R"(sed -u "s/.*/solving \xff/")", "--kind moments");
+  EXPECT_EQ(chatty.status, 1);
+  EXPECT_NE(chatty.out.find("not a JSON object: solving "), std::string::npos) << chatty.out;
   EXPECT_EQ(check("yes nonsense", "--kind moments").status, 1);
   // Answers before it is asked, and never reads: all vectors are more than a pipe holds.
   EXPECT_EQ(check("yes").status, 2);
