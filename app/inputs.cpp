@@ -42,9 +42,17 @@ bool has_imu(const LogTable& log, const std::optional<Mapping>& mapping) {
 void check_measured(const Robot& robot) {
   std::set<std::string> names;
   for (const Contact& contact : robot.contacts) {
-    if (names.insert(contact.name).second) continue;
-    throw InputError(fmt::format("--contacts measured, but {} has several contacts", contact.name),
-                     "one contact for a measured force, at the place where it acts");
+    if (!names.insert(contact.name).second) {
+      throw InputError(
+          fmt::format("--contacts measured, but {} has several contacts", contact.name),
+          "one contact for a measured force, at the place where it acts");
+    }
+    if (contact.kind == ContactKind::point) continue;
+    throw InputError(
+        fmt::format("--contacts measured, but {} is the contact of a {}, whose moment "
+                    "no column of a log has",
+                    contact.name, contact.kind == ContactKind::line ? "line" : "plane"),
+        "a contact that is a point, at the place where the force acts");
   }
 }
 

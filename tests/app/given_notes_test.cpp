@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "shapeid/models/text.hpp"
 #include "shapeid/tests/app/command.hpp"
@@ -172,6 +173,24 @@ TEST_F(Given, SeveralContactsWithOneForce) {
                              "forces.csv --exact --contacts measured",
                              robots),
                  "FR_foot has several contacts");
+}
+
+/// A sole may press anywhere: at its frame's origin there is a moment besides, which is not logged.
+TEST_F(Given, AMeasuredForceOfALineOrAPlane) {
+  simulated_log("forces.csv", "--seconds 1 --exact");
+  for (const auto& [kind, says] : {std::pair("kind: plane, point: [0.05, 0, 0]", "of a plane"),
+                                   std::pair("kind: line, axis: [0, 1, 0]", "of a line")}) {
+    scratch_file("sole.yaml",
+                 fmt::format("contacts: [{{link: FR_foot}}, {{link: FL_foot}}, {{link: RR_foot}}, "
+                             "{{link: RL_foot, {}}}]\n",
+                             kind));
+    const std::string words = fmt::format(
+        "identify --robot {}quadruped.urdf --robot-yaml sole.yaml --log forces.csv "
+        "--exact --divisions 0 --contacts ",
+        robots);
+    expect_refused(words + "measured", std::string("RL_foot is the contact ") + says);
+    EXPECT_EQ(shapeid(words + "auto").status, 0);
+  }
 }
 
 TEST_F(Given, FactorsForJointsThatAreNotThere) {
