@@ -55,8 +55,8 @@ std::string optimum_text(const Proof& p) {
 std::string distance_text(const Proof& p) {
   const std::string masses =
       std::isfinite(p.mass_distance)
-          ? fmt::format("no mass is farther than {:.3g} kg from the optimum's", p.mass_distance)
-          : "how far masses are from the optimum's is not bounded";
+          ? fmt::format("no mass is farther than {:.3g} kg from an optimum's", p.mass_distance)
+          : "how far masses are from an optimum's is not bounded";
   const Eigen::Vector3d& of = p.parameter_distance;
   if (of.array().isInf().all()) return masses + ", nor is it of parameters";
   return fmt::format("{}; parameters: {}, {}, {}", masses, at_most(of[0], " kg"),

@@ -60,7 +60,9 @@ struct Proof {
   bool free_set_right = false;  ///< with the answer's own set of shapes with mass
   double mass_bound = 0;        ///< kg: M
   bool mass_bound_declared = false;
-  double mass_distance = 0;  ///< kg: no mass is farther from the optimum's (0 or inf at lambda = 0)
+  /// kg: no mass is farther from an optimum's; the only one, if lambda > 0. At lambda = 0 zero or
+  /// infinite: whether the answer is one of perhaps many.
+  double mass_distance = 0;
   /// The same of kg, kg m, kg m^2.
   Eigen::Vector3d parameter_distance = Eigen::Vector3d::Zero();
   /// The parameters claimed are exactly U m, of the masses that are judged, and m >= 0.

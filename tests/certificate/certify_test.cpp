@@ -208,6 +208,13 @@ TEST(Certify, DistancesWithoutADensityTermAreNoneOrUnknown) {
   EXPECT_EQ(missed.gap, 0.25);
   EXPECT_EQ(missed.mass_distance, HUGE_VAL);
   EXPECT_EQ(missed.parameter_distance, Eigen::Vector3d::Constant(HUGE_VAL));
+  // Of two optima a kilogram apart each is one.
+  p.masses.U = Eigen::MatrixXd::Zero(10, 2);
+  p.masses.U.row(0).setOnes();
+  p.masses.V = Eigen::VectorXd::Ones(2);
+  for (const Eigen::Vector2d& m : {Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0)}) {
+    EXPECT_EQ(certify(p, honest_answer(p, m)).proof.mass_distance, 0.0);
+  }
 }
 
 /// Where even the exact steps do not find the free set, duality alone says how far it is.

@@ -144,7 +144,7 @@ TEST(GoldenCertificate, OfAnAnswerThatMissesItsOptimumInWords) {
             "rejected\n"
             "objective of the answer: at most 0.625\n"
             "optimum: in [0.5, 0.5], solved exactly on the answer's own free set\n"
-            "gap: at most 0.125; no mass is farther than 0.25 kg from the optimum's; parameters: "
+            "gap: at most 0.125; no mass is farther than 0.25 kg from an optimum's; parameters: "
             "0.375 kg, 0.0625 kg m, 0.0312 kg m^2\n"
             "mass bound: 0.75 kg, declared by the problem\n"
             "bodies of the free links: 0 exist with volume, 1 on the edge, 0 cannot exist\n"
