@@ -71,15 +71,19 @@ TEST(Certify, JudgesTheBodyOfEveryLink) {
   EXPECT_EQ(c.proof.bodies, bodies);
 }
 
-/// The interval holds the optimum of all active sets, whatever is answered.
-RC_GTEST_PROP(Certify, IntervalHoldsTheOptimumWhateverIsAnswered, ()) {
-  StatedProblem p = *test::small_problem(*rc::gen::arbitrary<bool>());
-  RC_PRE(p.masses.F.size() >= p.others.values.cols());
-  const test::ExactMinimum truth = test::minimum_of_all_active_sets(p);
-  const Eigen::VectorXd m = (*test::vector(p.masses.shapes(), 1.0)).cwiseMax(0.0);
-  const Eigen::VectorXd x = (*test::vector(p.others.values.cols(), 1.0))
-                                .cwiseMax(p.others.lower)
-                                .cwiseMin(p.others.upper);
+/// The interval holds the optimum of all active sets. Answered is what was drawn, as far as the
+/// bounds allow it, or the optimum but for rounding.
+void expect_optimum_in_interval(const StatedProblem& p, const test::ExactMinimum& truth) {
+  Eigen::VectorXd m = (*test::vector(p.masses.shapes(), 1.0)).cwiseMax(0.0);
+  if (p.masses.mass_bound > 0.0) m *= std::min(1.0, 0.9 * p.masses.mass_bound / (m.sum() + 1e-9));
+  Eigen::VectorXd x = *test::vector(p.others.values.cols(), 1.0);
+  if (*rc::gen::arbitrary<bool>()) {
+    for (Eigen::Index j = 0; j < m.size(); ++j) {
+      m[j] = rounded_down(truth.m[static_cast<std::size_t>(j)]);
+    }
+    for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = truth.x[static_cast<std::size_t>(k)].get_d();
+  }
+  x = x.cwiseMax(p.others.lower).cwiseMin(p.others.upper);
   const Proof proof = certify(p, honest_answer(p, m, x)).proof;
   const mpq_class f = test::exact_objective(p, m, x);
   RC_ASSERT(proof.feasible);
@@ -93,6 +97,24 @@ RC_GTEST_PROP(Certify, IntervalHoldsTheOptimumWhateverIsAnswered, ()) {
       RC_ASSERT(apart <= mpq_class(proof.mass_distance));
     }
   }
+}
+
+RC_GTEST_PROP(Certify, IntervalHoldsTheOptimumWhateverIsAnswered, ()) {
+  const StatedProblem p = *test::small_problem(*rc::gen::arbitrary<bool>());
+  RC_PRE(p.masses.F.size() >= p.others.values.cols());
+  expect_optimum_in_interval(p, test::minimum_of_all_active_sets(p));
+}
+
+/// Of at most a declared mass, which mostly holds the optimum back.
+RC_GTEST_PROP(Certify, IntervalHoldsTheOptimumOfADeclaredMass, ()) {
+  StatedProblem p = *test::small_problem(*rc::gen::arbitrary<bool>());
+  RC_PRE(p.masses.F.size() >= p.others.values.cols());
+  const double total = rounded_up(sum(test::minimum_of_all_active_sets(p).m));
+  RC_PRE(total > 0.0);
+  p.masses.mass_bound = *rc::gen::element(0.01, 0.3, 0.9, 1.0, 1.5) * total;
+  const test::ExactMinimum truth = test::minimum_of_all_active_sets(p);
+  RC_CLASSIFY(sum(truth.m) == exact(p.masses.mass_bound), "at the bound");
+  expect_optimum_in_interval(p, truth);
 }
 
 /// Where the optimum is known all distances are from it, rounded up; else they are bounds. Group by

@@ -9,13 +9,21 @@ namespace {
 
 using Numbers = std::vector<mpq_class>;
 
-/// 1/2 v^T H v - h^T v + k, with every unknown's bounds: f of all unknowns together.
+/// 1/2 v^T H v - h^T v + k, with every unknown's bounds: f of all unknowns together. The first
+/// `masses` of them add up to no more than `most`, if there is such a bound.
 struct Quadratic {
   std::vector<Numbers> H;
   Numbers h;
   mpq_class k;
   std::vector<std::optional<mpq_class>> lower, upper;
+  std::size_t masses;
+  std::optional<mpq_class> most;
 
+  [[nodiscard]] mpq_class sum_of_masses(const Numbers& v) const {
+    mpq_class sum;
+    for (std::size_t i = 0; i < masses; ++i) sum += v[i];
+    return sum;
+  }
   [[nodiscard]] mpq_class at(const Numbers& v) const {
     mpq_class value = k;
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -43,7 +51,14 @@ Quadratic quadratic(const StatedProblem& p) {
     A.push_back(row);
   }
   const auto size = static_cast<std::size_t>(n + k);
-  Quadratic f{std::vector<Numbers>(size, Numbers(size)), Numbers(size), 0, {}, {}};
+  Quadratic f{std::vector<Numbers>(size, Numbers(size)),
+              Numbers(size),
+              0,
+              {},
+              {},
+              static_cast<std::size_t>(n),
+              std::nullopt};
+  if (q.mass_bound > 0.0) f.most = q.mass_bound;
   for (std::size_t r = 0; r < A.size(); ++r) {
     const mpq_class W(q.W[static_cast<Eigen::Index>(r)]), F(q.F[static_cast<Eigen::Index>(r)]);
     for (std::size_t i = 0; i < size; ++i) {
@@ -68,8 +83,10 @@ Quadratic quadratic(const StatedProblem& p) {
   return f;
 }
 
-/// Solves the stationarity of the free unknowns; empty if it has no unique solution.
-bool free_unknowns_solved(const Quadratic& f, const std::vector<bool>& free, Numbers& v) {
+/// Solves the stationarity of the free unknowns, with the masses' sum free as well or at its bound;
+/// false if it has no unique solution.
+bool free_unknowns_solved(const Quadratic& f, const std::vector<bool>& free, bool at_most,
+                          Numbers& v) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < v.size(); ++i) {
     if (free[i]) places.push_back(i);
@@ -82,7 +99,15 @@ bool free_unknowns_solved(const Quadratic& f, const std::vector<bool>& free, Num
       if (!free[j]) right -= f.H[i][j] * v[j];
     }
     for (const std::size_t j : places) row.push_back(f.H[i][j]);
+    if (at_most) row.emplace_back(i < f.masses ? 1 : 0);  // the multiplier's column
     row.push_back(right);
+    T.push_back(row);
+  }
+  if (at_most) {  // masses that are not free are zero
+    Numbers row;
+    for (const std::size_t j : places) row.emplace_back(j < f.masses ? 1 : 0);
+    row.emplace_back(0);
+    row.push_back(*f.most);
     T.push_back(row);
   }
   for (std::size_t c = 0; c < T.size(); ++c) {
@@ -96,7 +121,7 @@ bool free_unknowns_solved(const Quadratic& f, const std::vector<bool>& free, Num
       for (std::size_t j = c; j <= T.size(); ++j) T[r][j] -= factor * T[c][j];
     }
   }
-  for (std::size_t c = 0; c < T.size(); ++c) v[places[c]] = T[c].back() / T[c][c];
+  for (std::size_t c = 0; c < places.size(); ++c) v[places[c]] = T[c].back() / T[c][c];
   return true;
 }
 
@@ -123,8 +148,14 @@ class Search {
   }
 
   void consider() {
+    consider(false);
+    if (f_.most) consider(true);
+  }
+
+  void consider(bool at_most) {
     Numbers v = v_;
-    if (!free_unknowns_solved(f_, free_, v)) return;
+    if (!free_unknowns_solved(f_, free_, at_most, v)) return;
+    if (f_.most && f_.sum_of_masses(v) > *f_.most) return;
     for (std::size_t i = 0; i < v.size(); ++i) {
       if ((f_.lower[i] && v[i] < *f_.lower[i]) || (f_.upper[i] && v[i] > *f_.upper[i])) return;
     }

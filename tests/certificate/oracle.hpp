@@ -19,8 +19,9 @@ struct ExactMinimum {
   std::vector<mpq_class> m, x;
 };
 
-/// The minimum over m >= 0 and the bounds of x, by trying each unknown free and at each of its
-/// bounds (declared mass bounds are not looked at). For up to about eight unknowns.
+/// The minimum over m >= 0, the bounds of x and the declared mass, if there is one, by trying each
+/// unknown free and at each of its bounds, and the sum of the masses free and at its own. For up to
+/// about eight unknowns.
 [[nodiscard]] ExactMinimum minimum_of_all_active_sets(const StatedProblem& problem);
 
 }  // namespace shapeid::test
