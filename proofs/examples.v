@@ -2,7 +2,7 @@
     where a hypothesis is needed. *)
 From Coq Require Import Ring Field Arith Lia List QArith Qcanon.
 From Shapeid Require Import ordered_field numbers sums space mass_problem kkt certificate projection
-  projection_qr merge body floor.
+  projection_qr merge body floor distance.
 Import ListNotations.
 
 Section Examples.
@@ -58,6 +58,15 @@ Section Examples.
       rewrite e. apply mul_pos; [apply two_pos |].
       split; [apply inv_nonneg, three_pos |]. intro no. symmetry in no. revert no.
       apply inv_nonzero, pos_nonzero, three_pos.
+  Qed.
+
+  (** best_within with a bound that holds the optimum back: of no mass at all, nothing. *)
+  Example no_mass_is_best_of_none : best_within two_equal_shapes 0 (fun _ => 0).
+  Proof.
+    split; [split |].
+    - intros j _. apply le_refl.
+    - cbn. replace (0 + 0 + 0 : K) with (0 : K) by ring. apply le_refl.
+    - apply forged_mass_bound.
   Qed.
 
   (** contact_free with J^T that loses rank: two rows, one contact named twice. *)
