@@ -270,10 +270,9 @@ void note_contact_reach(const diagnosis::ContactReach& reach, DiagnosisRun& run)
 /// describes, may make changes of others.
 void note_reference(const Robot& robot, const Recording& log, const Recording& reference,
                     const diagnosis::Series& remaining, DiagnosisRun& run) {
-  diagnosis::RichModel earlier = run.consistent.model;
-  earlier.earlier = true;
-  const diagnosis::Series before = diagnosis::series(
-      robot, run.settings.rows, earlier, reference, log.stride_for(reference, run.settings.stride));
+  const diagnosis::Series before =
+      diagnosis::series(robot, run.settings.rows, run.consistent.model.in_reference(), reference,
+                        log.stride_for(reference, run.settings.stride));
   const Eigen::VectorXd of_log = remaining.rms(), of_reference = before.rms();
   const Eigen::VectorXd predicted = diagnosis::row_rms(before.predicted, before.counted);
   constexpr double much = 2.0, nothing = 1e-3;  // of the log's, and of what is predicted

@@ -275,11 +275,10 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     options.block_seconds = log.duration() / blocks;
     Tally tally = empty_tally(robot, columns);
     if (reference != nullptr) {
-      RichModel earlier = result.model;
-      earlier.earlier = true;
       TallyOptions of_reference = options;
       of_reference.stride = log.stride_for(*reference, settings.stride);
-      add_to_tally(tally, robot, settings.rows, earlier, *reference, of_reference, true);
+      add_to_tally(tally, robot, settings.rows, result.model.in_reference(), *reference,
+                   of_reference, true);
     }
     add_to_tally(tally, robot, settings.rows, result.model, log, options, false);
     const BodySums sums(shapes, std::move(tally));

@@ -52,7 +52,8 @@ BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
     TallyOptions options = tally_options;
     options.log_starts.clear();
     options.stride = log.stride_for(*reference, settings.stride);
-    add_to_tally(tally, robot, settings.rows, earlier_model(), *reference, options, true);
+    add_to_tally(tally, robot, settings.rows, result.model.in_reference(), *reference, options,
+                 true);
   }
   add_to_tally(tally, robot, settings.rows, result.model, log, tally_options, false);
   constexpr std::ptrdiff_t fewest_blocks = 8;
@@ -85,7 +86,7 @@ void LoopState::correct() {
   };
   std::vector<Eigen::VectorXd> of_reference;
   if (reference && settings.rough_reference != nullptr) {
-    of_reference = error(earlier_model(), *reference, *settings.rough_reference);
+    of_reference = error(result.model.in_reference(), *reference, *settings.rough_reference);
   }
   use_correction(error(result.model, log, *settings.rough), of_reference);
 }
@@ -119,7 +120,7 @@ Series LoopState::left_by(const RichModel& model) const {
 
 std::optional<Rest> LoopState::rest_of_reference() const {
   if (!reference) return std::nullopt;
-  return Rest{*reference, series(robot, settings.rows, earlier_model(), *reference,
+  return Rest{*reference, series(robot, settings.rows, result.model.in_reference(), *reference,
                                  log.stride_for(*reference, settings.stride))};
 }
 
@@ -153,12 +154,6 @@ void LoopState::set_masses(const Fit& fit) {
   for (std::size_t i = 0; i < masses.columns.size(); ++i) {
     result.model.Phi[masses.columns[i]] += fit.value[static_cast<Eigen::Index>(i)];
   }
-}
-
-RichModel LoopState::earlier_model() const {
-  RichModel earlier = result.model;
-  earlier.earlier = true;
-  return earlier;
 }
 
 bool LoopState::is_applied_transformation(const AppliedEffect& effect) const {

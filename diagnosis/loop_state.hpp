@@ -53,8 +53,6 @@ struct LoopState {
   /// From a fit whose first term is the masses.
   void set_masses(const Fit& fit);
 
-  /// The present model as the reference log has it.
-  [[nodiscard]] RichModel earlier_model() const;
   [[nodiscard]] bool is_applied_transformation(const AppliedEffect& effect) const;
   /// Masses and the changes of transformations that are applied already: fitted along always.
   [[nodiscard]] Term always(const Tally& tally) const;

@@ -21,6 +21,12 @@ AppliedEffect at_start(const Effect& effect, int site) {
   return applied;
 }
 
+RichModel RichModel::in_reference() const {
+  RichModel model = *this;
+  model.earlier = true;
+  return model;
+}
+
 std::vector<AppliedEffect> RichModel::acting() const {
   std::vector<AppliedEffect> list;
   std::ranges::copy_if(effects, std::back_inserter(list),

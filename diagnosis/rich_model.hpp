@@ -23,6 +23,7 @@ struct RichModel {
   std::vector<Curve> curves = {};  ///< added to what the others predict
   /// As the reference log has it, and not the log.
   bool earlier = false;
+  [[nodiscard]] RichModel in_reference() const;
   [[nodiscard]] bool has_acting(const AppliedEffect& a) const {
     return earlier ? a.acts_in_reference() : a.acts_in_log();
   }
