@@ -26,7 +26,7 @@ constexpr double calm_seconds = 0.25;
 // Standard errors to either side: 95 percent of a normal distribution.
 constexpr double interval = 1.96;
 
-json numbers(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
+json list_of(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
 
 const char* name(fast::Outcome outcome) {
   switch (outcome) {
@@ -255,10 +255,10 @@ json TrackRun::links_json() const {
     const auto at = 10 * static_cast<Eigen::Index>(i);
     const auto link = static_cast<std::size_t>(model_.free_links[i]);
     links.push_back({{"name", robot_.robot.links[link].name},
-                     {"parameters", numbers(identifier.Phi().segment<10>(at))},
-                     {"filtered", numbers(identifier.filtered().segment<10>(at))},
-                     {"recent", numbers(estimates_->recent().segment<10>(at))},
-                     {"tracked", numbers(estimates_->tracked().segment<10>(at))}});
+                     {"parameters", list_of(identifier.Phi().segment<10>(at))},
+                     {"filtered", list_of(identifier.filtered().segment<10>(at))},
+                     {"recent", list_of(estimates_->recent().segment<10>(at))},
+                     {"tracked", list_of(estimates_->tracked().segment<10>(at))}});
   }
   return links;
 }

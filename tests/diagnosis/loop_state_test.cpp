@@ -89,7 +89,7 @@ TEST(LoopState, TermsOfTheModelBeginWhereTheirEffectsDo) {
   EXPECT_EQ(terms[2].columns.front(), fits.tally().first[1]);
   EXPECT_EQ(terms[2].from_block, 0U);
   EXPECT_EQ(arm.state.terms_of_model(fits, 1).size(), 2U);
-  EXPECT_EQ(arm.state.earlier_model().acting().size(), 2U);
+  EXPECT_EQ(arm.state.result.model.in_reference().acting().size(), 2U);
   EXPECT_EQ(arm.state.result.model.acting().size(), 3U);
 }
 
