@@ -85,10 +85,12 @@ void read_torque(const YamlInput& file, const YAML::Node& node, Mapping& mapping
   }
   const bool is_joint = mapping.torque == TorqueKind::joint;
   if (is_joint == mapping.torque_factor.empty()) return;
-  file.refuse(
-      node,
-      is_joint ? "joint torque has factors" : node["kind"].Scalar() + " torque has no factors",
-      "give a gear ratio (motor) or N m per A (current) for every joint");
+  if (is_joint) {
+    file.refuse(node, "joint torque has factors",
+                "leave them out, or say what they are of: kind: motor or current");
+  }
+  file.refuse(node, node["kind"].Scalar() + " torque has no factors",
+              "give a gear ratio (motor) or N m per A (current) for every joint");
 }
 
 }  // namespace
