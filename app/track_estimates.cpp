@@ -256,6 +256,12 @@ bool Estimates::finds_no_mass() const {
   return distance > std::sqrt(static_cast<double>(n)) + certain;
 }
 
+bool Estimates::asks_too_much() const {
+  constexpr double far = 100.0;  // as identify() has it
+  return windows_ > windows_in_recent_ &&
+         total_mass(recent_) > far * settings_.identifier.expected_mass;
+}
+
 /// From no masses on: the answer depends on the rows alone. If the solver declines, the last answer
 /// stays.
 bool Estimates::solve(const Eigen::MatrixXd& R, Eigen::VectorXd& Phi) {

@@ -62,6 +62,10 @@ class Estimates {
   [[nodiscard]] bool finds_no_mass() const;
   /// Whether it foretold more than next to nothing at any time.
   [[nodiscard]] bool ever_explained() const { return ever_explained_; }
+  /// Whether the last tenths of a second ask for so many times the expected mass that torques
+  /// cannot be in N m. The Kalman filter, which believes in masses of the size that is expected,
+  /// then lags.
+  [[nodiscard]] bool asks_too_much() const;
   /// Found at the last window that was answered.
   [[nodiscard]] const std::optional<LoadChange>& load_change() const { return change_; }
 

@@ -151,6 +151,11 @@ bool TrackRun::never_found_mass() const {
   return estimates_ && estimates_->finds_no_mass() && !estimates_->ever_explained();
 }
 
+std::optional<double> TrackRun::mass_out_of_scale() const {
+  if (!estimates_ || !estimates_->asks_too_much()) return std::nullopt;
+  return total_mass(estimates_->recent());
+}
+
 void TrackRun::prepare() {
   estimates_.emplace(robot_.robot, model_, settings_.estimates, stream_.rate());
   slip_.emplace(robot_.robot, stream_.rate());
@@ -219,6 +224,7 @@ void TrackRun::print(Why why, double time) {
                {"load", nullptr},
                {"doubt", nullptr}};
   if (estimates_->finds_no_mass()) line["doubt"] = "no-mass";
+  if (estimates_->asks_too_much()) line["doubt"] = "torque-scale";
   switch (why) {
     case Why::answered:
       line["objective"] = identifier.answer().value.total();

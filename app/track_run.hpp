@@ -62,6 +62,8 @@ class TrackRun {
   [[nodiscard]] std::string why_no_line() const;
   /// Whether no answer so far explained anything, and the last is doubted.
   [[nodiscard]] bool never_found_mass() const;
+  /// kg, of the last tenths of a second, where that is too much for torques in N m.
+  [[nodiscard]] std::optional<double> mass_out_of_scale() const;
 
  private:
   enum class Why { answered, still, no_samples, declined };

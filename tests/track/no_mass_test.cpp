@@ -58,15 +58,37 @@ TEST(TrackNoMass, AnAccelerometerOfTheOtherSignIsRefused) {
   expect_no_mass(whole_body + "turned.csv");
 }
 
-TEST(TrackNoMass, TorquesOfTheOtherSignAreRefused) {
-  std::vector<std::string> torques;
+std::vector<std::string> torques() {
+  std::vector<std::string> names;
   for (const char* leg : {"FR", "FL", "RR", "RL"}) {
     for (const char* joint : {"abad", "hip", "knee"}) {
-      torques.push_back(fmt::format("tau.{}_{}", leg, joint));
+      names.push_back(fmt::format("tau.{}_{}", leg, joint));
     }
   }
-  scratch_file("pulls.csv", joined(with_other_sign(trot_log(), torques)));
+  return names;
+}
+
+TEST(TrackNoMass, TorquesOfTheOtherSignAreRefused) {
+  scratch_file("pulls.csv", joined(with_other_sign(trot_log(), torques())));
   expect_no_mass(track("pulls.csv"));
+}
+
+/// The Kalman filter, which believes in masses like the given one, has some 60 kg of 11,000.
+TEST(TrackNoMass, TorquesInThousandthsAreDoubtedAndRefused) {
+  Lines log = trot_log();
+  constexpr double thousandths = 1000.0;
+  for (const std::string& column : torques()) {
+    change(log, column, 0, log.size(), [](double x) { return thousandths * x; });
+  }
+  scratch_file("thousandths.csv", joined(log));
+  const CommandRun run = shapeid(track("thousandths.csv"));
+  expect_one_line(run, 1, "refused (torque-scale): thousandths.csv: its end asks for 1");
+  const std::vector<json> lines = lines_of(run);
+  ASSERT_FALSE(lines.empty());
+  for (const json& line : lines) {
+    if (line.at("time").get<double>() < soon_enough) continue;
+    EXPECT_EQ(line.at("doubt"), "torque-scale") << line.at("time");
+  }
 }
 
 TEST(TrackNoMass, FeetThatNobodyDeclaresAreRefused) {
