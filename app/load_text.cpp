@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <variant>
+
+#include "shapeid/app/no_mass.hpp"
+#include "shapeid/models/error.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -16,7 +20,86 @@ const std::string& carrier(const Result& result, const Robot& robot) {
   return robot.links[static_cast<std::size_t>(link)].name;
 }
 
+double given_mass(const Robot& robot) {
+  double mass = 0.0;
+  for (const Link& link : robot.links) mass += link.inertia.mass();
+  return mass;
+}
+
+/// Errors beyond which a number is no chance, few blocks allowed for.
+double certain(const Result& result) { return 3.0 * result.found.data.wider; }
+
+/// The area that was searched: the load's one shape, before the first division.
+const Eigen::Affine3d& area(const Result& result) {
+  return std::get<Cuboid>(result.sought.shapes.front().shape).frame;
+}
+
+/// How far a place in the link's frame is outside the area, m.
+double outside(const Result& result, const Eigen::Vector3d& place) {
+  const Eigen::Array3d sides = area(result).linear().colwise().norm().transpose().array();
+  const Eigen::Array3d beyond = (area(result).inverse() * place).array().abs() - 0.5;
+  return (beyond.max(0.0) * sides).matrix().norm();
+}
+
+std::string below_zero_note(const Result& result, const Robot& robot) {
+  return fmt::format(
+      "by themselves the data ask for a load of {:.3g} kg (s.e. {:.2g}) on {}, less than none: the "
+      "given inertias are too large, or torques, accelerometer or contacts are not what they are "
+      "taken for",
+      result.found.data.value[0], result.found.data.standard_error[0], carrier(result, robot));
+}
+
+/// Filters, too, move a place: by less than a tenth of an area that is worth searching.
+std::string outside_note(const Result& result, const Robot& robot) {
+  constexpr double far = 0.1;
+  const reference::Determination& data = result.found.data;
+  const double mass = data.value[0];
+  const Eigen::Vector3d centre = data.value.segment<3>(1) / mass;
+  const Eigen::Vector3d error =
+      (data.standard_error.segment<3>(1) + centre.cwiseAbs() * data.standard_error[0]) / mass;
+  const double largest = area(result).linear().colwise().norm().maxCoeff();
+  const double away = outside(result, centre);
+  if (!(away > certain(result) * error.norm() && away > far * largest)) return {};
+  return fmt::format(
+      "by themselves the data put the load's centre at ({:.4f}, {:.4f}, {:.4f}) m of {}'s frame, "
+      "{:.2g} m outside the area: it is in another place, or on another link",
+      centre.x(), centre.y(), centre.z(), carrier(result, robot), away);
+}
+
 }  // namespace
+
+std::vector<std::string> load_notes(const Result& result, const Robot& robot,
+                                    double expected_mass) {
+  constexpr double little = 0.01;  // of what is expected: differentiation alone makes as much
+  const reference::Determination& data = result.found.data;
+  std::vector<std::string> notes;
+  if (!data.agrees(0, 0.0) && data.value[0] < -little * expected_mass) {
+    notes.push_back(below_zero_note(result, robot));
+  }
+  if (!data.agrees(0, 0.0) && data.value[0] > little * expected_mass) {
+    if (std::string note = outside_note(result, robot); !note.empty()) notes.push_back(note);
+  }
+  const double mass = found_load(result).mass(), given = given_mass(robot);
+  if (mass > 0.0 && mass <= certain(result) * result.found.standard_error[0]) {
+    notes.emplace_back("a load as small as this is not told from none, and its place says nothing");
+  }
+  if (given > 0.0 && mass > given) {
+    notes.push_back(fmt::format(
+        "the load weighs {:.2g} times as much as the robot itself: is the torque in N m?",
+        mass / given));
+  }
+  return notes;
+}
+
+void check_some_weight(const Result& result, const Robot& robot) {
+  const reference::Determination& data = result.found.data;
+  constexpr double nothing = 0.05;  // of what it should weigh, as where its feet are no contacts
+  const double given = given_mass(robot), left = given + data.value[0];
+  if (!(left + certain(result) * data.standard_error[0] < nothing * given)) return;
+  throw Refusal("no-mass", fmt::format("the log asks for a load of {:.3g} kg on a robot of {:.3g} "
+                                       "kg, of which nothing would be left: {}",
+                                       data.value[0], given, causes_of_no_mass));
+}
 
 std::string filter_note(const Result& result, const LoadElsewhere& other) {
   constexpr double far = 3.0;  // standard errors of a difference

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "shapeid/app/result.hpp"
 
@@ -17,6 +18,17 @@ struct LoadElsewhere {
 
 /// A note if the two masses differ by more than their standard errors say; empty else.
 [[nodiscard]] std::string filter_note(const Result& result, const LoadElsewhere& other);
+
+/// What the data say of the load by themselves, without the area and masses of zero or more, where
+/// it is for certain no load in the area: a mass below zero, a centre outside. And what is odd
+/// about the load that was found: too small to be told from none, or heavier than the robot.
+/// `expected_mass`: kg.
+[[nodiscard]] std::vector<std::string> load_notes(const Result& result, const Robot& robot,
+                                                  double expected_mass);
+
+/// Throws Refusal ("no-mass") if the data ask for a load so far below zero that with it next to
+/// nothing, or less, would be left of the whole robot.
+void check_some_weight(const Result& result, const Robot& robot);
 
 /// mass (kg), centre (m, link frame), tensor about the centre (kg m^2: Ixx Ixy Ixz Iyy Iyz Izz).
 [[nodiscard]] nlohmann::json load_json(const Result& result, const Robot& robot,

@@ -60,10 +60,14 @@ TEST_F(Given, TheMassOfALoadThatIsExpected) {
     EXPECT_EQ(run.status, 0) << run.err;
     return run.out;
   };
-  const std::string usual = found("", ""), heavy = found("  load: [2, 6]\n", "");
+  const std::string usual = found("", ""), heavy = found("  load: [0, 8]\n", "");
   EXPECT_EQ(heavy, found("", " --expected-mass 4"));
-  EXPECT_EQ(usual, found("  load: [2, 6]\n", " --expected-mass 1"));
+  EXPECT_EQ(usual, found("  load: [0, 8]\n", " --expected-mass 1"));
   EXPECT_NE(heavy, usual);
+  // It bounds nothing, and says so.
+  const std::string said = "notes.yaml expects a load of 2 to 6 kg";
+  EXPECT_EQ(heavy.find(said), std::string::npos);
+  EXPECT_NE(found("  load: [2, 6]\n", "").find(said), std::string::npos);
 }
 
 /// Of a link that is known it would do nothing: its given mass counts.

@@ -173,6 +173,63 @@ TEST(LoadAnswer, OfNothing) {
   const json nothing = {{"link", "base"}, {"mass", 0.0}};
   EXPECT_EQ(answer.document.at("load"), nothing);
   EXPECT_TRUE(answer.text.ends_with("\nno load on base\n")) << answer.text;
+  EXPECT_NE(answer.text.find("note: by themselves the data ask for a load of -0.5 kg "),
+            std::string::npos)
+      << answer.text;
+}
+
+/// Not that there is no load.
+TEST(LoadAnswer, OfTorquesOfTheOtherSignIsRefused) {
+  const std::string log = simulated_log("cube.csv",
+                                        "--seconds 4 --seed 3 --load 1.3 0.07 -0.03 "
+                                        "0.09 0.06");
+  std::string mapping = "columns:\n";
+  for (const char* leg : {"FR", "FL", "RR", "RL"}) {
+    for (const char* joint : {"abad", "hip", "knee"}) {
+      mapping += fmt::format("  tau.{0}_{1}: {{from: tau.{0}_{1}, sign: -1}}\n", leg, joint);
+    }
+  }
+  scratch_file("pulls.yaml", mapping);
+  const CommandRun run = shapeid(fmt::format(
+      "load --robot {}quadruped.urdf {} --log {} --mapping pulls.yaml --divisions 2 --area base "
+      "-0.1 0.2 -0.12 0.08 0.03 0.16",
+      robots, yaml, log));
+  expect_one_line(run, 1, "refused (no-mass): the log asks for a load of -");
+}
+
+/// Its mass is right all the same, and its place is the area's edge.
+TEST(LoadAnswer, SaysThatTheDataPutItOutsideTheArea) {
+  simulated_log("cube.csv", "--seconds 4 --seed 3 --load 1.3 0.07 -0.03 0.09 0.06");
+  const std::string words = fmt::format("--robot {}quadruped.urdf --log cube.csv --area", robots);
+  const std::string said = "note: by themselves the data put the load's centre at (0.0";
+  const Answer beside = load(words + " base -0.2 0 -0.12 0.08 0.03 0.16", 10);
+  EXPECT_NE(beside.text.find(said), std::string::npos) << beside.text;
+  EXPECT_NE(beside.text.find(" m outside the area: "), std::string::npos) << beside.text;
+  const Answer around = load(words + " base -0.1 0.2 -0.12 0.08 0.03 0.16", 10);
+  EXPECT_EQ(around.text.find(said), std::string::npos) << around.text;
+}
+
+/// Torques ten times too large, and what robot.yaml expects of loads.
+TEST(LoadAnswer, SaysThatItIsHeavierThanItCanBe) {
+  simulated_log("bare.csv", "--seconds 5 --seed 3");
+  std::string mapping = "torque:\n  kind: motor\n  factor: {";
+  for (const char* leg : {"FR", "FL", "RR", "RL"}) {
+    for (const char* joint : {"abad", "hip", "knee"}) {
+      mapping += fmt::format("{}_{}: 10, ", leg, joint);
+    }
+  }
+  mapping.replace(mapping.size() - 2, 2, "}\n");
+  scratch_file("tenfold.yaml", mapping);
+  const Answer answer =
+      load(fmt::format(
+               "--robot {}quadruped.urdf --log bare.csv --mapping tenfold.yaml --area base -0.25 "
+               "0.25 -0.15 0.15 0.05 0.2",
+               robots),
+           2);
+  EXPECT_NE(answer.text.find("note: the load weighs "), std::string::npos) << answer.text;
+  EXPECT_NE(answer.text.find("quadruped.robot.yaml expects a load of 0 to 3 kg\n"),
+            std::string::npos)
+      << answer.text;
 }
 
 /// A trot's touch-downs, behind 20 Hz, look like 13 g that nobody carries; its error does not say
