@@ -187,6 +187,10 @@ void track(TrackArguments& options) {
   if (run.lines() == 0 && options.checkpoint.empty()) {
     throw Refusal("too-short", fmt::format("{}: {}", options.inputs.log, run.why_no_line()));
   }
+  if (run.why_no_answer() && options.checkpoint.empty()) {
+    throw Refusal("no-data", fmt::format("{}: none of {} lines has an answer; the last says: {}",
+                                         options.inputs.log, run.lines(), *run.why_no_answer()));
+  }
   // With one, too: what was printed is none, and the state is kept.
   if (run.never_found_mass()) {
     throw Refusal("no-mass",

@@ -17,6 +17,7 @@ struct TrackEvents {
   std::size_t clock_back = 0, gaps = 0;
   std::vector<std::size_t> outliers, stuck, saturated;  ///< one a channel: rows
   std::size_t taken = 0, still = 0, not_finite = 0, no_forces = 0;
+  std::size_t contacts_unknown = 0;   ///< samples that there would have been; in no checkpoint
   std::size_t airborne = 0;           ///< of the samples
   std::vector<std::size_t> slipping;  ///< one a contact: samples
 

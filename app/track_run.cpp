@@ -207,6 +207,7 @@ bool TrackRun::stands_still(const Sample& sample) {
 
 void TrackRun::print(Why why, double time) {
   const Identifier& identifier = estimates_->identifier();
+  events_.contacts_unknown = stream_.take_unknown_contacts();
   json line = {{"format", "shapeid-track-1"},
                {"line", lines_},
                {"time", time},
@@ -242,11 +243,17 @@ void TrackRun::print(Why why, double time) {
       line["why"] = "stands still: nothing is excited";
       break;
     case Why::no_samples:
-      line["why"] = "no samples: see rows";
+      line["why"] = events_.contacts_unknown > 0 ? "no samples: contacts are not known"
+                                                 : "no samples: see rows";
       break;
     case Why::declined:
       line["why"] = std::string("window declined: ") + name(identifier.outcome());
       break;
+  }
+  if (why == Why::answered) {
+    why_no_answer_.reset();
+  } else if (why_no_answer_) {
+    why_no_answer_ = line["why"].get<std::string>();
   }
   due_.push_back(std::move(line));
   ++lines_;
@@ -294,7 +301,8 @@ json TrackRun::samples_json() const {
   return {{"taken", events_.taken},
           {"still", events_.still},
           {"not_finite", events_.not_finite},
-          {"no_forces", events_.no_forces}};
+          {"no_forces", events_.no_forces},
+          {"contacts_unknown", events_.contacts_unknown}};
 }
 
 json TrackRun::contacts_json() const {

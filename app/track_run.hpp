@@ -60,6 +60,8 @@ class TrackRun {
 
   /// Why there was no line so far, for a log that has ended.
   [[nodiscard]] std::string why_no_line() const;
+  /// Why the last line has no answer, where no line since this object was made has one.
+  [[nodiscard]] const std::optional<std::string>& why_no_answer() const { return why_no_answer_; }
   /// Whether no answer so far explained anything, and the last is doubted.
   [[nodiscard]] bool never_found_mass() const;
   /// kg, of the last tenths of a second, where that is too much for torques in N m.
@@ -101,6 +103,7 @@ class TrackRun {
   std::size_t rows_of_units_ = 0;  ///< that were looked at
   std::vector<nlohmann::json> due_;
   std::string path_;
+  std::optional<std::string> why_no_answer_ = std::string();  ///< in no checkpoint
   std::optional<Plausibility> units_;  ///< of the first rows; in no checkpoint
 };
 

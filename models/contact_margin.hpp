@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "shapeid/models/motion.hpp"
@@ -46,6 +47,8 @@ class ContactMargin {
   void finish();
   [[nodiscard]] std::optional<Sample> next();
   [[nodiscard]] std::size_t dropped() const { return dropped_; }
+  /// Those since the last call, which are then no longer counted.
+  [[nodiscard]] std::size_t take_dropped() { return std::exchange(dropped_, 0); }
 
   /// All that is remembered, for a checkpoint.
   template <class Archive>

@@ -41,6 +41,8 @@ class SampleStream {
   /// back for what comes after them are handed out.
   void restart();
   [[nodiscard]] std::optional<Sample> next();
+  /// Samples that were left out since the last call, because a contact's flag was not known.
+  [[nodiscard]] std::size_t take_unknown_contacts() { return margin_.take_dropped(); }
 
   /// Hz; 0 as long as it is not known.
   [[nodiscard]] double rate() const { return rate_; }

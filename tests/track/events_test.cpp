@@ -310,6 +310,28 @@ TEST(TrackEvents, APauseInTheAirGivesNoScale) {
   EXPECT_EQ(after->at("scale"), "known links");
 }
 
+/// Nor is it said that a robot weighs nothing, with status 0.
+TEST(TrackEvents, ContactsThatAreNotKnownAreCounted) {
+  const auto with_unknown = [](std::size_t first, std::size_t last) {
+    Lines log = trot_log();
+    change(log, "contact.FL_foot", first, last, [](double) { return -1.0; });
+    return log;
+  };
+  const std::vector<json> lines = tracked(with_unknown(1000, 1200));
+  EXPECT_EQ(total(lines, "samples", "contacts_unknown"), 200U);
+  const auto unanswered = std::count_if(lines.begin(), lines.end(), [](const json& line) {
+    return line.at("why") == "no samples: contacts are not known";
+  });
+  EXPECT_GT(unanswered, 2);
+
+  scratch_file("unknown.csv", joined(with_unknown(0, trot_log().size())));
+  const CommandRun run = shapeid(track("unknown.csv"));
+  expect_one_line(run, 1, "refused (no-data): unknown.csv: none of ");
+  EXPECT_NE(run.err.find(" lines has an answer; the last says: no samples: contacts are not known"),
+            std::string::npos)
+      << run.err;
+}
+
 TEST(TrackEvents, AFootThatSlipsIsNamed) {
   Lines log = trot_log();
   // A stance foot's knee moves on by half a radian over a tenth of a second, as on ice.
