@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "shapeid/models/contact_margin.hpp"
 #include "shapeid/models/contract.hpp"
 
 namespace shapeid::diagnosis {
@@ -82,12 +83,11 @@ void Recording::extend_contacts(double before, double after) {
   if (declared_.empty()) {
     for (const Sample& s : samples_) declared_.push_back(s.in_contact);
   }
-  // Times are sums of steps.
-  const double rounding = 1e-6 / rate_;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     for (Eigen::Index c = 0; c < until_touch_.rows(); ++c) {
-      if (until_touch_(c, at) <= before + rounding || since_touch_(c, at) <= after + rounding) {
+      if (until_touch_(c, at) <= before + time_rounding ||
+          since_touch_(c, at) <= after + time_rounding) {
         samples_[i].in_contact[static_cast<std::size_t>(c)] = true;
       }
     }

@@ -4,13 +4,6 @@
 #include <utility>
 
 namespace shapeid {
-namespace {
-
-/// s: a margin is often a whole number of steps, and times are rounded. Which flags a sample gets
-/// must not depend on when the log was begun.
-constexpr double time_rounding = 1e-6;
-
-}  // namespace
 
 // In periods of the cutoff. What one pass makes of an event comes after it; before, only a flag
 // that is late matters.

@@ -12,6 +12,11 @@
 
 namespace shapeid {
 
+/// s: how long a contact counts is often a whole number of steps, and times are rounded, most of
+/// all those of a clock that began in 1970. Which flags a sample gets must not depend on when the
+/// log was begun.
+inline constexpr double time_rounding = 1e-6;
+
 /// How long before and after a change of contact samples are near it, s.
 struct Margin {
   double before = 0.0, after = 0.0;

@@ -83,6 +83,27 @@ TEST(ContactTimes, ExtendedContactsLeaveWhatIsDeclared) {
       << "from what is declared, not from what was extended";
 }
 
+TEST(ContactTimes, ExtendedContactsAreTheSameWheneverTheLogBegan) {
+  constexpr double rate = 500.0, step = 1.0 / rate;
+  const auto touching = [&](double begin) {
+    std::vector<Sample> samples(400);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      samples[i].time = begin + static_cast<double>(i) / rate;
+      samples[i].in_contact = {i % 40 < 20};
+    }
+    Recording log(std::move(samples), rate);
+    log.extend_contacts(3.0 * step, 4.0 * step);
+    std::vector<bool> touches;
+    for (const Sample& s : log.samples()) touches.push_back(s.in_contact[0]);
+    return touches;
+  };
+  const std::vector<bool> at_zero = touching(0.0);
+  for (const double begin : {37.5, 1e6, 1e9, 1.7e9}) {
+    SCOPED_TRACE(begin);
+    EXPECT_EQ(touching(begin), at_zero);
+  }
+}
+
 /// On the log as it was, the effect says what lengthening the log's contact says.
 RC_GTEST_PROP(ContactFlags, AreTheSameAsAnEffectAndCorrectedInTheLog, ()) {
   const Robot robot = *test::robot({2, 5, Root::floating});
