@@ -97,6 +97,16 @@ void exchange(const std::vector<Leg>& legs, const Order& order, Sample& sample) 
   }
 }
 
+/// Whether no foot's force is projected away, or taken off, in any sample.
+bool no_foot_counts(const Recording& recording, ContactTreatment contacts) {
+  const auto touches = [](const Sample& s) {
+    return std::ranges::find(s.in_contact, true) != s.in_contact.end();
+  };
+  return contacts == ContactTreatment::ignore ||
+         (contacts == ContactTreatment::project &&
+          std::ranges::none_of(recording.samples(), touches));
+}
+
 int legs_moved_by(const Order& order) {
   int moved = 0;
   for (std::size_t i = 0; i < order.size(); ++i) moved += order[i] != i ? 1 : 0;
@@ -151,7 +161,7 @@ void check_leg_order(const Robot& robot, const Recording& recording, ContactTrea
                             "columns in the mapping, or their joints in the URDF; or the IMU is "
                             "turned{}",
                             words_of(robot, legs, best),
-                            contacts == ContactTreatment::ignore && !robot.contacts.empty()
+                            no_foot_counts(recording, contacts)
                                 ? ", or feet carry the robot that do not count"
                                 : ""));
 }

@@ -19,7 +19,9 @@ namespace {
 constexpr std::array<std::size_t, 4> in_order = {0, 1, 2, 3};
 
 /// What is refused of the trot where leg i has the columns of leg `logged`[i]; empty if nothing is.
-std::string refused(const test::Trot& trot, const std::array<std::size_t, 4>& logged) {
+/// If feet do not count no flag is ever on.
+std::string refused(const test::Trot& trot, const std::array<std::size_t, 4>& logged,
+                    bool feet_count = true) {
   std::vector<Sample> samples = trot.samples;
   for (Sample& s : samples) {
     const Sample right = s;
@@ -30,7 +32,7 @@ std::string refused(const test::Trot& trot, const std::array<std::size_t, 4>& lo
       s.dq.segment<3>(to) = right.dq.segment<3>(from);
       s.ddq.segment<3>(to) = right.ddq.segment<3>(from);
       s.tau.segment<3>(to) = right.tau.segment<3>(from);
-      s.in_contact[leg] = right.in_contact[logged[leg]];
+      s.in_contact[leg] = feet_count && right.in_contact[logged[leg]];
     }
   }
   try {
@@ -56,6 +58,14 @@ TEST(LegOrder, IsNamed) {
                 .find("if legs are exchanged, FR_abad by RR_abad, FL_abad by FR_abad, RR_abad by "
                       "FL_abad, with all"),
             std::string::npos);
+}
+
+/// The given links carry nothing where no flag of a foot is ever on, and legs may seem exchanged.
+TEST(LegOrder, MayBeFeetThatDoNotCount) {
+  const test::Trot trot;
+  constexpr const char* feet = "or feet carry the robot that do not count";
+  EXPECT_EQ(refused(trot, {1, 0, 2, 3}).find(feet), std::string::npos);
+  EXPECT_NE(refused(trot, in_order, false).find(feet), std::string::npos);
 }
 
 TEST(LegOrder, IsAskedOfRobotsWithLegs) {
