@@ -338,14 +338,14 @@ class Loop {
   /// derivative masses still have the rows that it has changed, and about an upright axis they feel
   /// weight by a tilt alone: what is to go is asked once more as it is, unless the base turns.
   void prune_transformations() {
-    std::vector<std::string> stay;
+    std::vector<AppliedEffect> stay;
     while (std::any_of(result_.found.begin(), result_.found.end(),
                        [](const Found& f) { return f.effect.effect->transform.any(); })) {
       const std::vector<Gain> gains = state_.gains_by_derivative();
       std::optional<std::size_t> worst;
       for (std::size_t i = 0; i < gains.size(); ++i) {
         const Found& f = result_.found[i];
-        if (!f.effect.effect->transform.any() || std::ranges::count(stay, f.id) > 0) continue;
+        if (!f.effect.effect->transform.any() || has_place_of(stay, f.effect)) continue;
         if (is_worth(gains[i]) && !at_limit(f.effect)) continue;
         if (!worst || gains[i].t < gains[*worst].t) worst = i;
       }
@@ -353,7 +353,7 @@ class Loop {
       const bool asked_again =
           state_.robot.root == Root::fixed && !at_limit(result_.found[*worst].effect);
       if (asked_again && is_worth(gain_as_it_is(*worst, state_.held_out_either_way()))) {
-        stay.push_back(result_.found[*worst].id);
+        stay.push_back(result_.found[*worst].effect);
       } else {
         take_back(*worst, is_worth(gains[*worst]));
       }
