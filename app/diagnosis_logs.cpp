@@ -121,7 +121,16 @@ void check_each(const RobotInputs& robot, const DiagnoseOptions& options, const 
                 const diagnosis::LoopSettings& settings) {
   const RecordedLog &fitted = logs.fitted, &test = logs.test;
   if (test.recording.usable(stride_of(options.inputs, test.motion.rate)).empty()) {
-    throw Refusal("no-data", "nothing is left to test on; give --test, or a longer log");
+    const std::size_t samples = test.recording.samples().size();
+    // Of logs of few samples a second all stretches that are held out are as short.
+    throw Refusal(
+        "no-data",
+        samples == 0
+            ? "nothing is left to test on; give --test, or a longer log"
+            : fmt::format(
+                  "nothing is left to test on: none of {} samples has neighbours for {:g} "
+                  "ms, and two more, on both sides; give --test, with a log of longer stretches",
+                  samples, 1e3 * diagnosis::largest_shift));
   }
   diagnosis::check_clocks(robot.robot, fitted.recording, settings, fitted.starts,
                           fitted_logs(options));
