@@ -1,6 +1,7 @@
 #include "shapeid/diagnosis/candidates.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 
 #include "shapeid/diagnosis/effects.hpp"
@@ -9,7 +10,7 @@
 namespace shapeid::diagnosis {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 double range_of(const Recording& log, int joint) {
   const auto [least, most] = std::minmax_element(

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "shapeid/models/butterworth.hpp"
 #include "shapeid/models/segment_filter.hpp"
 
 namespace shapeid::diagnosis {
@@ -105,8 +106,7 @@ Eigen::VectorXd contact_force(const Viewer& viewer, const View& view, const Pred
 std::vector<Eigen::VectorXd> filter_error(const Viewer& viewer, const RichModel& model,
                                           const Recording& smooth, const Recording& rough,
                                           double cutoff) {
-  constexpr int order = 2;
-  const Butterworth design(order, cutoff, rough.rate());
+  const Butterworth design(log_filter_order, cutoff, rough.rate());
   const ForceSlots slots(viewer.robot());
   const Eigen::Index dof = viewer.robot().dof();
   std::vector<Eigen::VectorXd> errors(smooth.samples().size(), Eigen::VectorXd::Zero(dof));

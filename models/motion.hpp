@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/models/butterworth.hpp"
 #include "shapeid/models/log.hpp"
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/robot_yaml.hpp"
@@ -35,9 +36,9 @@ struct MotionOptions {
   MotionOptionNames names;
   Smoothing smoothing = Smoothing::zero_phase;
   double cutoff = 20.0;  ///< Hz, -3 dB of one pass; the same for joints, IMU, torque and force
-  int order = 2;         ///< of one pass, 1 to 8
-  double rate = 0.0;     ///< Hz of the regular grid; 0: the log's median rate. Not below that.
-  double gap = 5.0;      ///< a channel's step longer than this many of its median steps is a gap
+  int order = log_filter_order;  ///< of one pass, 1 to 8
+  double rate = 0.0;  ///< Hz of the regular grid; 0: the log's median rate. Not below that.
+  double gap = 5.0;   ///< a channel's step longer than this many of its median steps is a gap
   /// Joint velocities from the logged dq instead of the differentiated q, and accelerations from
   /// its first derivative instead of q's second. Drives often log a velocity that is a sample late
   /// or filtered on its own, so this is not the default.
