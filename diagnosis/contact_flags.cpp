@@ -20,7 +20,7 @@ constexpr double beyond = 1.2;
 /// A force that is there for `T` s, and one that fades in a straight line over them.
 Eigen::MatrixXd within(const Instant& at, int contact, double away, double T) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(at.robot.dof(), 6);
-  if (!(away <= T)) return columns;
+  if (!(away <= T + time_rounding)) return columns;
   columns.leftCols<3>() = force_columns(at, contact, false);
   columns.rightCols<3>() = (1.0 - away / T) * columns.leftCols<3>();
   return columns;

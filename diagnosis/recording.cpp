@@ -72,7 +72,8 @@ void Recording::find_touches() {
 void Recording::lengthen_contact(int contact, double before, double after) {
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    if (until_touch_(contact, at) <= before || since_touch_(contact, at) <= after) {
+    if (until_touch_(contact, at) <= before + time_rounding ||
+        since_touch_(contact, at) <= after + time_rounding) {
       samples_[i].in_contact[static_cast<std::size_t>(contact)] = true;
     }
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shapeid/diagnosis/effect.hpp"
+#include "shapeid/models/contact_margin.hpp"
 #include "shapeid/reference/contact.hpp"
 
 namespace shapeid::diagnosis {
@@ -21,7 +22,7 @@ inline Parameter contact_time() { return {"T", "s", true, 0.02, 0.2}; }
 /// The sample with the contact touching if that is no more than T s away (`times`: of each
 /// contact).
 inline Sample with_contact(Sample sample, int contact, const Eigen::VectorXd& times, double T) {
-  if (contact < times.size() && times[contact] <= T) {
+  if (contact < times.size() && times[contact] <= T + time_rounding) {
     sample.in_contact[static_cast<std::size_t>(contact)] = true;
   }
   return sample;

@@ -64,9 +64,8 @@ std::string pattern_of(const Recording& log) {
 }
 
 TEST(ContactTimes, LengthenedContactsStayInTheirSegment) {
-  constexpr double little = 1e-6;  // s
   Recording log = flags("...x....|....x..");
-  log.lengthen_contact(1, 0.02 + little, 0.01 + little);
+  log.lengthen_contact(1, 0.02, 0.01);
   EXPECT_EQ(pattern_of(log), ".xxxx.....xxxx.");
   EXPECT_EQ(log.surroundings(0).until_touch[1], 0.01) << "times are of the new flags";
 }
