@@ -64,8 +64,8 @@ void NoiseOfMotion::question_laws(const diagnosis::Recording& log,
          diagnosis::take_back_noise(robot, smoother(run), fast_shares_, run.loop)) {
       taken_back_.push_back(diagnosis::law_text(s, robot));
     }
-  } catch (const Refusal&) {
-    is_too_short_ = true;
+  } catch (const Refusal& refusal) {
+    why_not_asked_ = refusal.reason();
   }
 }
 
@@ -92,8 +92,8 @@ void NoiseOfMotion::question_curves(const diagnosis::Recording& log,
   std::vector<diagnosis::Structure> now;
   try {
     now = diagnosis::unexplained_behind(robot, smoother(run), run.loop);
-  } catch (const Refusal&) {
-    is_too_short_ = true;
+  } catch (const Refusal& refusal) {
+    why_not_asked_ = refusal.reason();
     return;
   }
   std::erase_if(run.structures, [&](const diagnosis::Structure& s) {
@@ -121,11 +121,11 @@ void NoiseOfMotion::note(DiagnosisRun& run) const {
         "is: with --cutoff {:.3g} less of it remains, and smaller effects can be seen",
         fmt::join(noisy, ", "), slower, slower));
   }
-  if (is_too_short_) {
+  if (!why_not_asked_.empty()) {
     run.notes.push_back(fmt::format(
-        "behind a filter of {:.3g} Hz too little of the log is left to tell whether what is "
-        "unexplained is noise of differentiated positions",
-        slower));
+        "whether what is unexplained is noise of differentiated positions was not asked behind a "
+        "filter of {:.3g} Hz: {}",
+        slower, why_not_asked_));
   }
   if (!names_taken_back_.empty()) {
     run.notes.push_back(fmt::format("gone behind a filter of {:.3g} Hz, and so no cause: {}",

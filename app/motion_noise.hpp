@@ -45,7 +45,7 @@ class NoiseOfMotion {
   diagnosis::LoopSettings settings_;
   std::vector<double> fast_shares_;
   std::vector<std::string> names_taken_back_, taken_back_, silent_;
-  bool is_too_short_ = false;  ///< behind the slower filter, to be asked
+  std::string why_not_asked_;  ///< behind the slower filter, with what is left of the log there
 };
 
 }  // namespace shapeid::app

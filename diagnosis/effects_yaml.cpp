@@ -116,7 +116,7 @@ AppliedEffect read_entry(const YamlInput& file, const YAML::Node& node, const Ro
     }
   }
   if (!applied.effect->is_payload) return applied;
-  // What is written has fewer digits than what was found.
+  // Numbers that somebody typed have a few digits.
   constexpr double written = 1e-6;
   if (const Violation reason = why_impossible({applied.value.head<10>()}, written)) {
     file.refuse(node["values"], *reason,

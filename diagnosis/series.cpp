@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace shapeid::diagnosis {
 
@@ -49,6 +51,61 @@ Eigen::VectorXd centred(const Series& series, const Eigen::MatrixXd& of, Eigen::
   return (y - (y * counts).sum() / std::max(counts.sum(), 1.0)) * counts;
 }
 
+namespace {
+
+/// What a ripple is sought in: readings of one joint's row, and where the other stood.
+struct Readings {
+  Eigen::ArrayXd x, size;  ///< position (rad or m); what the ripple is in proportion to
+  Eigen::VectorXd y;
+};
+
+/// The frequency from `lower` to `upper`, in steps, that explains most of the stretches of readings
+/// that begin at `starts`, of each with a phase of its own.
+double strongest(const Readings& of, const std::vector<Eigen::Index>& starts, double lower,
+                 double upper, double step) {
+  // From one frequency to the next by the sum of angles: a sine costs as much as all the rest.
+  Eigen::ArrayXd cosine = (lower * of.x).cos(), sine = (lower * of.x).sin();
+  const Eigen::ArrayXd cosine_of_step = (step * of.x).cos(), sine_of_step = (step * of.x).sin();
+  double best = lower, most = 0.0;
+  Eigen::MatrixX3d A(of.x.size(), 3);
+  for (double N = lower; N <= upper; N += step) {
+    A << of.size * cosine, of.size * sine, of.size;
+    double explained = 0.0;
+    for (std::size_t k = 0; k < starts.size(); ++k) {
+      const Eigen::Index end = k + 1 < starts.size() ? starts[k + 1] : of.x.size();
+      const auto part = A.middleRows(starts[k], end - starts[k]);
+      const Eigen::Vector3d g = part.transpose() * of.y.segment(starts[k], end - starts[k]);
+      explained += g.dot((part.transpose() * part).ldlt().solve(g));
+    }
+    if (explained > most) {
+      most = explained;
+      best = N;
+    }
+    const Eigen::ArrayXd turned = cosine * cosine_of_step - sine * sine_of_step;
+    sine = sine * cosine_of_step + cosine * sine_of_step;
+    cosine = turned;
+  }
+  return best;
+}
+
+/// The readings in the order of their positions, and where stretches of `widest` rad begin.
+std::vector<Eigen::Index> sort_by_position(Readings& of, double widest) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(of.x.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return of.x[i]; });
+  of = {of.x(order), of.size(order), of.y(order)};
+  std::vector<Eigen::Index> starts;
+  double end = -std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < of.x.size(); ++i) {
+    if (of.x[i] < end) continue;
+    starts.push_back(i);
+    end = of.x[i] + widest;
+  }
+  return starts;
+}
+
+}  // namespace
+
 double strongest_ripple(const Robot& robot, const Recording& recording, const Series& left,
                         int joint, int over, RippleOf of, double lower, double upper) {
   const Eigen::Index row = robot.base_dof() + joint;
@@ -57,39 +114,29 @@ double strongest_ripple(const Robot& robot, const Recording& recording, const Se
     if (left.counted(row, i)) counted.push_back(i);
   }
   if (counted.empty()) return lower;
-  Eigen::ArrayXd x(std::ssize(counted));
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
+  Readings readings{Eigen::ArrayXd(std::ssize(counted)), Eigen::ArrayXd::Ones(std::ssize(counted)),
+                    left.residual(row, counted)};
+  for (Eigen::Index i = 0; i < readings.x.size(); ++i) {
     const Eigen::Index at = counted[static_cast<std::size_t>(i)];
-    x[i] = recording[left.index[static_cast<std::size_t>(at)]].q[over];
+    readings.x[i] = recording[left.index[static_cast<std::size_t>(at)]].q[over];
   }
-  const Eigen::VectorXd y = left.residual(row, counted);
-  Eigen::ArrayXd size = Eigen::ArrayXd::Ones(x.size());
-  if (of == RippleOf::load) size = left.predicted(row, counted).transpose();
+  if (of == RippleOf::load) readings.size = left.predicted(row, counted).transpose();
   // Over the whole range the phases of two neighbours differ by half a radian: between them hardly
   // anything of a ripple is lost.
-  const double range = x.maxCoeff() - x.minCoeff();
-  constexpr double least_range = 0.05, most_range = 500.0;  // rad or m
-  const double step = 0.5 / std::clamp(range, least_range, most_range);
-  // From one frequency to the next by the sum of angles: a sine costs as much as all the rest.
-  Eigen::ArrayXd cosine = (lower * x).cos(), sine = (lower * x).sin();
-  const Eigen::ArrayXd cosine_of_step = (step * x).cos(), sine_of_step = (step * x).sin();
-  double best = lower, most = 0.0;
-  double N = lower;
-  while (N <= upper) {
-    Eigen::MatrixX3d A(x.size(), 3);
-    A << size * cosine, size * sine, size;
-    const Eigen::Vector3d g = A.transpose() * y;
-    const double explained = g.dot((A.transpose() * A).ldlt().solve(g));
-    if (explained > most) {
-      most = explained;
-      best = N;
-    }
-    N += step;
-    const Eigen::ArrayXd turned = cosine * cosine_of_step - sine * sine_of_step;
-    sine = sine * cosine_of_step + cosine * sine_of_step;
-    cosine = turned;
+  const double range = readings.x.maxCoeff() - readings.x.minCoeff();
+  constexpr double least_range = 0.05;  // rad or m
+  const auto step_over = [](double x) { return 0.5 / x; };
+  // Of a joint that turns on and on there would be frequencies without end: they are first told
+  // apart as finely as stretches of it do, and where these have most as finely as the whole.
+  constexpr double widest = 30.0;
+  if (!(range > widest)) {
+    return strongest(readings, {0}, lower, upper, step_over(std::max(range, least_range)));
   }
-  return best;
+  const std::vector<Eigen::Index> starts = sort_by_position(readings, widest);
+  const double step = step_over(widest);
+  const double about = strongest(readings, starts, lower, upper, step);
+  return strongest(readings, {0}, std::max(lower, about - step), std::min(upper, about + step),
+                   step_over(range));
 }
 
 }  // namespace shapeid::diagnosis

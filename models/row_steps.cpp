@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -18,10 +19,25 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+// Times of a clock that began in 1970 are whole numbers of 0.24 us, and steps of 2 ms one of two
+// neighbouring ones. Either is off by so much that a grid of such steps would leave the rows within
+// a minute, and values between rows be taken for measured ones.
 double median_row_step(const std::deque<MeasuredRow>& head) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < head.size(); ++i) steps.push_back(head[i].time - head[i - 1].time);
-  return steps.empty() ? 0.0 : median(std::move(steps));
+  if (steps.empty()) return 0.0;
+  const double middle = median(steps);
+  const double rounding = std::numeric_limits<double>::epsilon() *
+                          std::max(std::abs(head.front().time), std::abs(head.back().time));
+  constexpr double little = 1e-7;  // of a step: twenty minutes later a twentieth of one at 500 Hz
+  if (rounding <= little * middle) return middle;
+  double sum = 0.0, count = 0.0;
+  for (const double step : steps) {
+    if (!(std::abs(step - middle) <= rounding)) continue;
+    sum += step;
+    count += 1.0;
+  }
+  return sum / count;
 }
 
 Eigen::VectorXd median_steps(const std::deque<MeasuredRow>& head, const ChannelPlan& plan,

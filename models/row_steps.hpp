@@ -14,7 +14,8 @@ namespace shapeid {
 /// Of one number at least.
 [[nodiscard]] double median(std::vector<double> values);
 
-/// Median time between the rows, s; 0 for a single one.
+/// Median time between the rows, s; 0 for a single one. Where the times are so large that their
+/// rounding shows in it, the mean of all that are within the rounding.
 [[nodiscard]] double median_row_step(const std::deque<MeasuredRow>& head);
 
 /// Median time between the measurements of every channel, s. Throws InputError, which names `path`,

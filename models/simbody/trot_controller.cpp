@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/simbody/random.hpp"
@@ -11,7 +10,7 @@
 namespace shapeid {
 namespace {
 
-using std::numbers::pi;
+constexpr double pi = 3.141592653589793;
 constexpr double gravity = 9.81;
 
 // Gains: a body of 13 kg and about 0.15, 0.4, 0.4 kg m^2 answers with 1.5 to 2 Hz, well damped.

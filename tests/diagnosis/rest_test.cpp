@@ -93,9 +93,12 @@ TEST(LightLoad, IsATenthOfWhatASmallJointOftenHas) {
 }
 
 /// A wheel that turns far resolves its periods finely. (The grid once was never finer than a tenth
-/// of a period a radian.)
-TEST(StrongestRipple, IsFoundOverManyTurns) {
-  constexpr double turns = 100.0, N = 57.317;  // rad, 1/rad
+/// of a period a radian; then a wheel of 300 rad took a minute.)
+class StrongestRipple : public testing::TestWithParam<double> {};
+
+TEST_P(StrongestRipple, IsFoundOverManyTurns) {
+  const double turns = GetParam();  // rad
+  constexpr double N = 57.317;      // 1/rad
   std::vector<Sample> samples(2000);
   Series left;
   left.residual.setZero(3, std::ssize(samples));
@@ -114,6 +117,8 @@ TEST(StrongestRipple, IsFoundOverManyTurns) {
   const double found = strongest_ripple(arm(), log, left, 1, 1, RippleOf::torque, 4.0, 200.0);
   EXPECT_LT(std::abs(found - N), 0.5 / turns);
 }
+
+INSTANTIATE_TEST_SUITE_P(Turns, StrongestRipple, testing::Values(20.0, 100.0, 1500.0));
 
 /// An hour without samples is no hour of data: blocks are made of what was recorded. (By the clock
 /// a minute's log with such a pause had two blocks, and was refused as too short.)

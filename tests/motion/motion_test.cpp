@@ -296,6 +296,30 @@ TEST_F(ImuPose, SmoothedRowsComeBackInTheBaseFrame) {
   EXPECT_LT(e.force, 2.0 * (0.6 + reach * 0.6 * w) * a + 16.0 * a * reach * 3.0 * 0.36);
 }
 
+/// Its stamps are whole numbers of 0.24 us, of which the median step is one: a grid of such steps
+/// would leave the rows, and take the mean of two for a measurement.
+TEST(Motion, AClockThatBeganIn1970TellsTheSame) {
+  const Robot robot = chain(3, Root::fixed);
+  const ScratchFolder scratch;
+  const auto of = [&](double start, MotionOptions options) {
+    const auto path = scratch.path("clock.csv");
+    write_log(path, robot, regular_times(start, 500.0, 5000),
+              [&](double t) { return smooth_motion(robot, t - start); });
+    return read_motion(path, robot, options);
+  };
+  for (const Smoothing smoothing : {Smoothing::zero_phase, Smoothing::causal}) {
+    MotionOptions options;
+    options.smoothing = smoothing;
+    const ReadMotion now = of(0.0, options), then = of(1732.0e6, options);
+    EXPECT_NEAR(then.report.rate, 500.0, smoothing == Smoothing::causal ? 1e-3 : 1e-4);
+    ASSERT_EQ(then.samples.size(), now.samples.size());
+    EXPECT_EQ(then.report.gaps, 0U);
+    // 0.6 rad at up to 1.7 Hz, as far as the grid is off in ten seconds: a hundredth of a step.
+    constexpr double off = 0.6 * 2.0 * std::numbers::pi * highest * 2e-5;
+    EXPECT_LT((then.samples.back().q - now.samples.back().q).cwiseAbs().maxCoeff(), off);
+  }
+}
+
 // 200 000 rows of 13 columns are 20 MB as doubles, and more as samples.
 TEST(Motion, LogsOfAnyLengthTakeFixedMemory) {
 #ifdef __SANITIZE_ADDRESS__
