@@ -156,11 +156,8 @@ void check_logs(const RobotInputs& robot, const DiagnoseOptions& options, const 
 
 std::size_t stride_of(const MotionInputs& inputs, double rate) {
   constexpr double samples_a_period = 5.0;
-  // A rate is one over a difference of rounded times, most often just beside a whole number of
-  // strides. Which samples count must not depend on when the log was begun.
-  constexpr double rounding = 1e-3;
   const double cutoff = inputs.cutoff > 0.0 ? inputs.cutoff : rate;
-  return static_cast<std::size_t>(std::max(1.0, rate / (samples_a_period * cutoff) + rounding));
+  return static_cast<std::size_t>(std::max(1.0, rate / (samples_a_period * cutoff)));
 }
 
 double margin_of(const MotionInputs& inputs, double rate) {
