@@ -128,8 +128,9 @@ void check_each(const RobotInputs& robot, const DiagnoseOptions& options, const 
         samples == 0
             ? "nothing is left to test on; give --test, or a longer log"
             : fmt::format(
-                  "nothing is left to test on: none of {} samples has neighbours for {:g} "
-                  "ms, and two more, on both sides; give --test, with a log of longer stretches",
+                  "nothing is left to test on: of {} samples none that counts has neighbours "
+                  "for {:g} ms, and two more, on both sides; give --test, with a log of longer "
+                  "stretches",
                   samples, 1e3 * diagnosis::largest_shift));
   }
   diagnosis::check_clocks(robot.robot, fitted.recording, settings, fitted.starts,

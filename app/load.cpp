@@ -60,17 +60,6 @@ double mass_of_load(const LoadArguments& options, const RobotNotes& notes) {
   return 0.5 * (range->second.lower + range->second.upper);
 }
 
-/// Where robot.yaml says how heavy a load may be; empty if this one is.
-std::string unexpected_note(const Result& result, const RobotInputs& robot) {
-  const auto range = robot.notes.expected_mass.find("load");
-  if (range == robot.notes.expected_mass.end()) return {};
-  const double mass = result.found.run.solution.Phi[0];
-  const double errors = 3.0 * result.found.data.wider * result.found.standard_error[0];
-  const auto [lower, upper] = range->second;
-  if (!(mass < lower - errors || mass > upper + errors)) return {};
-  return fmt::format("{} expects a load of {:g} to {:g} kg", robot.robot_yaml, lower, upper);
-}
-
 /// Signals are filtered less, and rows of the equations as signals were: a filter bends the motion
 /// where products of its parts count, and rows that are filtered it does not bend. Empty where
 /// there is no other filter, or nothing is found behind it.
@@ -101,9 +90,7 @@ void load(LoadArguments& options) {
   Result result = run_identification(robot, model, options.inputs, options.run);
   with_notes([&] { return result.notes; }, [&] { check_some_weight(result, robot.robot); });
   const auto other = behind_other_filter(options, robot, model, result.motion.rate);
-  std::vector<std::string> notes =
-      load_notes(result, robot.robot, options.run.settings.expected_mass);
-  notes.push_back(unexpected_note(result, robot));
+  std::vector<std::string> notes = load_notes(result, robot, options.run.settings.expected_mass);
   if (other) notes.push_back(filter_note(result, *other));
   for (std::string& note : notes) {
     if (!note.empty()) result.notes.push_back(std::move(note));

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "shapeid/app/no_mass.hpp"
@@ -66,20 +68,35 @@ std::string outside_note(const Result& result, const Robot& robot) {
       centre.x(), centre.y(), centre.z(), carrier(result, robot), away);
 }
 
+/// Where robot.yaml says how heavy a load may be; empty if this one is.
+std::string unexpected_note(const Result& result, const RobotInputs& robot) {
+  const auto range = robot.notes.expected_mass.find("load");
+  if (range == robot.notes.expected_mass.end()) return {};
+  const double mass = found_load(result).mass();
+  const double errors = certain(result) * result.found.standard_error[0];
+  const auto [lower, upper] = range->second;
+  if (!(mass < lower - errors || mass > upper + errors)) return {};
+  return fmt::format("{} expects a load of {:g} to {:g} kg", robot.robot_yaml, lower, upper);
+}
+
+void add_if_any(std::string note, std::vector<std::string>& notes) {
+  if (!note.empty()) notes.push_back(std::move(note));
+}
+
 }  // namespace
 
-std::vector<std::string> load_notes(const Result& result, const Robot& robot,
+std::vector<std::string> load_notes(const Result& result, const RobotInputs& robot,
                                     double expected_mass) {
-  constexpr double little = 0.01;  // of what is expected: differentiation alone makes as much
   const reference::Determination& data = result.found.data;
+  const double mass = found_load(result).mass(), given = given_mass(robot.robot);
+  // Differentiation alone makes as much: of what is expected, and of the robot (13 g of 13 kg).
+  const double little = std::max(0.01 * expected_mass, 0.002 * given);
+  const bool is_certain = !data.agrees(0, 0.0);
   std::vector<std::string> notes;
-  if (!data.agrees(0, 0.0) && data.value[0] < -little * expected_mass) {
-    notes.push_back(below_zero_note(result, robot));
+  if (is_certain && data.value[0] < -little) {
+    notes.push_back(below_zero_note(result, robot.robot));
   }
-  if (!data.agrees(0, 0.0) && data.value[0] > little * expected_mass) {
-    if (std::string note = outside_note(result, robot); !note.empty()) notes.push_back(note);
-  }
-  const double mass = found_load(result).mass(), given = given_mass(robot);
+  if (is_certain && data.value[0] > little) add_if_any(outside_note(result, robot.robot), notes);
   if (mass > 0.0 && mass <= certain(result) * result.found.standard_error[0]) {
     notes.emplace_back("a load as small as this is not told from none, and its place says nothing");
   }
@@ -88,6 +105,7 @@ std::vector<std::string> load_notes(const Result& result, const Robot& robot,
         "the load weighs {:.2g} times as much as the robot itself: is the torque in N m?",
         mass / given));
   }
+  add_if_any(unexpected_note(result, robot), notes);
   return notes;
 }
 

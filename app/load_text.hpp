@@ -21,9 +21,10 @@ struct LoadElsewhere {
 
 /// What the data say of the load by themselves, without the area and masses of zero or more, where
 /// it is for certain no load in the area: a mass below zero, a centre outside. And what is odd
-/// about the load that was found: too small to be told from none, or heavier than the robot.
+/// about the load that was found: too small to be told from none, heavier than the robot, or than
+/// robot.yaml says.
 /// `expected_mass`: kg.
-[[nodiscard]] std::vector<std::string> load_notes(const Result& result, const Robot& robot,
+[[nodiscard]] std::vector<std::string> load_notes(const Result& result, const RobotInputs& robot,
                                                   double expected_mass);
 
 /// Throws Refusal ("no-mass") if the data ask for a load so far below zero that with it next to

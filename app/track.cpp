@@ -201,8 +201,8 @@ void track(TrackArguments& options) {
   if (const std::optional<double> mass = run.mass_out_of_scale()) {
     throw Refusal(
         "torque-scale",
-        fmt::format("{}: its end asks for {:.2g} kg where {:.3g} are expected: its torque "
-                    "is not in N m, or far more is to be expected",
+        fmt::format("{}: it asks for {:.2g} kg where {:.3g} are expected: its torque is "
+                    "not in N m, or far more is to be expected",
                     options.inputs.log, *mass, settings.estimates.identifier.expected_mass));
   }
 }

@@ -262,6 +262,10 @@ bool Estimates::asks_too_much() const {
          total_mass(recent_) > far * settings_.identifier.expected_mass;
 }
 
+bool Estimates::fills_recent() const {
+  return windows_ > windows_in_recent_ && recent_rows_.size() == windows_in_recent_;
+}
+
 /// From no masses on: the answer depends on the rows alone. If the solver declines, the last answer
 /// stays.
 bool Estimates::solve(const Eigen::MatrixXd& R, Eigen::VectorXd& Phi) {

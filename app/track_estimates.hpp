@@ -66,6 +66,8 @@ class Estimates {
   /// cannot be in N m. The Kalman filter, which believes in masses of the size that is expected,
   /// then lags.
   [[nodiscard]] bool asks_too_much() const;
+  /// Whether these tenths of a second are whole, and tell a scale.
+  [[nodiscard]] bool fills_recent() const;
   /// Found at the last window that was answered.
   [[nodiscard]] const std::optional<LoadChange>& load_change() const { return change_; }
 

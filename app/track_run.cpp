@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "shapeid/models/strict_json.hpp"
+
 namespace shapeid::app {
 namespace {
 
@@ -25,8 +27,6 @@ constexpr double slow = 0.05;
 constexpr double calm_seconds = 0.25;
 // Standard errors to either side: 95 percent of a normal distribution.
 constexpr double interval = 1.96;
-
-json list_of(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
 
 const char* name(fast::Outcome outcome) {
   switch (outcome) {
@@ -152,7 +152,7 @@ bool TrackRun::never_found_mass() const {
 }
 
 std::optional<double> TrackRun::mass_out_of_scale() const {
-  if (!estimates_ || !estimates_->asks_too_much()) return std::nullopt;
+  if (!estimates_ || !estimates_->asks_too_much() || was_in_scale_) return std::nullopt;
   return total_mass(estimates_->recent());
 }
 
@@ -224,8 +224,13 @@ void TrackRun::print(Why why, double time) {
                {"scale", nullptr},
                {"load", nullptr},
                {"doubt", nullptr}};
-  if (estimates_->finds_no_mass()) line["doubt"] = "no-mass";
-  if (estimates_->asks_too_much()) line["doubt"] = "torque-scale";
+  if (estimates_->finds_no_mass()) {
+    line["doubt"] = "no-mass";
+  } else if (estimates_->asks_too_much()) {
+    line["doubt"] = "torque-scale";
+  } else if (why == Why::answered && estimates_->fills_recent()) {
+    was_in_scale_ = true;
+  }
   switch (why) {
     case Why::answered:
       line["objective"] = identifier.answer().value.total();
@@ -268,10 +273,10 @@ json TrackRun::links_json() const {
     const auto at = 10 * static_cast<Eigen::Index>(i);
     const auto link = static_cast<std::size_t>(model_.free_links[i]);
     links.push_back({{"name", robot_.robot.links[link].name},
-                     {"parameters", list_of(identifier.Phi().segment<10>(at))},
-                     {"filtered", list_of(identifier.filtered().segment<10>(at))},
-                     {"recent", list_of(estimates_->recent().segment<10>(at))},
-                     {"tracked", list_of(estimates_->tracked().segment<10>(at))}});
+                     {"parameters", vector_json(identifier.Phi().segment<10>(at))},
+                     {"filtered", vector_json(identifier.filtered().segment<10>(at))},
+                     {"recent", vector_json(estimates_->recent().segment<10>(at))},
+                     {"tracked", vector_json(estimates_->tracked().segment<10>(at))}});
   }
   return links;
 }

@@ -64,7 +64,8 @@ class TrackRun {
   [[nodiscard]] const std::optional<std::string>& why_no_answer() const { return why_no_answer_; }
   /// Whether no answer so far explained anything, and the last is doubted.
   [[nodiscard]] bool never_found_mass() const;
-  /// kg, of the last tenths of a second, where that is too much for torques in N m.
+  /// kg, of the last tenths of a second, where that, and all before, is too much for torques in N
+  /// m.
   [[nodiscard]] std::optional<double> mass_out_of_scale() const;
 
  private:
@@ -104,6 +105,7 @@ class TrackRun {
   std::vector<nlohmann::json> due_;
   std::string path_;
   std::optional<std::string> why_no_answer_ = std::string();  ///< in no checkpoint
+  bool was_in_scale_ = false;                                 ///< likewise
   std::optional<Plausibility> units_;  ///< of the first rows; in no checkpoint
 };
 

@@ -135,7 +135,8 @@ double strongest_ripple(const Robot& robot, const Recording& recording, const Se
   const std::vector<Eigen::Index> starts = sort_by_position(readings, widest);
   const double step = step_over(widest);
   const double about = strongest(readings, starts, lower, upper, step);
-  return strongest(readings, {0}, std::max(lower, about - step), std::min(upper, about + step),
+  const double around = 4.0 * step;  // noise moves the best of a ripple that is hardly seen
+  return strongest(readings, {0}, std::max(lower, about - around), std::min(upper, about + around),
                    step_over(range));
 }
 

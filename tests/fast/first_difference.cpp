@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
 
+#include "shapeid/models/inertia.hpp"
 #include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/support/scaled.hpp"
 
@@ -82,8 +82,6 @@ std::string first_difference(const Eigen::MatrixXd& fast, const Eigen::MatrixXd&
 
 std::string first_difference(const Eigen::MatrixXd& Y, const Robot& robot,
                              const std::vector<int>& links, const Sample& sample) {
-  constexpr std::array<const char*, 10> parameters = {"m",   "m rx", "m ry", "m rz", "Ixx",
-                                                      "Ixy", "Ixz",  "Iyy",  "Iyz",  "Izz"};
   const Eigen::MatrixXd expected = reference::regressor(robot, sample);
   // What errors are measured against: the whole wrench on a link, of which a joint feels a part.
   // Let loose, the root feels it whole.
@@ -103,8 +101,8 @@ std::string first_difference(const Eigen::MatrixXd& Y, const Robot& robot,
                                   wrenches.middleCols<10>(10 * link).norm(), robot.link_count());
       if (error < few_hundred_eps) continue;  // a NaN is not
       return fmt::format("row {}, link {}, {}: fast {:.17g}, reference {:.17g}, scaled {:.3g}\n{}",
-                         row, link, parameters[static_cast<std::size_t>(parameter)], ours, theirs,
-                         error, input(robot, sample));
+                         row, link, parameter_names[static_cast<std::size_t>(parameter)], ours,
+                         theirs, error, input(robot, sample));
     }
   }
   return {};

@@ -161,9 +161,8 @@ TEST(Mapping, SaysWhatIsWrongWithBrokenFiles) {
       {"torque: {kind: motor, factor: {j0: 2, j1: 0}}\n",
        "m.yaml:1: the factor of j1 is zero; a gear ratio (motor) or N m per A (current)"},
       {"torque: {kind: joint, factor: {j0: 2}}\n",
-       "m.yaml:1: joint torque has factors; leave them out, or say what they are of: kind: motor "
-       "or "
-       "current"},
+       "m.yaml:1: joint torque has factors; leave them out, or say what they are of: kind: "
+       "motor or current"},
   };
   const ScratchFolder scratch;
   for (const Broken& broken : table) {

@@ -82,13 +82,24 @@ TEST(TrackNoMass, TorquesInThousandthsAreDoubtedAndRefused) {
   }
   scratch_file("thousandths.csv", joined(log));
   const CommandRun run = shapeid(track("thousandths.csv"));
-  expect_one_line(run, 1, "refused (torque-scale): thousandths.csv: its end asks for 1");
+  expect_one_line(run, 1, "refused (torque-scale): thousandths.csv: it asks for 1");
   const std::vector<json> lines = lines_of(run);
   ASSERT_FALSE(lines.empty());
   for (const json& line : lines) {
     if (line.at("time").get<double>() < soon_enough) continue;
     EXPECT_EQ(line.at("doubt"), "torque-scale") << line.at("time");
   }
+}
+
+/// A robot that runs is not stopped, nor is its log refused for its end.
+TEST(TrackNoMass, TorquesThatGoWrongAtTheEndAreDoubtedAndNotRefused) {
+  Lines log = trot_log();
+  for (const std::string& column : torques()) {
+    change(log, column, log.size() / 2, log.size(), [](double x) { return 1000.0 * x; });
+  }
+  const std::vector<json> lines = tracked(log);
+  EXPECT_EQ(lines.at(lines.size() / 3).at("doubt"), nullptr);
+  EXPECT_EQ(lines.back().at("doubt"), "torque-scale");
 }
 
 TEST(TrackNoMass, FeetThatNobodyDeclaresAreRefused) {
