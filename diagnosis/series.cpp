@@ -68,7 +68,8 @@ double strongest(const Readings& of, const std::vector<Eigen::Index>& starts, do
   const Eigen::ArrayXd cosine_of_step = (step * of.x).cos(), sine_of_step = (step * of.x).sin();
   double best = lower, most = 0.0;
   Eigen::MatrixX3d A(of.x.size(), 3);
-  for (double N = lower; N <= upper; N += step) {
+  double N = lower;
+  while (N <= upper) {
     A << of.size * cosine, of.size * sine, of.size;
     double explained = 0.0;
     for (std::size_t k = 0; k < starts.size(); ++k) {
@@ -81,6 +82,7 @@ double strongest(const Readings& of, const std::vector<Eigen::Index>& starts, do
       most = explained;
       best = N;
     }
+    N += step;
     const Eigen::ArrayXd turned = cosine * cosine_of_step - sine * sine_of_step;
     sine = sine * cosine_of_step + cosine * sine_of_step;
     cosine = turned;
