@@ -90,11 +90,11 @@ void load(LoadArguments& options) {
   Result result = run_identification(robot, model, options.inputs, options.run);
   with_notes([&] { return result.notes; }, [&] { check_some_weight(result, robot.robot); });
   const auto other = behind_other_filter(options, robot, model, result.motion.rate);
-  std::vector<std::string> notes = load_notes(result, robot, options.run.settings.expected_mass);
-  if (other) notes.push_back(filter_note(result, *other));
-  for (std::string& note : notes) {
-    if (!note.empty()) result.notes.push_back(std::move(note));
+  for (std::string& note : load_notes(result, robot, options.run.settings.expected_mass)) {
+    result.notes.push_back(std::move(note));
   }
+  const std::string note = other ? filter_note(result, *other) : std::string();
+  if (!note.empty()) result.notes.push_back(note);
   const Judgement judged = judge(result);
   const std::optional<double>& floor = judged.certified.proof.floor;
   nlohmann::json document = result_json(result, floor, robot.robot);

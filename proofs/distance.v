@@ -7,6 +7,31 @@ Section Distance.
   Add Field numbers : (field_laws K).
   Implicit Types (p : MassProblem K) (m t : nat -> K).
 
+  (** Where the objective does not fall from m toward t, it is higher there by at least the square of
+      the difference, in its own terms. *)
+  Lemma slope_bounds_the_difference p m t :
+    0 <= sum (shapes p) (fun j => gradient p m j * (t j - m j)) ->
+    curvature p (fun k => Phi p t k - Phi p m k) +
+    lambda p * sum (shapes p) (fun j => (t j - m j) * (t j - m j) / V p j) <=
+    objective p t - objective p m.
+  Proof.
+    intros slope. rewrite (objective_expands p m t). apply le_of_sub.
+    match goal with |- 0 <= ?a + ?b + ?c + ?d - ?a - (?c + ?d) =>
+      replace (a + b + c + d - a - (c + d)) with b by ring end.
+    exact slope.
+  Qed.
+
+  Lemma difference_bounds_the_spread p m t gap :
+    well_formed p ->
+    curvature p (fun k => Phi p t k - Phi p m k) +
+    lambda p * sum (shapes p) (fun j => (t j - m j) * (t j - m j) / V p j) <= gap ->
+    lambda p * sum (shapes p) (fun j => (t j - m j) * (t j - m j) / V p j) <= gap.
+  Proof.
+    intros wf difference. eapply le_trans; [| exact difference].
+    match goal with |- ?b <= ?a + ?b => replace b with (0 + b) at 1 by ring end.
+    apply le_add; [now apply curvature_nonneg | apply le_refl].
+  Qed.
+
   (** Claim C14. The gap is at least the square of the difference, in the terms of the objective. *)
   Theorem gap_bounds_the_difference p m t :
     well_formed p -> kkt p m -> nonnegative p t ->
@@ -14,10 +39,7 @@ Section Distance.
     lambda p * sum (shapes p) (fun j => (t j - m j) * (t j - m j) / V p j) <=
     objective p t - objective p m.
   Proof.
-    intros wf h ht. rewrite (objective_expands p m t). apply le_of_sub.
-    match goal with |- 0 <= ?a + ?b + ?c + ?d - ?a - (?c + ?d) =>
-      replace (a + b + c + d - a - (c + d)) with b by ring end.
-    now apply kkt_slope.
+    intros wf h ht. now apply slope_bounds_the_difference, kkt_slope.
   Qed.
 
   Lemma gap_bounds_the_spread p m t :
@@ -25,9 +47,7 @@ Section Distance.
     lambda p * sum (shapes p) (fun j => (t j - m j) * (t j - m j) / V p j) <=
     objective p t - objective p m.
   Proof.
-    intros wf h ht. eapply le_trans; [| now apply gap_bounds_the_difference].
-    match goal with |- ?b <= ?a + ?b => replace b with (0 + b) at 1 by ring end.
-    apply le_add; [now apply curvature_nonneg | apply le_refl].
+    intros wf h ht. now apply difference_bounds_the_spread, gap_bounds_the_difference.
   Qed.
 
   Lemma spread_bounds_parameters p m t k gap :
@@ -152,10 +172,7 @@ Section Distance.
     lambda p * sum (shapes p) (fun j => (t j - m j) * (t j - m j) / V p j) <=
     objective p t - objective p m.
   Proof.
-    intros wf h ht. rewrite (objective_expands p m t). apply le_of_sub.
-    match goal with |- 0 <= ?a + ?b + ?c + ?d - ?a - (?c + ?d) =>
-      replace (a + b + c + d - a - (c + d)) with b by ring end.
-    now apply (best_within_slope p M).
+    intros wf h ht. now apply slope_bounds_the_difference, (best_within_slope p M).
   Qed.
 
   Lemma gap_at_most_the_mass_bounds_the_spread p M m t :
@@ -163,10 +180,8 @@ Section Distance.
     lambda p * sum (shapes p) (fun j => (t j - m j) * (t j - m j) / V p j) <=
     objective p t - objective p m.
   Proof.
-    intros wf h ht.
-    eapply le_trans; [| now apply (gap_at_most_the_mass_bounds_the_difference p M)].
-    match goal with |- ?b <= ?a + ?b => replace b with (0 + b) at 1 by ring end.
-    apply le_add; [now apply curvature_nonneg | apply le_refl].
+    intros wf h ht. apply difference_bounds_the_spread; [exact wf |].
+    now apply (gap_at_most_the_mass_bounds_the_difference p M).
   Qed.
 
   (** Claim C14. ... and so of its parameters *)

@@ -315,9 +315,8 @@ TEST(Motion, AClockThatBeganIn1970TellsTheSame) {
     MotionOptions options;
     options.smoothing = smoothing;
     const ReadMotion now = of(0.0, options), then = of(1732.0e6, options);
-    // A stamp's 0.24 us over the half second, or the eight, from which the rate is: and half as
-    // much again.
-    EXPECT_NEAR(then.report.rate, 500.0, smoothing == Smoothing::causal ? 4e-4 : 3e-5);
+    // Twice what a stamp's 0.24 us are of the half second, or the eight, from which the rate is.
+    EXPECT_NEAR(then.report.rate, 500.0, smoothing == Smoothing::causal ? 5e-4 : 3e-5);
     EXPECT_EQ(then.report.gaps, 0U);
     // The last row may be a rounding before or behind the grid's last time.
     const std::size_t common = std::min(then.samples.size(), now.samples.size());
