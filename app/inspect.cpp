@@ -57,10 +57,8 @@ json robot_json(const UrdfFile& file) {
 
 std::string robot_text(const UrdfFile& file) {
   const Robot& robot = file.robot;
-  double mass = 0.0;
-  for (const Link& link : robot.links) mass += link.inertia.mass();
   std::string text = fmt::format("robot {}: {} links after lumping, {} joints, {:.4g} kg\n",
-                                 robot.name, robot.link_count(), robot.joint_count(), mass);
+                                 robot.name, robot.link_count(), robot.joint_count(), robot.mass());
   text += fmt::format("  {:<28}{:>10}  {:<34}{:>8}\n", "link", "mass (kg)", "centre of mass (m)",
                       "margin");
   for (const Link& link : robot.links) {

@@ -22,12 +22,6 @@ const std::string& carrier(const Result& result, const Robot& robot) {
   return robot.links[static_cast<std::size_t>(link)].name;
 }
 
-double given_mass(const Robot& robot) {
-  double mass = 0.0;
-  for (const Link& link : robot.links) mass += link.inertia.mass();
-  return mass;
-}
-
 /// Errors beyond which a number is no chance, few blocks allowed for.
 double certain(const Result& result) { return 3.0 * result.found.data.wider; }
 
@@ -88,7 +82,7 @@ void add_if_any(std::string note, std::vector<std::string>& notes) {
 std::vector<std::string> load_notes(const Result& result, const RobotInputs& robot,
                                     double expected_mass) {
   const reference::Determination& data = result.found.data;
-  const double mass = found_load(result).mass(), given = given_mass(robot.robot);
+  const double mass = found_load(result).mass(), given = robot.robot.mass();
   // Differentiation alone makes as much: of what is expected, and of the robot (13 g of 13 kg).
   const double little = std::max(0.01 * expected_mass, 0.002 * given);
   const bool is_certain = !data.agrees(0, 0.0);
@@ -112,7 +106,7 @@ std::vector<std::string> load_notes(const Result& result, const RobotInputs& rob
 void check_some_weight(const Result& result, const Robot& robot) {
   const reference::Determination& data = result.found.data;
   constexpr double nothing = 0.05;  // of what it should weigh, as where its feet are no contacts
-  const double given = given_mass(robot), left = given + data.value[0];
+  const double given = robot.mass(), left = given + data.value[0];
   if (!(left + certain(result) * data.standard_error[0] < nothing * given)) return;
   throw Refusal("no-mass", fmt::format("the log asks for a load of {:.3g} kg on a robot of {:.3g} "
                                        "kg, of which nothing would be left: {}",

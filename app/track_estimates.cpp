@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/reference/identify.hpp"
 
 namespace shapeid::app {
 namespace {
@@ -257,9 +258,8 @@ bool Estimates::finds_no_mass() const {
 }
 
 bool Estimates::asks_too_much() const {
-  constexpr double far = 100.0;  // as identify() has it
   return windows_ > windows_in_recent_ &&
-         total_mass(recent_) > far * settings_.identifier.expected_mass;
+         total_mass(recent_) > reference::most_times_expected * settings_.identifier.expected_mass;
 }
 
 bool Estimates::fills_recent() const {

@@ -20,6 +20,12 @@ std::string unit_at(const Joint& joint, std::string rotary) {
   return rotary;
 }
 
+double Robot::mass() const {
+  double sum = 0.0;
+  for (const Link& link : links) sum += link.inertia.mass();
+  return sum;
+}
+
 std::optional<LinkSite> Robot::find_site(const std::string& wanted) const {
   for (int i = 0; i < link_count(); ++i) {
     const Link& link = links[static_cast<std::size_t>(i)];

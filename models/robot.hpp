@@ -123,6 +123,8 @@ struct Robot {
   [[nodiscard]] int base_dof() const { return root == Root::floating ? 6 : 0; }
   /// N_G: 6 + n for a floating root, n for a fixed one.
   [[nodiscard]] int dof() const { return base_dof() + joint_count(); }
+  /// kg, of all links as given
+  [[nodiscard]] double mass() const;
   [[nodiscard]] const Joint& joint(int j) const {
     return links[static_cast<std::size_t>(j) + 1].joint;
   }

@@ -230,10 +230,9 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
   DivisionOptions division = settings.division;
   division.expected_mass = settings.expected_mass;
   if (const Violation reason = why_senseless(division)) throw std::invalid_argument(*reason);
-  constexpr double far = 100.0;  // as N mm are; no payload that is heavier than it was thought is
   const Eigen::MatrixXd all_rows = merged(rows.blocks);
   const double times = times_expected(model, all_rows, settings.expected_mass);
-  if (times > far) {
+  if (times > most_times_expected) {
     throw Refusal("torque-scale",
                   fmt::format("the log asks for about {:.1g} times the expected mass of {:g} kg: "
                               "its torque is not in N m, or far more is to be expected",

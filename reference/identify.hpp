@@ -17,6 +17,10 @@
 
 namespace shapeid::reference {
 
+/// Torques that ask for more than so many times the expected mass are not in N m: N mm ask for a
+/// thousand, and no payload is so much heavier than it was thought.
+inline constexpr double most_times_expected = 100.0;
+
 struct IdentifySettings {
   ContactTreatment contacts = ContactTreatment::project;
   Eigen::VectorXd weight;        ///< diagonal of W, generalised order; empty: ones

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shapeid/models/body_model.hpp"
+#include "shapeid/models/butterworth.hpp"
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
 #include "shapeid/models/segment_filter.hpp"
@@ -17,10 +18,10 @@
 namespace shapeid::reference {
 
 struct RowFilterOptions {
-  double cutoff = 20.0;  ///< Hz, -3 dB of one of the two passes
-  int order = 2;         ///< of one pass
-  double rate = 500.0;   ///< Hz, of the samples
-  int keep_every = 1;    ///< of the filtered samples, whose neighbours say much the same
+  double cutoff = 20.0;          ///< Hz, -3 dB of one of the two passes
+  int order = log_filter_order;  ///< of one pass
+  double rate = 500.0;           ///< Hz, of the samples
+  int keep_every = 1;            ///< of the filtered samples, whose neighbours say much the same
 };
 
 /// Rows of one instant after the filter: Y Phi = F.

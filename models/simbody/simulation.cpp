@@ -20,9 +20,7 @@ void check(const SimulationOptions& options) {
 /// Standing still, the ground pressed in as far as the weight needs.
 RobotState standing(const Robot& robot, const SimulationOptions& options,
                     const TrotController& controller) {
-  double mass = 0.0;
-  for (const Link& link : robot.links) mass += link.inertia.mass();
-  const double weight_on_a_foot = 9.81 * mass / static_cast<double>(robot.contacts.size());
+  const double weight_on_a_foot = 9.81 * robot.mass() / static_cast<double>(robot.contacts.size());
   const double depth = std::pow(weight_on_a_foot / options.ground.stiffness, 2.0 / 3.0);
   RobotState state;
   state.base.translation().z() = options.trot.height - depth;

@@ -82,7 +82,7 @@ TrotController::TrotController(const Robot& robot, const TrotOptions& options, s
   }
   stand_up();
   // The bent legs take the centre of mass off the middle of the feet: they follow it.
-  for (const Link& link : robot.links) mass_ += link.inertia.mass();
+  mass_ = robot.mass();
   centre_ = centre_of_mass(robot, stance_);
   for (Foot& foot : feet_) foot.home.head<2>() += centre_.head<2>();
   stand_up();
