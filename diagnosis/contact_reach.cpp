@@ -25,23 +25,28 @@ ContactReach contact_reach(const std::vector<Found>& found, double rate,
 LoopInReach close_loop_in_reach(const Robot& robot, Recording& log, Recording* reference,
                                 const std::vector<Recording*>& along,
                                 const LoopSettings& settings) {
-  constexpr int most = 3;
-  LoopInReach result{close_loop(robot, log, reference, settings), {}};
-  for (int turn = 1; turn < most && has_contact_flags(log, settings); ++turn) {
-    const ContactReach needed = contact_reach(result.loop.found, log.rate(), result.reach);
-    if (result.reach.covers(needed)) break;
+  constexpr int most = 2;
+  std::vector<Recording*> all = along;
+  all.insert(all.end(), {&log, reference});
+  LoopInReach result;
+  for (int extended = 0;; ++extended) {
+    const bool may_extend = extended < most && has_contact_flags(log, settings);
+    ContactReach needed;
+    const auto beyond = [&](const std::vector<Found>& found) {
+      needed = contact_reach(found, log.rate(), result.reach);
+      return may_extend && !result.reach.covers(needed);
+    };
+    const double screening = result.loop.screening_seconds, refits = result.loop.refit_seconds;
+    LoopOrCauses closed = close_loop_unless(beyond, robot, log, reference, settings);
+    result.loop = std::move(closed.result);
+    result.loop.screening_seconds += screening;
+    result.loop.refit_seconds += refits;
+    if (closed.is_closed && !beyond(result.loop.found)) return result;
     result.reach = needed;
-    std::vector<Recording*> all = along;
-    all.insert(all.end(), {&log, reference});
     for (Recording* of : all) {
       if (of != nullptr) of->extend_contacts(needed.before, needed.after);
     }
-    const double screening = result.loop.screening_seconds, refits = result.loop.refit_seconds;
-    result.loop = close_loop(robot, log, reference, settings);
-    result.loop.screening_seconds += screening;
-    result.loop.refit_seconds += refits;
   }
-  return result;
 }
 
 }  // namespace shapeid::diagnosis

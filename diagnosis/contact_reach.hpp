@@ -25,10 +25,11 @@ struct LoopInReach {
   LoopResult loop;
   ContactReach reach;
 };
-/// close_loop(); again where it finds a delay of the torque beyond the present reach, with contacts
-/// that count as touching for longer in `log`, `reference` (may be null) and the logs `along` (null
-/// ones are passed over); what `settings.rough` and `settings.rough_reference` point to belongs
-/// among these. Three times at most. Throws as close_loop() does.
+/// close_loop(); again where it finds a delay of the torque beyond the present reach, be it among
+/// the causes of its first search, with contacts that count as touching for longer in `log`,
+/// `reference` (may be null) and the logs `along` (null ones are passed over); what
+/// `settings.rough` and `settings.rough_reference` point to belongs among these. Three times at
+/// most. Throws as close_loop() does.
 [[nodiscard]] LoopInReach close_loop_in_reach(const Robot& robot, Recording& log,
                                               Recording* reference,
                                               const std::vector<Recording*>& along,

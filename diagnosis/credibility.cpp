@@ -15,7 +15,7 @@ namespace {
 constexpr double least_of_both = 1.1;
 
 // Of what ten free numbers explain, the share that no body explains and a load's name may lack.
-constexpr double most_lost = 0.1;
+constexpr double most_lost_share = 0.1;
 
 }  // namespace
 
@@ -48,23 +48,25 @@ bool Credibility::wrong_sign(std::size_t k, const Fit& own, double least_t) cons
 
 bool Credibility::within_limits(std::size_t k, const Chosen& others, const Fit& own) const {
   const Effect& effect = *contenders_[k].effect.effect;
-  if (effect.is_payload) return is_body(k, own, body_of(k, others));
+  if (effect.is_payload) {
+    const MostLost most = most_lost(k, own);
+    return most.allows(best_body(beside(k, others), contenders_[k].room, most));
+  }
   Eigen::VectorXd value = own.value;
   // The column of a transformation is that of a change.
   if (effect.transform.any()) value += contenders_[k].effect.value;
   return !(over_limit(effect, value, rule_.most_force) > 1.0);
 }
 
-LoadBody Credibility::body_of(std::size_t k, const Chosen& others) const {
-  return best_body(fits_.beside(contenders_.terms(others), contenders_[k].term),
-                   contenders_[k].room);
+BlockFits::Beside Credibility::beside(std::size_t k, const Chosen& others) const {
+  return fits_.beside(contenders_.terms(others), contenders_[k].term);
 }
 
-bool Credibility::is_body(std::size_t k, const Fit& own, const LoadBody& body) const {
+MostLost Credibility::most_lost(std::size_t k, const Fit& own) const {
   const double by_chance =
       own.left / own.freedom *
       least_squares_sum(rule_.false_alarms, fits_.numbers_shown(contenders_[k].term));
-  return body.gain > 0.0 && body.lost <= std::max(by_chance, most_lost * (body.gain + body.lost));
+  return {by_chance, most_lost_share};
 }
 
 bool Credibility::credible(std::size_t k, const Chosen& others, const Fit& without,
@@ -78,8 +80,8 @@ bool Credibility::credible(std::size_t k, const Chosen& others, const Fit& witho
   if (!contenders_[k].effect.effect->is_payload) {
     return over > least_of_both && within_limits(k, others, own);
   }
-  const LoadBody body = body_of(k, others);
-  if (!is_body(k, own, body)) return false;
+  const LoadBody body = best_body(beside(k, others), contenders_[k].room);
+  if (!most_lost(k, own).allows(body)) return false;
   // Its numbers say the same in part, and each by itself may be any: as a body it is one.
   const Eigen::Index shown = fits_.numbers_shown(contenders_[k].term);
   const double limit =

@@ -46,9 +46,9 @@ class Credibility {
   [[nodiscard]] bool passes(const Scored& s) const { return s.t > limit_ && s.gain > 0.0; }
 
  private:
-  [[nodiscard]] LoadBody body_of(std::size_t k, const Chosen& others) const;
-  /// `own`: its part of a fit.
-  [[nodiscard]] bool is_body(std::size_t k, const Fit& own, const LoadBody& body) const;
+  [[nodiscard]] BlockFits::Beside beside(std::size_t k, const Chosen& others) const;
+  /// What chance makes of a body's ten numbers it may lose. `own`: its part of a fit.
+  [[nodiscard]] MostLost most_lost(std::size_t k, const Fit& own) const;
   [[nodiscard]] double squares_over_chance(std::size_t k, const Fit& without, const Fit& with,
                                            double tried) const;
   [[nodiscard]] double over_chance(std::size_t k, const Fit& without, const Fit& with,

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numeric>
+#include <shared_mutex>
+#include <tuple>
 #include <utility>
 
 namespace shapeid::diagnosis {
@@ -124,7 +127,14 @@ double BlockFits::square_of_noise(double error) const { return error / std::max(
 int BlockFits::fold_of(std::size_t block) const { return fold_[block]; }
 
 const Eigen::MatrixXd& BlockFits::sums(int left_out, std::size_t from, std::size_t to) const {
-  auto [place, is_new] = cache_.try_emplace({left_out, from, to});
+  const std::tuple key{left_out, from, to};
+  {
+    const std::shared_lock lock(cache_->mutex);
+    const auto place = cache_->sums.find(key);
+    if (place != cache_->sums.end()) return place->second;
+  }
+  const std::unique_lock lock(cache_->mutex);
+  const auto [place, is_new] = cache_->sums.try_emplace(key);
   if (is_new) {
     const Eigen::Index size = tally_.columns() + 1;
     place->second = Eigen::MatrixXd::Zero(size, size);

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <memory>
+#include <shared_mutex>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -193,7 +195,12 @@ class BlockFits {
   std::vector<double> least_;  ///< squared error of each block that is told from none
   std::size_t first_block_ = 0;
   double freedom_ = 0.0;  ///< how many numbers the noise has
-  mutable std::map<std::tuple<int, std::size_t, std::size_t>, Eigen::MatrixXd> cache_;  ///< sums()
+  /// Of sums(), for several threads; copies with another prior have the same.
+  struct Cache {
+    std::shared_mutex mutex;
+    std::map<std::tuple<int, std::size_t, std::size_t>, Eigen::MatrixXd> sums;
+  };
+  std::shared_ptr<Cache> cache_ = std::make_shared<Cache>();
 };
 
 }  // namespace shapeid::diagnosis

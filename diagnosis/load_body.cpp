@@ -29,7 +29,12 @@ Violation why_no_load(const BlockFits::Beside& load) {
   return is_one ? Violation() : "a load has ten numbers";
 }
 
-LoadBody best_body(const BlockFits::Beside& load, const Box& room) {
+bool MostLost::allows(const LoadBody& body) const {
+  return body.gain > 0.0 && body.lost <= std::max(error, share * (body.gain + body.lost));
+}
+
+LoadBody best_body(const BlockFits::Beside& load, const Box& room,
+                   const std::optional<MostLost>& enough) {
   SHAPEID_CONTRACT(why_no_load(load));
   // Rows whose squares are the load's normal matrix, without the directions that no data show.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(load.normal);
@@ -55,11 +60,12 @@ LoadBody best_body(const BlockFits::Beside& load, const Box& room) {
     body.Phi = reference::solve_masses(problem).Phi;
     const Eigen::VectorXd left = problem.Y * body.Phi - problem.F;
     body.lost = left.squaredNorm();
+    body.gain = all - body.lost;
+    if (enough && enough->allows(body)) break;
     const SteepestPlace best = steepest_place(2.0 * problem.Y.transpose() * left, room);
     if (!(-best.slope * body.Phi[0] > nothing * all)) break;
     places.push_back(best.place);
   }
-  body.gain = all - body.lost;
   return body;
 }
 

@@ -42,6 +42,8 @@ class Loop {
     seek_all();
   }
 
+  [[nodiscard]] const LoopResult& causes() const { return result_; }
+
   /// What these are called, and what is said of them.
   LoopResult run() {
     question_names(state_);
@@ -215,7 +217,10 @@ class Loop {
     // From the beginning each time: what was accepted with worse weights has to prove itself again.
     SelectionRule rule = state_.rule();
     rule.contained_too = masses_want_more(fits, {fixed}, rule.least_t);
-    rule.from_usual = from_usual_;
+    // Once there is another way this one is gone to its end without looking for it.
+    rule.from_usual = from_usual_             ? FromUsual::taken
+                      : memory_.has_other_way ? FromUsual::not_asked
+                                              : FromUsual::noted;
     const Selection selection = select(fits, fixed, list, rule);
     memory_.has_other_way = memory_.has_other_way || selection.usual_is_better;
     large_ = large_transformation(fits, fixed, list, selection);
@@ -392,21 +397,29 @@ class Loop {
   }
 
   /// Notes what is lost without each of the applied transformations, as it is and not by its
-  /// derivative. The first that is not worth it is taken back, and false returned: what was found
-  /// beside it, and in its place, is to be sought again.
+  /// derivative. Those that are not worth it beside the others that are left are taken back, and
+  /// false returned: what was found beside them, and in their place, is to be sought again.
   [[nodiscard]] bool all_transformations_stay() {
+    bool all_stay = true;
     std::optional<LoopState::HeldOut> with;
-    for (std::size_t i = 0; i < result_.found.size(); ++i) {
-      if (!result_.found[i].effect.effect->transform.any()) continue;
+    for (std::size_t i = 0; i < result_.found.size();) {
+      if (!result_.found[i].effect.effect->transform.any()) {
+        ++i;
+        continue;
+      }
       if (!with) with = state_.held_out_either_way();
       const Gain gain = gain_as_it_is(i, *with);
       result_.found[i].gain = gain.share;
       result_.found[i].t = gain.t;
-      if (is_worth(gain)) continue;
+      if (is_worth(gain)) {
+        ++i;
+        continue;
+      }
       take_back(i);
-      return false;
+      with.reset();
+      all_stay = false;
     }
-    return true;
+    return all_stay;
   }
 
   [[nodiscard]] bool is_banned(const AppliedEffect& h) const {
@@ -440,9 +453,17 @@ class Loop {
 
 LoopResult close_loop(const Robot& robot, const Recording& log, const Recording* reference,
                       const LoopSettings& settings) {
+  const auto never = [](const std::vector<Found>&) { return false; };
+  return close_loop_unless(never, robot, log, reference, settings).result;
+}
+
+LoopOrCauses close_loop_unless(
+    const std::function<bool(const std::vector<Found>&)>& ask_for_other_logs, const Robot& robot,
+    const Recording& log, const Recording* reference, const LoopSettings& settings) {
   Loop loop(robot, log, reference, settings, false);
   loop.find_causes();
-  if (!loop.has_other_way()) return loop.run();
+  if (ask_for_other_logs(loop.causes().found)) return {loop.causes(), false};
+  if (!loop.has_other_way()) return {loop.run()};
   // Weights follow from what is found, so the other way is gone to its end before both are
   // compared: what is better in a round need not be better in the end.
   Loop other(robot, log, reference, settings, true);
@@ -450,7 +471,7 @@ LoopResult close_loop(const Robot& robot, const Recording& log, const Recording*
   const bool is_better = other.is_better_than(loop);
   Loop& taken = is_better ? other : loop;
   taken.add_seconds_of(is_better ? loop : other);
-  return taken.run();
+  return {taken.run()};
 }
 
 }  // namespace shapeid::diagnosis

@@ -2,6 +2,7 @@
 // nothing changes.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -117,5 +118,15 @@ struct LoopResult {
 /// blocks.
 [[nodiscard]] LoopResult close_loop(const Robot& robot, const Recording& log,
                                     const Recording* reference, const LoopSettings& settings);
+
+/// The same, unless the causes of its first search, whose names have not been questioned, ask for
+/// other logs: then these are all that is found, and is_closed is false.
+struct LoopOrCauses {
+  LoopResult result;
+  bool is_closed = true;
+};
+[[nodiscard]] LoopOrCauses close_loop_unless(
+    const std::function<bool(const std::vector<Found>&)>& ask_for_other_logs, const Robot& robot,
+    const Recording& log, const Recording* reference, const LoopSettings& settings);
 
 }  // namespace shapeid::diagnosis

@@ -135,10 +135,10 @@ void LoopState::collect_effects() {
 
 SelectionRule LoopState::rule() const {
   constexpr double gravity = 9.81;
-  double mass = 0.0;
-  for (const Link& link : robot.links) mass += link.inertia.mass();
   SelectionRule rule = settings.rule;
-  rule.most_force = std::min(rule.most_force, gravity * std::max(mass, settings.expected_mass));
+  rule.threads = settings.threads;
+  rule.most_force =
+      std::min(rule.most_force, gravity * std::max(robot.mass(), settings.expected_mass));
   return rule;
 }
 

@@ -9,6 +9,7 @@
 #include "shapeid/diagnosis/contenders.hpp"
 #include "shapeid/diagnosis/credibility.hpp"
 #include "shapeid/diagnosis/fits_around.hpp"
+#include "shapeid/diagnosis/in_parallel.hpp"
 #include "shapeid/diagnosis/verdicts.hpp"
 
 namespace shapeid::diagnosis {
@@ -49,8 +50,9 @@ class Search {
   /// roboticist would: with all that is usually fitted, of which stays what would be accepted
   /// beside the rest, now and in the end.
   void try_from_usual() {
+    if (rule_.from_usual == FromUsual::not_asked) return;
     const Chosen usual = contenders_.usual();
-    const Chosen start = worthy(pruned(usual, credibility_.limit()), usual);
+    const Chosen start = worthy(pruned(usual, credibility_.limit(), rule_.threads), usual);
     if (std::ranges::all_of(start, [this](std::size_t k) { return is_accepted(k); })) return;
     const Chosen accepted = std::exchange(accepted_, start);
     const auto came_with = std::exchange(came_with_, {});
@@ -62,7 +64,7 @@ class Search {
     const bool is_better = gain_of(fits_.held_out(contenders_.terms(accepted)),
                                    fits_.held_out(contenders_.terms(accepted_)))
                                .t > not_worse_t;
-    if (!is_better || !rule_.from_usual) {
+    if (!is_better || rule_.from_usual != FromUsual::taken) {
       accepted_ = accepted;
       came_with_ = came_with;
       dropped_ = dropped;
@@ -152,8 +154,9 @@ class Search {
     const Fit fit_now = fits_.fit(contenders_.terms(accepted_));
     Shortlist shortlist = contenders_.shortlist(accepted_, rule_.shortlist, dropped_);
     result_.hidden = std::move(shortlist.hidden);
-    std::vector<Rank> ranking;
-    for (const std::size_t k : shortlist.listed) {
+    std::vector<Rank> ranking(shortlist.listed.size());
+    in_parallel(ranking.size(), rule_.threads, [&](std::size_t i) {
+      const std::size_t k = shortlist.listed[i];
       Eigen::VectorXd errors = now.with(contenders_[k].term);
       const Gain gain = credibility_.gain_by(k, now.error(), errors);
       Scored scored{k, gain.share, gain.t, {}, false};
@@ -167,8 +170,8 @@ class Search {
         scored.wrong_sign = contenders_[k].members.empty() && !(is_load && scored.credible) &&
                             credibility_.wrong_sign(k, scored.fit, 0.0);
       }
-      ranking.push_back({std::move(scored), std::move(errors)});
-    }
+      ranking[i] = {std::move(scored), std::move(errors)};
+    });
     return ranking;
   }
 
@@ -194,24 +197,27 @@ class Search {
   /// believed (a delay and the lags of all drives may cancel), and without ripples that came with
   /// those of other joints and are nothing by themselves; these first, and of them the one that
   /// gains least.
-  [[nodiscard]] Chosen pruned(Chosen chosen, double least_t = keep_t) const {
+  [[nodiscard]] Chosen pruned(Chosen chosen, double least_t, std::size_t threads) const {
     while (!chosen.empty()) {
       const Fit all = fits_.fit(contenders_.terms(chosen));
       const FitsAround now(fits_, contenders_.terms(chosen));
-      std::pair<bool, double> least = {true, least_t};  // believed, and standard errors of gain
-      std::size_t worst = chosen.size();
-      Eigen::Index column = contenders_.first_column();
-      for (std::size_t i = 0; i < chosen.size(); ++i) {
-        const Eigen::Index n = std::ssize(contenders_[chosen[i]].term.columns);
-        const Fit own = part_of(all, column, n);
-        column += n;
+      std::vector<Eigen::Index> column = {contenders_.first_column()};
+      for (const std::size_t k : chosen) {
+        column.push_back(column.back() + std::ssize(contenders_[k].term.columns));
+      }
+      using Worth = std::pair<bool, double>;  // believed, and standard errors of gain
+      std::vector<Worth> worth(chosen.size());
+      in_parallel(chosen.size(), threads, [&](std::size_t i) {
+        const Fit own = part_of(all, column[i], column[i + 1] - column[i]);
         const Gain gain = credibility_.gain_by(chosen[i], now.without(1 + i), now.error());
-        const std::pair<bool, double> own_worth = {
-            gain.share >= 0.0 && is_believed(chosen, i, all, own), gain.t};
-        if (own_worth < least) {
-          least = own_worth;
-          worst = i;
-        }
+        worth[i] = {gain.share >= 0.0 && is_believed(chosen, i, all, own), gain.t};
+      });
+      Worth least = {true, least_t};
+      std::size_t worst = chosen.size();
+      for (std::size_t i = 0; i < chosen.size(); ++i) {
+        if (!(worth[i] < least)) continue;
+        least = worth[i];
+        worst = i;
       }
       if (worst == chosen.size()) break;
       chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(worst));
@@ -234,7 +240,7 @@ class Search {
   /// rival. True if anything was.
   bool prune() {
     const Chosen before = accepted_;
-    accepted_ = pruned(before);
+    accepted_ = pruned(before, keep_t, rule_.threads);
     for (const std::size_t k : before) {
       if (!is_accepted(k)) dropped_.push_back(k);
     }
@@ -252,12 +258,12 @@ class Search {
     while (simpler && !accepted_.empty()) {
       const Eigen::VectorXd error = fits_.held_out(contenders_.terms(accepted_));
       Chosen best = accepted_;
-      for (const std::size_t rival : contenders_.shortlist({}, rule_.rivals).listed) {
-        if (contenders_.is_taken(rival, accepted_) || !contenders_[rival].members.empty()) continue;
-        Chosen with_rival = accepted_;
-        with_rival.push_back(rival);
-        with_rival = pruned(with_rival);
-        if (with_rival.empty() || with_rival.back() != rival) continue;
+      const Chosen rivals = contenders_.shortlist({}, rule_.rivals).listed;
+      std::vector<Chosen> with_each(rivals.size());
+      in_parallel(rivals.size(), rule_.threads,
+                  [&](std::size_t i) { with_each[i] = beside(rivals[i]); });
+      for (const Chosen& with_rival : with_each) {
+        if (with_rival.empty()) continue;
         if (contenders_.extent(with_rival) >= contenders_.extent(best)) continue;
         const bool fewer_numbers = contenders_.cost(with_rival) < contenders_.cost(accepted_);
         const double allowed = with_rival.size() == accepted_.size() ? simpler_t
@@ -269,6 +275,16 @@ class Search {
       simpler = best != accepted_;
       accepted_ = best;
     }
+  }
+
+  /// A rival and those of the accepted that it does not make superfluous, which it is not itself;
+  /// else none.
+  [[nodiscard]] Chosen beside(std::size_t rival) const {
+    if (contenders_.is_taken(rival, accepted_) || !contenders_[rival].members.empty()) return {};
+    Chosen with_rival = accepted_;
+    with_rival.push_back(rival);
+    with_rival = pruned(with_rival, keep_t, 1);
+    return !with_rival.empty() && with_rival.back() == rival ? with_rival : Chosen{};
   }
 
   void finish() {

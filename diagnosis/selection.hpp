@@ -24,6 +24,10 @@ struct Candidate {
   bool only_rival = false;
 };
 
+/// What becomes of a search that begins with what is usually fitted, where it predicts better by
+/// more than chance. It takes as long as the other.
+enum class FromUsual { not_asked, noted, taken };
+
 /// The rule of acceptance. The best hypothesis is accepted if the sum over held-out blocks of its
 /// gain exceeds `least_t` standard errors (enlarged for few blocks). A parameter of z standard
 /// errors has a held-out gain of z^2 - 2 in units of the noise, with a standard error of 2 |z|:
@@ -43,9 +47,8 @@ struct SelectionRule {
   /// N: constant forces beyond this are not believed. Some are nearly hidden by contacts, or by
   /// each other.
   double most_force = std::numeric_limits<double>::infinity();
-  /// Where a search that begins with what is usually fitted predicts better by more than chance,
-  /// that one counts.
-  bool from_usual = false;
+  FromUsual from_usual = FromUsual::noted;
+  std::size_t threads = 1;  ///< that compare hypotheses at once; nothing depends on how many
   /// What the data cannot tell from masses is asked, too. It is accepted only if masses that stay
   /// as near to the given ones as the prior has it cannot say the same.
   bool contained_too = false;
@@ -87,7 +90,7 @@ struct Verdict {
 struct Selection {
   /// From masses alone, then, if that search counts, from what is usually fitted.
   std::vector<SelectionStep> steps;
-  bool usual_is_better = false;      ///< see SelectionRule::from_usual; also where that is not set
+  bool usual_is_better = false;      ///< see FromUsual
   std::vector<Verdict> accepted;     ///< what remained at the end
   std::vector<Scored> last_ranking;  ///< of what was not accepted
   std::vector<Scored> wrong_signs;   ///< evidence of something else

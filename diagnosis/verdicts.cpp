@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "shapeid/diagnosis/fits_around.hpp"
+#include "shapeid/diagnosis/in_parallel.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -36,12 +37,12 @@ bool as_good_as(const Eigen::VectorXd& error, const Eigen::VectorXd& instead) {
 }  // namespace
 
 std::vector<Verdict> Verdicts::of(const Chosen& accepted, const Eigen::VectorXd& error) const {
-  std::vector<Verdict> verdicts;
-  for (const std::size_t k : accepted) {
+  std::vector<Verdict> verdicts(accepted.size());
+  in_parallel(accepted.size(), rule_.threads, [&](std::size_t i) {
     Chosen others = accepted;
-    std::erase(others, k);
-    verdicts.push_back(one(k, others, error));
-  }
+    std::erase(others, accepted[i]);
+    verdicts[i] = one(accepted[i], others, error);
+  });
   name_common_causes(accepted, error, verdicts);
   return verdicts;
 }

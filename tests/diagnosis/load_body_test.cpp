@@ -82,6 +82,29 @@ TEST(LoadBody, OfNothingNothingIsMade) {
   EXPECT_EQ(body.lost, 0.0);
 }
 
+/// What is enough is found exactly where the best is enough, and is no better than that.
+TEST(LoadBody, MayLoseWhatIsEnough) {
+  int found = 0, none = 0, sooner = 0;
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    for (const double far : {0.8, 1.2, 1.6, 3.0}) {
+      const Eigen::VectorXd Phi = point(0.7, {0.31, -far, 0.83}) + point(0.2, {-0.4, 0.05, 0.3});
+      const BlockFits::Beside load = exact(Phi, seed);
+      const LoadBody best = best_body(load, near_link);
+      for (const MostLost enough :
+           {MostLost{0.0, 0.1}, MostLost{1e-3 * all_of(load, Phi), 0.0}, MostLost{0.0, 1e-9}}) {
+        const LoadBody body = best_body(load, near_link, enough);
+        EXPECT_EQ(enough.allows(body), enough.allows(best)) << seed << " " << far;
+        EXPECT_GE(body.lost, best.lost);
+        ++(enough.allows(body) ? found : none);
+        sooner += body.lost > best.lost ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(found, 10);
+  EXPECT_GT(none, 10);
+  EXPECT_GT(sooner, 10);
+}
+
 TEST(LoadBody, HasTenNumbers) {
   EXPECT_FALSE(why_no_load({Eigen::MatrixXd::Zero(10, 10), Eigen::VectorXd::Zero(10)}));
   EXPECT_TRUE(why_no_load({Eigen::MatrixXd::Zero(2, 2), Eigen::VectorXd::Zero(2)}));

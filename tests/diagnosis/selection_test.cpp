@@ -353,7 +353,7 @@ struct ManyDrives {
 
 SelectionRule from_usual() {
   SelectionRule rule;
-  rule.from_usual = true;
+  rule.from_usual = FromUsual::taken;
   return rule;
 }
 
@@ -375,6 +375,11 @@ TEST(Selection, FindsTheUsualCausesOfWhatCameInAsOne) {
       const Selection first = of.log.selection();
       EXPECT_EQ(first.usual_is_better, is_usual) << seed;
       EXPECT_EQ(std::ranges::count(accepted(first), of.drag), 1) << seed;
+      SelectionRule of_one_way;
+      of_one_way.from_usual = FromUsual::not_asked;
+      const Selection alone = of.log.selection(of_one_way);
+      EXPECT_FALSE(alone.usual_is_better);
+      EXPECT_EQ(accepted(alone), accepted(first)) << seed;
       // The ranking beside masses alone is that of the first search.
       ASSERT_FALSE(s.steps.empty());
       EXPECT_EQ(s.steps.front().accepted.candidate, of.drag);
