@@ -11,6 +11,7 @@
 
 #include "shapeid/app/diagnosis_logs.hpp"
 #include "shapeid/app/motion_noise.hpp"
+#include "shapeid/app/no_mass.hpp"
 #include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/app/result.hpp"
 #include "shapeid/diagnosis/contact_reach.hpp"
@@ -203,6 +204,19 @@ void note_far_masses(const Robot& robot, DiagnosisRun& run) {
         "believing either",
         given.name, run.consistent.model.Phi[Eigen::Index{10} * link], given.inertia.mass()));
   }
+}
+
+/// It is no refusal as of `identify`: drives and sensors may be what is asked for.
+void note_no_mass(DiagnosisRun& run) {
+  double found = 0.0;
+  for (const int link : run.settings.shapes.free_links) {
+    found += run.consistent.model.Phi[Eigen::Index{10} * link];
+  }
+  if (found > share_of_no_mass * run.settings.expected_mass) return;
+  run.notes.push_back(fmt::format(
+      "the log asks for no mass at all where some is sought, so masses and what stands beside them "
+      "are not to be believed: {}",
+      causes_of_no_mass));
 }
 
 /// What gains so much by an impossible value stands for something that is not looked for.
@@ -469,6 +483,7 @@ void Diagnosis::add_notes() {
   note_unsettled_links(robot, run_);
   note_mass_beside_forces(robot, run_);
   note_far_masses(robot, run_);
+  note_no_mass(run_);
   note_incredible(run_);
   note_moments(robot, options_, run_);
 }

@@ -202,9 +202,7 @@ void check_some_mass(const Result& result, double expected_mass) {
   for (const int link : result.sought.free_links) {
     found += result.found.Phi[Eigen::Index{10} * link];
   }
-  // Of what is expected: what bounds that are active leave, or shapes a thousand times too large.
-  constexpr double nothing = 1e-3;
-  if (found > nothing * expected_mass) return;
+  if (found > share_of_no_mass * expected_mass) return;
   throw Refusal("no-mass", fmt::format("the log asks for no mass at all where some is sought: {}",
                                        causes_of_no_mass));
 }

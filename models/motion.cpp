@@ -124,7 +124,7 @@ struct MotionReader::State {
   void judge_head(double row_step) {
     plausibility.emplace(
         source.path(), robot, source.plan(),
-        Plausibility::Options{options.gap * row_step, options.expect_gravity, options.refuse_frozen,
+        Plausibility::Options{gap_steps * row_step, options.expect_gravity, options.refuse_frozen,
                               true, options.exact_derivatives});
     for (const MeasuredRow& row : head) plausibility->add(row);
     plausibility->judge();
@@ -151,7 +151,7 @@ struct MotionReader::State {
     const double cutoff = filters ? options.cutoff : of_any_rate * report.rate;  // of no effect
     const Butterworth design(options.order, cutoff, report.rate);
     if (options.smoothing == Smoothing::causal) report.group_delay = design.group_delay(0.0);
-    grid.emplace(report.rate, options.gap * steps.cwiseMax(row_step));
+    grid.emplace(report.rate, gap_steps * steps.cwiseMax(row_step));
     segments.emplace(
         source.plan(), robot, imu, design,
         SegmentSamples::Options{options.smoothing, report.rate, options.use_logged_velocity});

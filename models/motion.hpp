@@ -38,7 +38,6 @@ struct MotionOptions {
   double cutoff = 20.0;  ///< Hz, -3 dB of one pass; the same for joints, IMU, torque and force
   int order = log_filter_order;  ///< of one pass, 1 to 8
   double rate = 0.0;  ///< Hz of the regular grid; 0: the log's median rate. Not below that.
-  double gap = 5.0;   ///< a channel's step longer than this many of its median steps is a gap
   /// Joint velocities from the logged dq instead of the differentiated q, and accelerations from
   /// its first derivative instead of q's second. Drives often log a velocity that is a sample late
   /// or filtered on its own, so this is not the default.

@@ -11,6 +11,11 @@
 
 namespace shapeid {
 
+/// A channel's step longer than so many of its median steps is a gap. (Of a log with holes of
+/// exactly five steps some are gaps and some are not, by the rounding of times:
+/// docs/derivations/diagnosis-history.md, holes.)
+inline constexpr double gap_steps = 5.0;
+
 /// Of one number at least.
 [[nodiscard]] double median(std::vector<double> values);
 

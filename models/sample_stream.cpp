@@ -9,11 +9,6 @@
 #include "shapeid/models/row_steps.hpp"
 
 namespace shapeid {
-namespace {
-
-constexpr double gap = 5.0;  // steps, as in MotionOptions
-
-}  // namespace
 
 SampleStream::SampleStream(std::string path, const ChannelPlan& plan, const Robot& robot,
                            const Eigen::Isometry3d& imu, StreamOptions options)
@@ -47,7 +42,7 @@ void SampleStream::learn_rate() {
   row_step_ = step;
   rate_ = options_.rate > 0.0 ? options_.rate : 1.0 / step;
   check_grid(options_.names.rate, rate_, 1.0 / step);
-  longest_step_ = gap * median_steps(head_, plan_, path_).cwiseMax(step);
+  longest_step_ = gap_steps * median_steps(head_, plan_, path_).cwiseMax(step);
 }
 
 void SampleStream::prepare() {

@@ -88,6 +88,22 @@ TEST(MeasuredDiagnosis, AJointOfTheOtherSignIsRefused) {
       << arm.err;
 }
 
+/// A Mini Cheetah that hangs from what no channel knows: its rotors are found, its body is not.
+TEST(MeasuredDiagnosis, OfALogThatAsksForNoMassThatIsSaid) {
+  if (!has_mini_cheetah()) GTEST_SKIP() << mini_cheetah() << " is not there (set SHAPEID_DATA)";
+  const CommandRun run =
+      shapeid(fmt::format("diagnose --robot {0}mini_cheetah_from_mit_constants.urdf "
+                          "--accept-impossible --mapping {1} --log {0}air_jumping_gait_val.csv.gz "
+                          "--also {0}air_jumping_gait_test.csv.gz "
+                          "--test {0}air_walking_gait_val.csv.gz",
+                          mini_cheetah(), example("mini_cheetah.mapping.yaml")));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("note: the log asks for no mass at all where some is sought"),
+            std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("rotor_inertia@FR_knee"), std::string::npos) << run.out;
+}
+
 /// A Mini Cheetah on small pebbles: of two delays, both large, that of the IMU is sought at more
 /// than 18 ms while little else is known, which is not believed. It may come in once more: beside
 /// all else it is 16 to 17 ms, and without it the error on the other log is a fifth larger.
