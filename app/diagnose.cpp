@@ -131,7 +131,8 @@ void add_diagnose(CLI::App& app) {
   // Each has sums of its own: of a quadruped's hypotheses some tens of megabytes.
   constexpr unsigned most_threads = 8;
   d.threads = std::clamp(std::thread::hardware_concurrency(), 1U, most_threads);
-  verb->add_option("--threads", d.threads, "that go over a log at once; no number depends on it")
+  verb->add_option("--threads", d.threads,
+                   "that go over logs and hypotheses; no number depends on it")
       ->check(count_from(1))
       ->capture_default_str();
   verb->add_flag("--curves", d.curves,

@@ -24,7 +24,7 @@ struct LoopSettings {
   std::size_t stride = 1;      ///< every how many samples count
   double margin = 0.0;         ///< s between blocks
   double block_seconds = 0.0;  ///< 0: so that there are about forty, and none below half a second
-  std::size_t threads = 1;     ///< that go over a log at once: nothing depends on how many
+  std::size_t threads = 1;     ///< over logs and hypotheses: nothing depends on how many
   int folds = 8;               ///< of one or two logs; of more, each is one
   std::vector<std::size_t> log_starts;  ///< samples at which a further log begins
   int rounds = 6;                       ///< of weights, screening and refits
