@@ -208,11 +208,10 @@ void note_far_masses(const Robot& robot, DiagnosisRun& run) {
 
 /// It is no refusal as of `identify`: drives and sensors may be what is asked for.
 void note_no_mass(DiagnosisRun& run) {
-  double found = 0.0;
-  for (const int link : run.settings.shapes.free_links) {
-    found += run.consistent.model.Phi[Eigen::Index{10} * link];
+  if (!is_no_mass(run.consistent.model.Phi, run.settings.shapes.free_links,
+                  run.settings.expected_mass)) {
+    return;
   }
-  if (found > share_of_no_mass * run.settings.expected_mass) return;
   run.notes.push_back(fmt::format(
       "the log asks for no mass at all where some is sought, so masses and what stands beside them "
       "are not to be believed: {}",

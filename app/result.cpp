@@ -198,11 +198,7 @@ StatedProblem stated_problem(const Result& result) {
 }
 
 void check_some_mass(const Result& result, double expected_mass) {
-  double found = 0.0;
-  for (const int link : result.sought.free_links) {
-    found += result.found.Phi[Eigen::Index{10} * link];
-  }
-  if (found > share_of_no_mass * expected_mass) return;
+  if (!is_no_mass(result.found.Phi, result.sought.free_links, expected_mass)) return;
   throw Refusal("no-mass", fmt::format("the log asks for no mass at all where some is sought: {}",
                                        causes_of_no_mass));
 }

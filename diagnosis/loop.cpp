@@ -397,29 +397,21 @@ class Loop {
   }
 
   /// Notes what is lost without each of the applied transformations, as it is and not by its
-  /// derivative. Those that are not worth it beside the others that are left are taken back, and
-  /// false returned: what was found beside them, and in their place, is to be sought again.
+  /// derivative. The first that is not worth it is taken back, and false returned: what was found
+  /// beside it, and in its place, is to be sought again.
   [[nodiscard]] bool all_transformations_stay() {
-    bool all_stay = true;
     std::optional<LoopState::HeldOut> with;
-    for (std::size_t i = 0; i < result_.found.size();) {
-      if (!result_.found[i].effect.effect->transform.any()) {
-        ++i;
-        continue;
-      }
+    for (std::size_t i = 0; i < result_.found.size(); ++i) {
+      if (!result_.found[i].effect.effect->transform.any()) continue;
       if (!with) with = state_.held_out_either_way();
       const Gain gain = gain_as_it_is(i, *with);
       result_.found[i].gain = gain.share;
       result_.found[i].t = gain.t;
-      if (is_worth(gain)) {
-        ++i;
-        continue;
-      }
+      if (is_worth(gain)) continue;
       take_back(i);
-      with.reset();
-      all_stay = false;
+      return false;
     }
-    return all_stay;
+    return true;
   }
 
   [[nodiscard]] bool is_banned(const AppliedEffect& h) const {

@@ -22,6 +22,7 @@ TEST(Stride, LeavesMoreThanFiveSamplesToAPeriodAndFewTooMany) {
       if (stride > 1.0) {
         EXPECT_GT(rate / stride, 5.0 * cutoff) << rate << " " << cutoff;
       }
+      // 5 / 0.999: a quotient just above a whole number counts as below it.
       EXPECT_LE(rate / (stride + 1.0), 5.01 * cutoff) << rate << " " << cutoff;
     }
   }

@@ -203,6 +203,25 @@ TEST(Candidates, AGroupPaysForThePeriodsOfItsMembers) {
   EXPECT_GT(others, 3);
 }
 
+/// What it found is told before names are questioned; unless that asks for other logs it is closed.
+TEST(Loop, IsBrokenOffWhereItsCausesAskForOtherLogs) {
+  const Recording log = record({{effect("torque_lag", 0, {0.009})}});
+  for (const bool ask : {true, false}) {
+    std::vector<Found> causes;
+    const LoopOrCauses loop = close_loop_unless(
+        [&](const std::vector<Found>& found) {
+          causes = found;
+          return ask;
+        },
+        arm(), log, nullptr, arm_settings());
+    ASSERT_EQ(causes.size(), 1U);
+    EXPECT_EQ(causes.front().id, "torque_lag@joint1");
+    EXPECT_EQ(loop.is_closed, !ask);
+    EXPECT_EQ(found_ids(loop.result), Ids{"torque_lag@joint1"});
+    EXPECT_EQ(loop.result.blocks > 0, !ask) << "the models are compared at the end";
+  }
+}
+
 TEST(Loop, LoadThatComesIsFoundBesideAReferenceLog) {
   ComesBetween log;
   const LoopResult result = close_loop(arm(), log.with(), &log.without, arm_settings());
