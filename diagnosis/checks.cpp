@@ -81,6 +81,7 @@ void check_excitation(const Robot& robot, const Recording& recording) {
 }
 
 void check_meaning(const Robot& robot, const Recording& recording, ContactTreatment contacts) {
+  check_silent_torques(robot, recording, contacts);
   // Legs that are exchanged have contacts at odds with their feet as well.
   check_leg_order(robot, recording, contacts);
   // Then what needs no inertia.

@@ -15,6 +15,8 @@ namespace shapeid::diagnosis {
 void check_excitation(const Robot& robot, const Recording& recording);
 
 /// Of each log, also of one that is only tested on. Throws Refusal:
+///  * "torque-missing": a torque that is zero throughout, of a joint that is driven
+///    (torque_columns.hpp);
 ///  * "leg-order": the given links would predict better with legs exchanged (leg_order.hpp);
 ///  * "imu-axes" and "contact-labels", by feet that stand (reference/standing_feet.hpp);
 ///  * "torque-scale", "torque-sign" and "torque-order", by what the given links predict

@@ -9,6 +9,7 @@
 #include "shapeid/diagnosis/filter_error.hpp"
 #include "shapeid/diagnosis/fits_around.hpp"
 #include "shapeid/diagnosis/prior.hpp"
+#include "shapeid/diagnosis/torque_columns.hpp"
 #include "shapeid/models/error.hpp"
 
 namespace shapeid::diagnosis {
@@ -42,6 +43,7 @@ LoopState::LoopState(const Robot& robot_, const Recording& log_, const Recording
     tally_options.block_seconds = std::max(shortest_block, log.duration() / wanted_blocks);
   }
   masses = term_of_masses(settings.shapes.free_links);
+  silent = silent_joints(robot, log);
 }
 
 BlockFits LoopState::tallied(const std::vector<AppliedEffect>& hypotheses,
@@ -111,7 +113,12 @@ void LoopState::reweigh() {
   // all to their rounding where a log is exact.
   constexpr double least_of_mean = 0.02, any = 1e-12;
   const double floor = std::max({least_of_mean * rms.mean(), least_share * logged.mean(), any});
-  result.weight = rms.cwiseMax(floor).cwiseAbs2().cwiseInverse();
+  Eigen::VectorXd sigma = rms.cwiseMax(floor);
+  auto joints = sigma.tail(robot.joint_count());
+  Eigen::VectorXd of_driven = joints;
+  for (const int j : silent) of_driven[j] = std::numeric_limits<double>::infinity();
+  for (const int j : silent) joints[j] = std::max(joints[j], of_driven.minCoeff());
+  result.weight = sigma.cwiseAbs2().cwiseInverse();
 }
 
 Series LoopState::left_by(const RichModel& model) const {

@@ -19,8 +19,9 @@ struct LoopState {
   Recording log;
   std::optional<Recording> reference;
   const LoopSettings& settings;
-  Eigen::VectorXd centre;  ///< of the prior, 10 per link
-  Term masses;             ///< columns of the free links
+  Eigen::VectorXd centre;   ///< of the prior, 10 per link
+  Term masses;              ///< columns of the free links
+  std::vector<int> silent;  ///< joints without torque (silent_joints())
   TallyOptions tally_options;
   RichModel rigid;  ///< masses alone, as fitted before anything was sought
   LoopResult result;
@@ -34,7 +35,9 @@ struct LoopState {
   /// What the filter makes of products, by the present model: of the log and the reference from now
   /// on.
   void correct();
-  /// W = 1 / variance of what the present model leaves, row by row.
+  /// W = 1 / variance of what the present model leaves, row by row. The row of a joint that nothing
+  /// drives weighs no more than that of any that is driven: links without mass would leave nothing
+  /// there.
   void reweigh();
   /// Of the log and the reference from now on, and noted in the result.
   void use_correction(const std::vector<Eigen::VectorXd>& of_log,

@@ -7,10 +7,13 @@
 #include <cmath>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shapeid/diagnosis/rich_model.hpp"
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/motion_extent.hpp"
+#include "shapeid/models/value_range.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -121,7 +124,75 @@ void check_order(const Robot& robot, const Products& sums) {
                             robot.joint(static_cast<int>(second)).name));
 }
 
+/// Of one joint, summed over samples: squares of what the given links need of it, of the part that
+/// its own acceleration takes, and of the rest.
+struct Parts {
+  double all = 0.0, own = 0.0, rest = 0.0;
+};
+
 }  // namespace
+
+std::vector<int> silent_joints(const Robot& robot, const Recording& recording) {
+  std::vector<int> silent;
+  bool any_torque = false;
+  for (int j = 0; j < robot.joint_count(); ++j) {
+    ValueRange positions, torques;
+    for (const Sample& s : recording.samples()) {
+      positions.add(s.q[j]);
+      torques.add(s.tau[j]);
+    }
+    const bool is_zero = torques.least == 0.0 && torques.most == 0.0;
+    any_torque = any_torque || !is_zero;
+    if (is_zero && moved_far(robot.joint(j), positions.width())) silent.push_back(j);
+  }
+  // No torque at all is refused when the log is read (models/plausibility.hpp).
+  if (!any_torque) silent.clear();
+  return silent;
+}
+
+void check_silent_torques(const Robot& robot, const Recording& recording,
+                          ContactTreatment contacts) {
+  const std::vector<int> silent = silent_joints(robot, recording);
+  if (silent.empty()) return;
+
+  const RichModel given{stacked_parameters(robot), {}};
+  const Viewer viewer(robot, contacts, {});
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(robot.joint_count());
+  std::vector<Parts> parts(silent.size());
+  const std::vector<std::size_t> looked_at = recording.usable(recording.stride_of(2000));
+  for (const std::size_t i : looked_at) {
+    const View view = viewer.view(recording, i);
+    const Eigen::VectorXd load = load_without_torque(viewer, view, given);
+    squares += load.cwiseAbs2();
+    for (std::size_t k = 0; k < silent.size(); ++k) {
+      const int j = silent[k];
+      Sample coasting = view.sample;
+      coasting.ddq[j] = 0.0;
+      const View without = viewer.view(std::move(coasting), view.surroundings);
+      const double rest = load_without_torque(viewer, without, given)[j];
+      parts[k].all += load[j] * load[j];
+      parts[k].own += (load[j] - rest) * (load[j] - rest);
+      parts[k].rest += rest * rest;
+    }
+  }
+  // Parts that balance leave nothing, and with links that are given a third wrong a tenth of their
+  // squares; parts that have nothing to do with each other leave all. What is little beside the
+  // other joints is friction of a wheel.
+  constexpr double balanced = 0.5, little = 0.05;
+  for (std::size_t k = 0; k < silent.size(); ++k) {
+    const int j = silent[k];
+    if (parts[k].all <= balanced * (parts[k].own + parts[k].rest)) continue;
+    if (std::sqrt(parts[k].all) <= little * std::sqrt(squares.maxCoeff())) continue;
+    const bool slides = robot.joint(j).kind == JointKind::prismatic;
+    throw Refusal("torque-missing",
+                  fmt::format("the torque of {} is zero throughout, where the given model needs "
+                              "{:.2g} {}, and a joint that nothing drives would move otherwise: "
+                              "log it",
+                              robot.joint(j).name,
+                              std::sqrt(parts[k].all / static_cast<double>(looked_at.size())),
+                              slides ? "N" : "N m"));
+  }
+}
 
 void check_torque_columns(const Robot& robot, const Recording& recording,
                           ContactTreatment contacts) {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "shapeid/diagnosis/chance.hpp"
+#include "shapeid/diagnosis/torque_columns.hpp"
 #include "shapeid/models/student.hpp"
 
 namespace shapeid::diagnosis {
@@ -215,6 +216,7 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
       least_squares_sum(curve_false_alarms / curves, waves - 1) - 2.0 * (waves - 1),
       recording.independent_share(stride)};
   const std::vector<std::vector<double>> extras = held_columns(recording);
+  const std::vector<int> silent = silent_joints(robot, recording);
   constexpr std::size_t fewest = 10 * bins;
   for (int j = 0; j < robot.joint_count(); ++j) {
     const Eigen::Index row = robot.base_dof() + j;
@@ -274,10 +276,13 @@ std::vector<Structure> unexplained(const Robot& robot, const Recording& recordin
     acceleration.emplace_back("ddq." + own,
                               signal([j](const Sample& s, auto) { return s.ddq[j]; }));
     // The predicted torque: the logged one is part of the residual.
-    torque.emplace_back("tau." + own, signal([&](const Sample&, std::size_t i) {
-                          return series.predicted(row, static_cast<Eigen::Index>(i));
-                        }));
-    rate.emplace_back("dtau." + own, signal(torque_rate));
+    // Where none is logged the predicted one is the residual.
+    if (std::ranges::find(silent, j) == silent.end()) {
+      torque.emplace_back("tau." + own, signal([&](const Sample&, std::size_t i) {
+                            return series.predicted(row, static_cast<Eigen::Index>(i));
+                          }));
+      rate.emplace_back("dtau." + own, signal(torque_rate));
+    }
     time.emplace_back("time", signal([](const Sample& s, auto) { return s.time; }));
     for (std::size_t e = 0; e < recording.extra().size(); ++e) {
       extra.emplace_back(recording.extra()[e], signal([&](const Sample&, std::size_t i) {

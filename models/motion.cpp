@@ -11,6 +11,7 @@
 #include "shapeid/models/equal_signals.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/held_positions.hpp"
+#include "shapeid/models/held_torques.hpp"
 #include "shapeid/models/plausibility.hpp"
 #include "shapeid/models/resampler.hpp"
 #include "shapeid/models/row_steps.hpp"
@@ -51,6 +52,7 @@ struct MotionReader::State {
         equal(source.plan(), r.joint_count()),
         repeated(source.plan(), r.joint_count()),
         held(source.plan(), r.joint_count()),
+        held_torques(source.plan(), r),
         margin(o.at_contact_change, margin_around(o)) {
     const ChannelPlan& plan = source.plan();
     if (options.contact_margin && !(*options.contact_margin >= 0.0)) {
@@ -99,6 +101,7 @@ struct MotionReader::State {
   EqualSignals equal;
   RepeatedStretches repeated;
   HeldPositions held;
+  HeldTorques held_torques;
   std::optional<Resampler> grid;
   std::optional<SegmentSamples> segments;
   ContactMargin margin;
@@ -175,6 +178,7 @@ struct MotionReader::State {
     if (row) equal.add(*row);
     if (row) repeated.add(*row);
     if (row) held.add(*row);
+    if (row) held_torques.add(*row);
     if (options.exact_derivatives) {
       if (row) take_exact(*row);
     } else {
@@ -219,19 +223,42 @@ struct MotionReader::State {
         percent * repeated.share()));
   }
 
+  [[nodiscard]] const std::string& column(int channel) const {
+    return source.plan().channels[static_cast<std::size_t>(channel)].from;
+  }
+  [[nodiscard]] const char* unit_of_position(int joint) const {
+    return robot.joint(joint).kind == JointKind::prismatic ? "m" : "rad";
+  }
+  [[nodiscard]] static std::string times(std::size_t count) {
+    return count > 1 ? fmt::format(" ({} times)", count) : "";
+  }
+
   void note_held() {
     std::size_t count = 0;
     const std::optional<HeldPosition> longest = held.longest(count);
     if (!longest) return;
-    const Joint& joint = robot.joint(longest->joint);
-    const int place = source.plan().q + longest->joint;
-    const auto channel = static_cast<std::size_t>(place);
     report.notes.push_back(fmt::format(
         "{}:{}: {} stays the same for {:.2g} s and then jumps by {:.2g} {}: readings were held{}; "
         "leave these rows out, a gap is no harm",
-        source.path(), longest->line, source.plan().channels[channel].from, longest->seconds,
-        longest->jump, joint.kind == JointKind::prismatic ? "m" : "rad",
-        count > 1 ? fmt::format(" ({} times)", count) : ""));
+        source.path(), longest->line, column(source.plan().q + longest->joint), longest->seconds,
+        longest->jump, unit_of_position(longest->joint), times(count)));
+  }
+
+  void note_held_torques() {
+    for (const int joint : held_torques.silent()) {
+      report.notes.push_back(
+          fmt::format("{} is zero in every row while {} moves: taken for a joint that nothing "
+                      "drives",
+                      column(source.plan().tau + joint), robot.joint(joint).name));
+    }
+    std::size_t count = 0;
+    const std::optional<HeldTorque> longest = held_torques.longest(count);
+    if (!longest) return;
+    report.notes.push_back(fmt::format(
+        "{}:{}: {} stays at {:.3g} for {:.2g} s while the joint moves by {:.2g} {}{}: leave these "
+        "rows out if readings were held or lost, a gap is no harm",
+        source.path(), longest->line, column(source.plan().tau + longest->joint), longest->torque,
+        longest->seconds, longest->way, unit_of_position(longest->joint), times(count)));
   }
 
   void end_log() {
@@ -243,6 +270,7 @@ struct MotionReader::State {
     report.dropped_at_contacts = margin.dropped();
     note_copies();
     note_held();
+    note_held_torques();
     if (!segments) return;
     report.gaps = std::max<std::size_t>(segments->segments(), 1) - 1;
     report.dropped_at_ends = segments->lost();

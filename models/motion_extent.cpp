@@ -7,6 +7,11 @@ constexpr Eigen::Index base = 6;  // gyro and specific force
 
 }  // namespace
 
+bool moved_far(const Joint& joint, double way) {
+  constexpr double angle = 0.1, length = 0.01;
+  return way > (joint.kind == JointKind::prismatic ? length : angle);
+}
+
 void MotionExtent::add(const Sample& sample) {
   Eigen::ArrayXd now(base + sample.q.size());
   now << sample.base_angular_velocity, sample.base_specific_force, sample.q;

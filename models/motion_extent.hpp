@@ -1,4 +1,4 @@
-// Whether a robot moved at all.
+// Whether a robot, or a joint, moved at all.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,6 +7,10 @@
 #include "shapeid/models/sample.hpp"
 
 namespace shapeid {
+
+/// Whether `way` (rad or m) is far above encoder noise and elasticity: some degrees, some
+/// millimetres.
+[[nodiscard]] bool moved_far(const Joint& joint, double way);
 
 /// The least and the most that samples have of positions, of the gyro and of the specific force. A
 /// robot that stands still shows a weight in one pose, with an error of next to nothing, and its

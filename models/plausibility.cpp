@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "shapeid/models/motion_extent.hpp"
 #include "shapeid/models/row_steps.hpp"
 
 namespace shapeid {
@@ -18,8 +19,6 @@ constexpr double gravity = 9.81;
 constexpr std::size_t block = 4096;  // rows, some seconds of any log
 // Some dozens of stationary seconds would do; fewer rows leave a stride's impacts in the mean.
 constexpr std::size_t enough_rows = 400;
-// A joint has moved when its range is far above encoder noise: some degrees, some millimetres.
-constexpr double moved_angle = 0.1, moved_length = 0.01;
 // No joint passes its stop by more than this (URDF limits are often drawn too tight).
 constexpr double past_limit = 2.0;
 // Eight turns: no limited joint makes them.
@@ -55,8 +54,7 @@ void check_grid(std::string_view option, double grid_rate, double logged_rate) {
 void Plausibility::Range::add(double value, int at) {
   if (std::isnan(value)) return;
   if (std::abs(value) > std::max(std::abs(least), std::abs(most)) || least > most) line = at;
-  least = std::min(least, value);
-  most = std::max(most, value);
+  ValueRange::add(value);
 }
 
 std::optional<Plausibility::Span> Plausibility::Slope::add(double t, double position,
@@ -286,8 +284,7 @@ void Plausibility::judge_angle(int j) const {
 }
 
 bool Plausibility::moves(int j) const {
-  const double moved = robot_.joint(j).kind == JointKind::prismatic ? moved_length : moved_angle;
-  return range(plan_.q + j).width() > moved;
+  return moved_far(robot_.joint(j), range(plan_.q + j).width());
 }
 
 double Plausibility::slope(int position, int velocity) const {

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include "shapeid/models/channels.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/robot.hpp"
+#include "shapeid/models/value_range.hpp"
 
 namespace shapeid {
 
@@ -53,13 +53,10 @@ class Plausibility {
   void judge();
 
  private:
-  /// Smallest and largest value of a channel, and where the largest magnitude stood.
-  struct Range {
-    double least = std::numeric_limits<double>::infinity();
-    double most = -std::numeric_limits<double>::infinity();
+  /// Of a channel, and where the largest magnitude stood.
+  struct Range : ValueRange {
     int line = 0;
     void add(double value, int at);
-    [[nodiscard]] double width() const { return most - least; }
     [[nodiscard]] bool frozen() const { return least == most; }
   };
   /// Of a short span: the change of q, and the integral of dq.

@@ -120,6 +120,34 @@ TEST(MeasuredDiagnosis, ADelayThatWasTooLargeAtFirstIsSoughtAgain) {
   EXPECT_LT((*delay)["value"].get<double>(), 0.018);
 }
 
+/// The torques that were commanded, in place of those that the drives say: in some runs none was
+/// asked of one of the two joints, which swung as the other one moved it.
+TEST(MeasuredDiagnosis, ATorqueOfZeroIsRightOfAJointThatNothingDrives) {
+  const std::string folder =
+      (data_folder() / "double_pendulum").string() + "/design_C.0__20220914_";
+  if (!std::filesystem::exists(folder + "03.csv.gz")) {
+    GTEST_SKIP() << folder << "03.csv.gz is not there (set SHAPEID_DATA)";
+  }
+  const ScratchFolder scratch;
+  const std::string mapping = scratch.write(
+      "mapping.yaml",
+      "columns: {time: t_s, q.shoulder: q1_rad, q.elbow: q2_rad, dq.shoulder: dq1_radps, "
+      "dq.elbow: dq2_radps, tau.shoulder: taucmd1_Nm, tau.elbow: taucmd2_Nm}\n"
+      "torque: {kind: joint}\n");
+  for (const auto& [run, joint] : {std::pair{"03", "shoulder"}, std::pair{"05", "elbow"}}) {
+    const CommandRun result = shapeid(fmt::format(
+        "diagnose --robot {}/docs/examples/double_pendulum_c.urdf --mapping {} --log {}{}.csv.gz",
+        SHAPEID_SOURCE_DIR, mapping, folder, run));
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.out.find(fmt::format("is zero in every row while {} moves", joint)),
+              std::string::npos)
+        << result.out;
+    // All that is predicted is residual there.
+    EXPECT_EQ(result.out.find(fmt::format("\n  {0:<24}over tau.{0}", joint)), std::string::npos)
+        << result.out;
+  }
+}
+
 /// A double pendulum of direct drives: drag, an encoder's offset and more come in before the dry
 /// friction of both drives, none of which stands then. The search that begins with what is usually
 /// fitted ends elsewhere: on the other runs 0.189 N m, where the first one has 0.225 and the usual

@@ -12,6 +12,9 @@
 #include <utility>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/models/robot.hpp"
+#include "shapeid/reference/inverse_dynamics.hpp"
+#include "shapeid/reference/kinematics.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 #include "shapeid/tests/diagnosis/trot.hpp"
 
@@ -96,6 +99,53 @@ TEST(Checks, TorqueOfAnotherJoint) {
                            test::effect("torque_offset", 2, {5.0}),
                            test::effect("torque_gain", 0, {1.0})}})),
             "accepted");
+}
+
+TEST(Checks, TorqueThatIsNotLogged) {
+  for (const Eigen::Index j : {0, 1, 2}) {
+    const Recording dead = changed(record({}), [j](Sample& s) { s.tau[j] = 0.0; });
+    EXPECT_EQ(check(dead), "torque-missing") << j;
+    // A brake holds what stands, whatever the links weigh.
+    const auto braked = [j](Sample& s) {
+      s.tau[j] = 0.0;
+      s.q[j] = 0.3;
+      s.dq[j] = s.ddq[j] = 0.0;
+    };
+    EXPECT_NE(check(changed(record({}), braked)), "torque-missing") << j;
+  }
+}
+
+TEST(Checks, TorqueOfALegThatIsNotLogged) {
+  const Trot trot;
+  const Recording dead = changed({trot.samples, Trot::rate}, [](Sample& s) { s.tau[4] = 0.0; });
+  EXPECT_EQ(refusal([&] { check_meaning(trot.robot, dead, ContactTreatment::project); }),
+            "torque-missing");
+}
+
+/// A joint that nothing drives swings as its links have it, which are not quite the given ones, and
+/// its bearing rubs.
+TEST(Checks, TorqueOfAJointThatNothingDrives) {
+  const Robot robot = arm();
+  Eigen::VectorXd Phi = stacked_parameters(robot);
+  Phi.segment<10>(20) *= 1.3;
+  Phi.segment<10>(30) *= 0.75;
+  for (const Eigen::Index j : {1, 2}) {
+    const Recording swings = changed(record({}), [&](Sample& s) {
+      const auto torque = [&] {
+        return Eigen::VectorXd(
+            reference::inverse_dynamics(robot, reference::link_motions(robot, s), Phi)
+                .tail(robot.joint_count()));
+      };
+      const double friction = s.dq[j] > 0.0 ? 0.2 : -0.2;
+      const double before = torque()[j];
+      s.ddq[j] += 1.0;
+      const double inertia = torque()[j] - before;
+      s.ddq[j] -= 1.0 + (before + friction) / inertia;
+      s.tau = torque();
+      s.tau[j] = 0.0;
+    });
+    EXPECT_NE(check(swings), "torque-missing") << j;
+  }
 }
 
 TEST(Checks, AccelerometerOfATrotWithOtherAxes) {

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "shapeid/tests/diagnosis/arm.hpp"
@@ -39,6 +41,21 @@ TEST(LoopState, WeighsRowsByWhatIsLeftOfThem) {
   EXPECT_NEAR(weight[0] * std::pow(0.5, 2), 1.0, 1e-9);
   EXPECT_NEAR(weight[1] * std::pow(0.02, 2), 1.0, 1e-9);
   EXPECT_NEAR(weight[2] * std::pow(least, 2), 1.0, 1e-9);
+}
+
+/// Links without mass leave nothing of a torque of zero. If its row then weighed as much as floors
+/// allow, masses would stay at nothing.
+TEST(LoopState, AJointThatNothingDrivesWeighsNoMoreThanAnother) {
+  std::vector<Sample> samples = off_by(Eigen::Vector3d(0.1, 0.2, 0.3)).samples();
+  for (Sample& s : samples) s.tau[1] = 0.0;
+  const Robot robot = test::arm();
+  const LoopSettings settings = test::arm_settings();
+  const Recording log(std::move(samples), 100.0);
+  LoopState state(robot, log, nullptr, settings);
+  state.result.model.Phi.setZero();
+  state.reweigh();
+  const Eigen::Vector3d weight = state.result.weight;
+  EXPECT_EQ(weight[1], std::max(weight[0], weight[2]));
 }
 
 TEST(LoopState, WeightsOfAnExactLogAreNumbers) {
