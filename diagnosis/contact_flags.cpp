@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 
 #include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/effects/contact_parts.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
+#include "shapeid/reference/contact.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -51,6 +53,17 @@ Effect as_force(const char* id,
 Effect late_force() { return as_force("contact_late", before); }
 Effect short_force() { return as_force("contact_short", after); }
 
+/// Of feet in the air, against the mean of those that stand, (m/s)^2.
+struct SquaredSpeed {
+  double sum = 0.0;
+  std::size_t count = 0;
+  void add(double square) {
+    sum += square;
+    ++count;
+  }
+  [[nodiscard]] double mean() const { return count > 0 ? sum / static_cast<double>(count) : 0.0; }
+};
+
 class Search {
  public:
   Search(const Robot& robot, const Recording& log, const Recording* reference,
@@ -89,9 +102,10 @@ class Search {
         continue;
       }
       const double T = beyond * c.effect.shape[0];
-      const double step = 0.5 * (times[1] / times[0] - 1.0) * T;
       AppliedEffect effect = at_start(*find_effect(c.effect.effect->id), c.effect.site);
       effect.value = Eigen::VectorXd::Constant(1, T);
+      if (swings(state_.robot, state_.log, effect)) continue;
+      const double step = 0.5 * (times[1] / times[0] - 1.0) * T;
       found.emplace(Found{effect, c.term.id, Eigen::VectorXd::Constant(1, step), v.gain, v.t});
     }
     return found;
@@ -151,6 +165,32 @@ bool pushes(const Recording& log, const Eigen::Vector3d& force) {
   Eigen::Vector3d down = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < log.samples().size(); ++i) down += log.down(i);
   return force.dot(down) < 0.0;
+}
+
+bool swings(const Robot& robot, const Recording& log, const AppliedEffect& flag) {
+  // As that of "contact-labels" (reference/standing_feet.hpp).
+  constexpr double alike = 0.7;
+  const bool late = flag.effect == find_effect("contact_late");
+  SquaredSpeed said_to_touch, in_the_air;
+  for (const std::size_t i : log.usable(log.stride_of(20000))) {
+    const Sample& sample = log[i];
+    const auto standing = std::count(sample.in_contact.begin(), sample.in_contact.end(), true);
+    if (standing == 0) continue;
+    Eigen::Matrix3Xd velocity = reference::contact_motions(robot, sample).velocity;
+    Eigen::Vector3d ground = Eigen::Vector3d::Zero();
+    for (Eigen::Index foot = 0; foot < velocity.cols(); ++foot) {
+      if (sample.in_contact[static_cast<std::size_t>(foot)]) ground += velocity.col(foot);
+    }
+    velocity.colwise() -= ground / static_cast<double>(standing);
+    const Surroundings at = log.surroundings(i);
+    for (Eigen::Index foot = 0; foot < velocity.cols(); ++foot) {
+      if (sample.in_contact[static_cast<std::size_t>(foot)]) continue;
+      const double away = (late ? at.until_touch : at.since_touch)[foot];
+      const bool touches = foot == flag.site && away <= flag.value[0];
+      (touches ? said_to_touch : in_the_air).add(velocity.col(foot).squaredNorm());
+    }
+  }
+  return in_the_air.count > 0 && said_to_touch.mean() > alike * alike * in_the_air.mean();
 }
 
 void correct_contact_flags(Recording& log, const std::vector<Found>& found) {

@@ -36,6 +36,10 @@ namespace shapeid::diagnosis {
 /// not pull.
 [[nodiscard]] bool pushes(const Recording& log, const Eigen::Vector3d& force);
 
+/// Whether a foot is about as fast, against those that stand, while the flag (contact_late or
+/// contact_short, as found) would have it touch, as feet are in the air: one that touches stands.
+[[nodiscard]] bool swings(const Robot& robot, const Recording& log, const AppliedEffect& flag);
+
 /// The same correction of another log.
 void correct_contact_flags(Recording& log, const std::vector<Found>& found);
 

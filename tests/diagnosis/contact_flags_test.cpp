@@ -174,6 +174,23 @@ TEST(ContactFlags, TheGroundCannotPull) {
   EXPECT_FALSE(pushes(log, {-5.0, 0.0, 1.0}));
 }
 
+/// Seeds 9582 and 9583, trials 47 and 39: of a flexible hip the swing was told as a contact that is
+/// 120 ms late, most of the time that the foot is in the air.
+TEST(ContactFlags, AFootThatSwingsDoesNotTouch) {
+  const Trot trot;
+  const auto flag = [](const char* id, int foot, double time) {
+    return test::effect(id, foot, {time});
+  };
+  const Recording late = trot.told(2, 0.016, 0.0), early = trot.told(1, 0.0, 0.024);
+  EXPECT_FALSE(swings(trot.robot, late, flag("contact_late", 2, 0.016)));
+  EXPECT_FALSE(swings(trot.robot, early, flag("contact_short", 1, 0.024)));
+  const Recording right = trot.told(2, 0.0, 0.0);
+  for (const double time : {0.084, 0.12}) {
+    EXPECT_TRUE(swings(trot.robot, right, flag("contact_late", 2, time))) << time;
+    EXPECT_TRUE(swings(trot.robot, right, flag("contact_short", 1, time))) << time;
+  }
+}
+
 TEST(ContactFlags, AContactThatWouldPullHasNoName) {
   const Trot trot;
   const LoopSettings settings = trot.settings();
