@@ -18,6 +18,7 @@
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/motion_extent.hpp"
 #include "shapeid/models/student.hpp"
+#include "shapeid/reference/carrying_feet.hpp"
 #include "shapeid/reference/standing_feet.hpp"
 
 namespace shapeid::diagnosis {
@@ -42,6 +43,12 @@ void check_base(const Robot& robot, const Recording& recording, ContactTreatment
 void check_standing_feet(const Robot& robot, const Recording& recording) {
   reference::StandingFeet feet(robot);
   for (const std::size_t i : recording.usable(recording.stride_of(2000))) feet.add(recording[i]);
+  feet.judge();
+}
+
+void check_carrying_feet(const Robot& robot, const Recording& recording) {
+  reference::CarryingFeet feet(robot);
+  for (const Sample& sample : recording.samples()) feet.add(sample);
   feet.judge();
 }
 
@@ -87,6 +94,7 @@ void check_meaning(const Robot& robot, const Recording& recording, ContactTreatm
   // Then what needs no inertia.
   if (contacts == ContactTreatment::project) check_standing_feet(robot, recording);
   check_torque_columns(robot, recording, contacts);
+  if (contacts == ContactTreatment::project) check_carrying_feet(robot, recording);
   check_accelerometer(robot, recording, contacts);
   check_base(robot, recording, contacts);
   check_joint_readings(robot, recording, contacts);

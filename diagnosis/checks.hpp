@@ -19,6 +19,7 @@ void check_excitation(const Robot& robot, const Recording& recording);
 ///    (torque_columns.hpp);
 ///  * "leg-order": the given links would predict better with legs exchanged (leg_order.hpp);
 ///  * "imu-axes" and "contact-labels", by feet that stand (reference/standing_feet.hpp);
+///  * "contact-labels" also by feet that carry (reference/carrying_feet.hpp);
 ///  * "torque-scale", "torque-sign" and "torque-order", by what the given links predict
 ///    (torque_columns.hpp);
 ///  * "imu-axes" also if they would predict far better by other axes of the accelerometer

@@ -9,6 +9,7 @@
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/motion_extent.hpp"
+#include "shapeid/reference/carrying_feet.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 #include "shapeid/reference/standing_feet.hpp"
 #include "shapeid/reference/triangle.hpp"
@@ -174,12 +175,17 @@ CompressedRows compress(const Robot& robot, const BodyModel& model, const Sample
                    settings.rows ? settings.rows : rigid, settings.block_seconds);
   CompressedRows result;
   StandingFeet feet(robot);
+  CarryingFeet carrying(robot);
   while (const std::optional<Sample> sample = next()) {
     collected.add(*sample);
-    if (settings.contacts == ContactTreatment::project) feet.add(*sample);
+    if (settings.contacts == ContactTreatment::project) {
+      feet.add(*sample);
+      carrying.add(*sample);
+    }
     ++result.samples;
   }
   feet.judge();
+  carrying.judge();
   result.blocks = collected.finish();
   return result;
 }

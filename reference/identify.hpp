@@ -60,7 +60,8 @@ struct CompressedRows {
 };
 
 /// Reads a stream to its end. Memory does not grow with it. No blocks for an empty stream. Throws
-/// what StandingFeet::judge() throws where contact forces are projected out.
+/// what StandingFeet::judge() and CarryingFeet::judge() throw where contact forces are projected
+/// out.
 [[nodiscard]] CompressedRows compress(const Robot& robot, const BodyModel& model,
                                       const SampleStream& next, const IdentifySettings& settings);
 

@@ -115,11 +115,14 @@ TEST(Checks, TorqueThatIsNotLogged) {
   }
 }
 
-TEST(Checks, TorqueOfALegThatIsNotLogged) {
+TEST(Checks, TorqueOrFlagOfALegThatIsNotLogged) {
   const Trot trot;
-  const Recording dead = changed({trot.samples, Trot::rate}, [](Sample& s) { s.tau[4] = 0.0; });
-  EXPECT_EQ(refusal([&] { check_meaning(trot.robot, dead, ContactTreatment::project); }),
-            "torque-missing");
+  const auto check_without = [&](const std::function<void(Sample&)>& change) {
+    const Recording log = changed({trot.samples, Trot::rate}, change);
+    return refusal([&] { check_meaning(trot.robot, log, ContactTreatment::project); });
+  };
+  EXPECT_EQ(check_without([](Sample& s) { s.tau[4] = 0.0; }), "torque-missing");
+  EXPECT_EQ(check_without([](Sample& s) { s.in_contact[2] = false; }), "contact-labels");
 }
 
 /// A joint that nothing drives swings as its links have it, which are not quite the given ones, and
@@ -290,6 +293,7 @@ TEST(Checks, ContactLabelsAtOddsWithTheFeet) {
       s.q = Eigen::Vector2d(0.3 * std::sin(3.0 * s.time), 0.3 * std::cos(5.0 * s.time));
       s.dq = Eigen::Vector2d(0.0, -1.5 * std::sin(5.0 * s.time));
       s.ddq = s.tau = Eigen::Vector2d::Zero();
+      s.base_specific_force.setZero();  // nothing is carried
       // The first leg does not move against the base, the second one does.
       s.in_contact = {true, right, !right};
       samples.push_back(s);

@@ -1,0 +1,59 @@
+// What the joints' torques say of feet that are declared in the air.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "shapeid/models/robot.hpp"
+#include "shapeid/models/sample.hpp"
+
+namespace shapeid::reference {
+
+/// A foot that is declared in the air for longer than any swing, and whose leg's torques ask for as
+/// much of a force as those of feet that are declared to stand (supporting_forces(), by the given
+/// links; the base is in none of these rows), has a dead flag. Contacts of one link are one foot.
+/// Sums alone are kept. The robot must outlive this.
+class CarryingFeet {
+ public:
+  explicit CarryingFeet(const Robot& robot);
+
+  /// In the order of time; another log may begin at any.
+  void add(const Sample& sample);
+
+  /// Throws Refusal "contact-labels" if there is such a foot.
+  void judge();
+
+ private:
+  struct Force {
+    double sum = 0.0;  ///< N
+    std::size_t count = 0;
+    void add(double force);
+    [[nodiscard]] double mean() const;
+  };
+  /// A foot in the air.
+  struct Stretch {
+    double begin = 0.0, end = 0.0;  ///< s
+    Force force;                    ///< once it is longer than a swing
+    [[nodiscard]] double seconds() const { return end - begin; }
+  };
+  struct Foot {
+    int link = 0;
+    std::vector<std::size_t> contacts;
+    bool in_the_air = false;
+    Stretch now, strongest;
+  };
+
+  [[nodiscard]] static bool stands(const Foot& foot, const Sample& sample);
+  static void land(Foot& foot);
+  [[nodiscard]] std::string names(const Foot& foot) const;
+
+  const Robot* robot_;
+  Eigen::VectorXd Phi_;
+  std::vector<Foot> feet_;
+  Force standing_;
+  bool begun_ = false;
+  double last_ = 0.0, looked_at_ = 0.0;  ///< s
+};
+
+}  // namespace shapeid::reference
