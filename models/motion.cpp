@@ -16,6 +16,7 @@
 #include "shapeid/models/resampler.hpp"
 #include "shapeid/models/row_steps.hpp"
 #include "shapeid/models/sample_builder.hpp"
+#include "shapeid/models/saturations.hpp"
 #include "shapeid/models/segment_samples.hpp"
 #include "shapeid/models/stretches.hpp"
 
@@ -53,6 +54,7 @@ struct MotionReader::State {
         repeated(source.plan(), r.joint_count()),
         held(source.plan(), r.joint_count()),
         held_torques(source.plan(), r),
+        saturations(source.plan(), r.joint_count()),
         margin(o.at_contact_change, margin_around(o)) {
     const ChannelPlan& plan = source.plan();
     if (options.contact_margin && !(*options.contact_margin >= 0.0)) {
@@ -102,6 +104,7 @@ struct MotionReader::State {
   RepeatedStretches repeated;
   HeldPositions held;
   HeldTorques held_torques;
+  Saturations saturations;
   std::optional<Resampler> grid;
   std::optional<SegmentSamples> segments;
   ContactMargin margin;
@@ -179,6 +182,7 @@ struct MotionReader::State {
     if (row) repeated.add(*row);
     if (row) held.add(*row);
     if (row) held_torques.add(*row);
+    if (row) saturations.add(*row);
     if (options.exact_derivatives) {
       if (row) take_exact(*row);
     } else {
@@ -261,6 +265,16 @@ struct MotionReader::State {
         longest->seconds, longest->way, unit_of_position(longest->joint), times(count)));
   }
 
+  void note_saturations() {
+    constexpr double percent = 100.0;
+    for (const Saturation& s : saturations.found()) {
+      report.notes.push_back(fmt::format(
+          "{} comes back to {:.4g} and stays there, in {:.2g} percent of the rows, and is never "
+          "beyond: is it saturated?",
+          column(s.channel), s.value, percent * s.share));
+    }
+  }
+
   void end_log() {
     ended = true;
     if (plausibility) plausibility->judge();
@@ -271,6 +285,7 @@ struct MotionReader::State {
     note_copies();
     note_held();
     note_held_torques();
+    note_saturations();
     if (!segments) return;
     report.gaps = std::max<std::size_t>(segments->segments(), 1) - 1;
     report.dropped_at_ends = segments->lost();
