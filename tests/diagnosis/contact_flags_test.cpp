@@ -174,8 +174,8 @@ TEST(ContactFlags, TheGroundCannotPull) {
   EXPECT_FALSE(pushes(log, {-5.0, 0.0, 1.0}));
 }
 
-/// Seeds 9582 and 9583, trials 47 and 39: of a flexible hip the swing was told as a contact that is
-/// 120 ms late, most of the time that the foot is in the air.
+/// Seed 9582, trial 47: of a flexible hip the swing was told as a contact that is 120 ms late, most
+/// of the time that the foot is in the air.
 TEST(ContactFlags, AFootThatSwingsDoesNotTouch) {
   const Trot trot;
   const auto flag = [](const char* id, int foot, double time) {
