@@ -358,6 +358,9 @@ void Plausibility::judge_frozen() const {
     any = any || moves(j);
     torque = torque || range(plan_.tau + j).width() > 0.0;
     const Range& tau = range(plan_.tau + j);
+    // By spans, for noise of a velocity sums up to little and an offset of it to no more.
+    const double moved = std::sqrt(slopes_[static_cast<std::size_t>(j)].integrals);
+    if (range(plan_.q + j).frozen() && moved_far(robot_.joint(j), moved)) refuse(plan_.q + j);
     // Zero is what a free joint has.
     if (moves(j) && tau.frozen() && tau.least != 0.0) refuse(plan_.tau + j);
   }

@@ -27,7 +27,8 @@ void check_grid(std::string_view option, double grid_rate, double logged_rate);
 ///  * logged dq that follows the slope of q with another factor than one (degrees, milliseconds),
 ///    with the opposite sign, or the slope of another joint's q;
 ///  * an accelerometer whose mean magnitude is not gravity (g as unit, mm/s^2, gravity removed);
-///  * channels that never change while the joints move, and torques of which none does;
+///  * channels that never change while the joints move, positions while their own velocity does,
+///    and torques of which none does;
 ///  * readings that no robot has, by orders of magnitude;
 ///  * angles that jump by a turn from one row to the next, positions that are elsewhere for one
 ///    row, and such that jump elsewhere and stay there;

@@ -295,6 +295,19 @@ TEST(Plausibility, AnAxisThatReadsZeroIsDead) {
   EXPECT_NE(reception(no_side, robot).find("base.accel.y: stays at 0"), std::string::npos);
 }
 
+/// An encoder that is dead where the motor's speed is not; a joint that stands, whose speed is
+/// noise and a little off.
+TEST(Plausibility, APositionThatStaysWhileItsVelocityMovesIsRefused) {
+  const auto stuck = [](Sample& s) { s.q[1] = 0.2; };
+  EXPECT_NE(reception(stuck, chain(3, Root::fixed)).find("column q.j1: stays at 0.2 while"),
+            std::string::npos);
+  const auto stands = [](Sample& s) {
+    s.q[1] = 0.2;
+    s.dq[1] = 0.02 * std::sin(1e5 * s.time) + 0.01;
+  };
+  EXPECT_EQ(reception(stands, chain(3, Root::fixed)), "accepted");
+}
+
 TEST(Plausibility, PassiveJointsAndWheelsPass) {
   EXPECT_EQ(reception([](Sample& s) { s.tau[1] = 0.0; }, chain(3, Root::fixed)), "accepted");
   Robot wheel = chain(1, Root::fixed);
