@@ -9,7 +9,8 @@
 #include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/effects/contact_parts.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
-#include "shapeid/reference/contact.hpp"
+#include "shapeid/models/mean.hpp"
+#include "shapeid/reference/standing_feet.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
@@ -52,17 +53,6 @@ Effect as_force(const char* id,
 
 Effect late_force() { return as_force("contact_late", before); }
 Effect short_force() { return as_force("contact_short", after); }
-
-/// Of feet in the air, against the mean of those that stand, (m/s)^2.
-struct SquaredSpeed {
-  double sum = 0.0;
-  std::size_t count = 0;
-  void add(double square) {
-    sum += square;
-    ++count;
-  }
-  [[nodiscard]] double mean() const { return count > 0 ? sum / static_cast<double>(count) : 0.0; }
-};
 
 class Search {
  public:
@@ -171,26 +161,22 @@ bool swings(const Robot& robot, const Recording& log, const AppliedEffect& flag)
   // As that of "contact-labels" (reference/standing_feet.hpp).
   constexpr double alike = 0.7;
   const bool late = flag.effect == find_effect("contact_late");
-  SquaredSpeed said_to_touch, in_the_air;
+  Mean said_to_touch, in_the_air;  // (m/s)^2
   for (const std::size_t i : log.usable(log.stride_of(20000))) {
     const Sample& sample = log[i];
-    const auto standing = std::count(sample.in_contact.begin(), sample.in_contact.end(), true);
-    if (standing == 0) continue;
-    Eigen::Matrix3Xd velocity = reference::contact_motions(robot, sample).velocity;
-    Eigen::Vector3d ground = Eigen::Vector3d::Zero();
-    for (Eigen::Index foot = 0; foot < velocity.cols(); ++foot) {
-      if (sample.in_contact[static_cast<std::size_t>(foot)]) ground += velocity.col(foot);
-    }
-    velocity.colwise() -= ground / static_cast<double>(standing);
+    if (std::ranges::find(sample.in_contact, true) == sample.in_contact.end()) continue;
+    const reference::ContactMotions feet = reference::against_stance(robot, sample);
     const Surroundings at = log.surroundings(i);
-    for (Eigen::Index foot = 0; foot < velocity.cols(); ++foot) {
+    for (Eigen::Index foot = 0; foot < feet.place.cols(); ++foot) {
       if (sample.in_contact[static_cast<std::size_t>(foot)]) continue;
+      const Eigen::Vector3d velocity =
+          sample.base_angular_velocity.cross(feet.place.col(foot)) + feet.velocity.col(foot);
       const double away = (late ? at.until_touch : at.since_touch)[foot];
       const bool touches = foot == flag.site && away <= flag.value[0];
-      (touches ? said_to_touch : in_the_air).add(velocity.col(foot).squaredNorm());
+      (touches ? said_to_touch : in_the_air).add(velocity.squaredNorm());
     }
   }
-  return in_the_air.count > 0 && said_to_touch.mean() > alike * alike * in_the_air.mean();
+  return in_the_air.count > 0 && said_to_touch.value() > alike * alike * in_the_air.value();
 }
 
 void correct_contact_flags(Recording& log, const std::vector<Found>& found) {

@@ -20,15 +20,6 @@ constexpr std::size_t enough = 40;
 
 }  // namespace
 
-void CarryingFeet::Force::add(double force) {
-  sum += force;
-  ++count;
-}
-
-double CarryingFeet::Force::mean() const {
-  return count > 0 ? sum / static_cast<double>(count) : 0.0;
-}
-
 CarryingFeet::CarryingFeet(const Robot& robot) : robot_(&robot), Phi_(stacked_parameters(robot)) {
   for (std::size_t c = 0; c < robot.contacts.size(); ++c) {
     const int link = robot.contacts[c].link;
@@ -49,7 +40,7 @@ void CarryingFeet::land(Foot& foot) {
   foot.in_the_air = false;
   const Stretch& now = foot.now;
   if (now.seconds() < dead || now.force.count < enough) return;
-  if (now.force.mean() > foot.strongest.force.mean()) foot.strongest = now;
+  if (now.force.value() > foot.strongest.force.value()) foot.strongest = now;
 }
 
 void CarryingFeet::add(const Sample& sample) {
@@ -91,9 +82,9 @@ void CarryingFeet::judge() {
   // A foot that walks along carries for half of the time or more what one that stands does; one
   // that is held up carries nothing, and given links that are wrong a little.
   constexpr double carries = 0.2;
-  if (standing_.count < enough || !(standing_.mean() > 0.0)) return;
+  if (standing_.count < enough || !(standing_.value() > 0.0)) return;
   for (const Foot& foot : feet_) {
-    const double share = foot.strongest.force.mean() / standing_.mean();
+    const double share = foot.strongest.force.value() / standing_.value();
     if (!(share > carries)) continue;
     throw Refusal(
         "contact-labels",

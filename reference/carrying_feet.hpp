@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "shapeid/models/mean.hpp"
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
 
@@ -25,16 +26,10 @@ class CarryingFeet {
   void judge();
 
  private:
-  struct Force {
-    double sum = 0.0;  ///< N
-    std::size_t count = 0;
-    void add(double force);
-    [[nodiscard]] double mean() const;
-  };
   /// A foot in the air.
   struct Stretch {
     double begin = 0.0, end = 0.0;  ///< s
-    Force force;                    ///< once it is longer than a swing
+    Mean force;                     ///< N, once it is longer than a swing
     [[nodiscard]] double seconds() const { return end - begin; }
   };
   struct Foot {
@@ -51,7 +46,7 @@ class CarryingFeet {
   const Robot* robot_;
   Eigen::VectorXd Phi_;
   std::vector<Foot> feet_;
-  Force standing_;
+  Mean standing_;  ///< N
   bool begun_ = false;
   double last_ = 0.0, looked_at_ = 0.0;  ///< s
 };

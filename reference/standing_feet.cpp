@@ -15,7 +15,6 @@
 
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/signed_axes.hpp"
-#include "shapeid/reference/contact.hpp"
 
 namespace shapeid::reference {
 namespace {
@@ -36,9 +35,12 @@ std::vector<Eigen::Matrix3d> all_readings() {
   return result;
 }
 
-/// Against the mean of those that stand, and by the joints alone.
-ContactMotions against_stance(const Robot& robot, const Sample& sample, double standing) {
+}  // namespace
+
+ContactMotions against_stance(const Robot& robot, const Sample& sample) {
   ContactMotions feet = contact_motions(robot, sample);
+  const auto standing =
+      static_cast<double>(std::count(sample.in_contact.begin(), sample.in_contact.end(), true));
   Eigen::Vector3d mean_place = Eigen::Vector3d::Zero(), mean_velocity = Eigen::Vector3d::Zero();
   for (Eigen::Index c = 0; c < feet.place.cols(); ++c) {
     feet.velocity.col(c) -= sample.base_angular_velocity.cross(feet.place.col(c));
@@ -51,8 +53,6 @@ ContactMotions against_stance(const Robot& robot, const Sample& sample, double s
   return feet;
 }
 
-}  // namespace
-
 void StandingFeet::add(const Sample& sample) {
   static const std::vector<Eigen::Matrix3d> reading = all_readings();
   const auto standing = std::count(sample.in_contact.begin(), sample.in_contact.end(), true);
@@ -63,7 +63,7 @@ void StandingFeet::add(const Sample& sample) {
     close_block();
     block_begins_ = sample.time;
   }
-  const ContactMotions feet = against_stance(*robot_, sample, static_cast<double>(standing));
+  const ContactMotions feet = against_stance(*robot_, sample);
   const auto squared_speed = [&](Eigen::Index foot, const Eigen::Vector3d& omega) {
     return (omega.cross(feet.place.col(foot)) + feet.velocity.col(foot)).squaredNorm();
   };

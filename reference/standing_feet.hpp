@@ -7,8 +7,13 @@
 #include "shapeid/models/robot.hpp"
 #include "shapeid/models/sample.hpp"
 #include "shapeid/models/signed_axes.hpp"
+#include "shapeid/reference/contact.hpp"
 
 namespace shapeid::reference {
+
+/// Of each contact point its place and its velocity by the joints alone (as if the gyro read
+/// nothing), base axes, less the mean of those that touch; some must.
+[[nodiscard]] ContactMotions against_stance(const Robot& robot, const Sample& sample);
 
 /// Feet that stand do not move against each other: with r their places in base axes and u their
 /// velocities by the joints alone, omega x (r_i - r_k) + u_i - u_k = 0. That needs no inertia, and
