@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -69,12 +70,12 @@ class Solver {
   }
 
   /// What the data say by themselves of links, loads and effects, without given inertias and
-  /// bodies.
-  [[nodiscard]] reference::Determination determination() const {
-    Eigen::VectorXd size(sums_.links() + sums_.linear());
+  /// bodies. `sums`: of the same links and loads.
+  [[nodiscard]] reference::Determination determination(const BodySums& sums) const {
+    Eigen::VectorXd size(sums.links() + sums.linear());
     size << reference::natural_sizes(settings_.shapes, settings_.expected_mass),
-        sums_.linear_sizes();
-    return reference::determine(sums_.blocks(size), size);
+        sums.linear_sizes();
+    return reference::determine(sums.blocks(size), size);
   }
 
  private:
@@ -192,38 +193,50 @@ std::size_t impossible(const std::vector<AppliedEffect>& effects, const std::vec
   return worst;
 }
 
-/// Phi and theta without each tenth, by which a delete-a-tenth jackknife goes. `masses`: none if
-/// there are no bodies.
-Eigen::MatrixXd answers_without_tenths(const BodySums& sums, const Solver& solver,
-                                       const ShapeMasses* masses) {
-  Eigen::MatrixXd answers(sums.links() + sums.linear(), tenths);
-  for (int tenth = 0; tenth < tenths; ++tenth) {
-    const Eliminated eliminated = sums.rows_without(tenth);
-    Eigen::VectorXd Phi;
-    if (masses != nullptr) {
-      const MassProblem problem = solver.problem_of(eliminated);
-      Phi = masses->Phi_of(problem.Y, problem.F);
-    }
-    answers.col(tenth) << Phi, eliminated.effects(Phi);
+/// Phi and theta of all tenths but one; -1: of all. `masses`: none if there are no bodies.
+Eigen::VectorXd answer_without(int tenth, const BodySums& sums, const Solver& solver,
+                               const ShapeMasses* masses) {
+  const Eliminated eliminated = sums.rows_without(tenth);
+  Eigen::VectorXd Phi;
+  if (masses != nullptr) {
+    const MassProblem problem = solver.problem_of(eliminated);
+    Phi = masses->Phi_of(problem.Y, problem.F);
   }
-  return answers;
+  Eigen::VectorXd answer(Phi.size() + sums.linear());
+  answer << Phi, eliminated.effects(Phi);
+  return answer;
 }
 
-/// Errors of `answer`: about it, and not about the mean of the tenths, which may stay at a bound
-/// together.
+/// By these a delete-a-tenth jackknife goes: errors are about the answer of all tenths, and not
+/// about the mean of those without one, which may stay at a bound together.
+struct Jackknife {
+  Eigen::VectorXd answer;
+  Eigen::MatrixXd without_tenths;
+};
+
+Jackknife jackknife(const BodySums& sums, const Solver& solver, const ShapeMasses* masses) {
+  Jackknife result{answer_without(-1, sums, solver, masses), {}};
+  result.without_tenths.resize(result.answer.size(), tenths);
+  for (int tenth = 0; tenth < tenths; ++tenth) {
+    result.without_tenths.col(tenth) = answer_without(tenth, sums, solver, masses);
+  }
+  return result;
+}
+
 Eigen::VectorXd errors_of(const Eigen::VectorXd& answer, const Eigen::MatrixXd& without_tenths) {
   constexpr double factor = (tenths - 1.0) / tenths;
   return (factor * (without_tenths.colwise() - answer).rowwise().squaredNorm()).cwiseSqrt();
 }
 
-/// Of a load as one body: how large it is without each tenth, one being `Phi`, by what it does in
-/// the rows. The error of that.
-double error_of_size(const Eigen::MatrixXd& rows, const Eigen::VectorXd& Phi,
-                     const Eigen::MatrixXd& without_tenths) {
-  const Eigen::VectorXd force = rows * Phi;
+/// Of the load whose numbers begin at `from`, as one body: how large it is without each tenth, one
+/// being the answer of all, by what it does in its rows. The error of that.
+double error_of_size(const Eigen::MatrixXd& rows, const Jackknife& all, Eigen::Index from) {
+  const Eigen::MatrixXd own = rows.middleCols(from, 10);
+  const Eigen::VectorXd force = own * all.answer.segment<10>(from);
   const double square = force.squaredNorm();
   if (!(square > 0.0)) return std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd sizes = (rows * without_tenths).transpose() * force / square;
+  const Eigen::VectorXd sizes =
+      (own * all.without_tenths.middleRows(from, 10)).transpose() * force / square;
   return errors_of(Eigen::VectorXd::Ones(1), sizes.transpose())[0];
 }
 
@@ -267,6 +280,9 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       columns.push_back(effects[k]);
       if (effects[k].effect->is_payload) loads.push_back(effects[k].site);
     }
+    // Behind them what a change of each applied transformation does.
+    std::ranges::copy_if(effects, std::back_inserter(columns),
+                         [](const AppliedEffect& a) { return a.effect->transform.any(); });
     TallyOptions options;
     options.stride = settings.stride;
     options.threads = settings.threads;
@@ -281,7 +297,7 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
                    of_reference, true);
     }
     add_to_tally(tally, robot, settings.rows, result.model, log, options, false);
-    const BodySums sums(shapes, std::move(tally));
+    const BodySums sums(shapes, with_first(tally, linear.size()));
     const Solver solver(robot, sums, loads, settings, loop);
     const Eliminated eliminated = sums.rows_without(-1);
     // With every link trusted and no load there is no mass to solve for.
@@ -298,10 +314,13 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       continue;
     }
     result.model.Phi = all_parameters(shapes, answer.head(sums.links()));
+    // What a transformation's numbers are is not known better than the masses: with these held,
+    // masses that they stand for would have no error.
+    const BodySums all_free(shapes, std::move(tally));
     reference::Determination data;
-    if (sums.bodies() > 0) data = solver.determination();
-    const Eigen::MatrixXd without_tenths = answers_without_tenths(sums, solver, masses.get());
-    const Eigen::VectorXd errors = errors_of(answer, without_tenths);
+    if (sums.bodies() > 0) data = solver.determination(all_free);
+    const Jackknife tried = jackknife(all_free, solver, masses.get());
+    const Eigen::VectorXd errors = errors_of(tried.answer, tried.without_tenths);
     result.Phi_error = Eigen::VectorXd::Zero(result.model.Phi.size());
     for (std::size_t i = 0; i < shapes.free_links.size(); ++i) {
       result.Phi_error.segment<10>(Eigen::Index{10} * shapes.free_links[i]) =
@@ -313,7 +332,8 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
       const Found* known = found_for(effects[k], loop.found);
       if (known != nullptr) error_places[k].value = known->standard_error;
     }
-    put_back(trusted(errors.tail(sums.linear()), sums, linear, error_places), linear, error_places);
+    put_back(trusted(errors.segment(sums.links(), sums.linear()), sums, linear, error_places),
+             linear, error_places);
     // A load's numbers that no data tell apart are as the points have it that were tried. Rounding
     // may leave of "not at all" an error that no load could have.
     constexpr double no_knowledge = 100.0;  // usual sizes
@@ -339,9 +359,7 @@ Consistent make_consistent(const Robot& robot, const Recording& log, const Recor
     result.load_size_error.assign(effects.size(), 0.0);
     for (std::size_t i = 0; i < loads.size(); ++i) {
       const Eigen::Index own = sums.links() + 10 * static_cast<Eigen::Index>(i);
-      result.load_size_error[linear[i]] =
-          error_of_size(eliminated.rows.middleCols(own, 10), answer.segment(own, 10),
-                        without_tenths.middleRows(own, 10));
+      result.load_size_error[linear[i]] = error_of_size(eliminated.rows, tried, own);
     }
     return result;
   }

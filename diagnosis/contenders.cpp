@@ -76,8 +76,7 @@ bool Contenders::same_place(std::size_t k, std::size_t other) const {
 }
 
 bool Contenders::same_law(std::size_t k, std::size_t other) const {
-  const AppliedEffect &a = candidates_[k].effect, &b = candidates_[other].effect;
-  return a.effect == b.effect && a.site == b.site;
+  return diagnosis::same_law(candidates_[k].effect, candidates_[other].effect);
 }
 
 Chosen Contenders::of_other_times(std::size_t k) const {

@@ -27,9 +27,12 @@ Eigen::VectorXd felt(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double 
 
 }  // namespace
 
+bool same_law(const AppliedEffect& a, const AppliedEffect& b) {
+  return a.effect == b.effect && a.site == b.site;
+}
+
 bool same_place(const AppliedEffect& a, const AppliedEffect& b) {
-  return a.effect == b.effect && a.site == b.site &&
-         (a.when == b.when || a.effect->transform.sample != nullptr);
+  return same_law(a, b) && (a.when == b.when || a.effect->transform.sample != nullptr);
 }
 
 bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a) {

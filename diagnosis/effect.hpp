@@ -172,6 +172,8 @@ struct AppliedEffect {
 /// The same effect at the same place and time. What changes samples is at its place once, whenever:
 /// how far all together may look in time has a limit (largest_shift).
 [[nodiscard]] bool same_place(const AppliedEffect& a, const AppliedEffect& b);
+/// The same effect at the same site, at whatever time and with whatever shape.
+[[nodiscard]] bool same_law(const AppliedEffect& a, const AppliedEffect& b);
 /// Whether one of them is the same effect at the same place.
 [[nodiscard]] bool has_place_of(const std::vector<AppliedEffect>& effects, const AppliedEffect& a);
 

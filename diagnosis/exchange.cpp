@@ -34,14 +34,16 @@ void note_exchangeable(const BlockFits& fits, const Term& fixed, const std::vect
     for (const Verdict& v : selection.accepted) others.push_back(list[v.candidate].term);
     for (const std::size_t k : selection.hidden) {
       const Candidate& hidden = list[k];
-      if (!hidden.members.empty()) continue;
+      // The same at another time is no other cause.
+      const AppliedEffect& h = hidden.effect;
+      if (!hidden.members.empty() || same_law(h, f.effect)) continue;
       if (!(fits.contained(others, own, hidden.term) > nested_share)) continue;
       std::vector<Term> with = others;
       with.push_back(hidden.term);
       const Eigen::MatrixXd moves = fits.moves(with, {own}).front();
       const Eigen::VectorXd instead =
           moves.bottomRows(std::ssize(hidden.term.columns)) * f.effect.value;
-      if (over_limit(*hidden.effect.effect, instead, most_force) > 1.0) continue;
+      if (over_limit(*h.effect, instead, most_force) > 1.0) continue;
       f.exchangeable.push_back(hidden.term.id);
     }
   }

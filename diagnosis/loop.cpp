@@ -211,7 +211,7 @@ class Loop {
   void screen() {
     BlockFits fits = state_.tallied(screened_hypotheses(state_.robot, result_.model,
                                                         {state_.log, state_.left_by(result_.model)},
-                                                        state_.rest_of_reference()));
+                                                        state_.rest_of_reference(result_.model)));
     const Term fixed = state_.always(fits.tally());
     const std::vector<Candidate> list = listed(fits);
     // From the beginning each time: what was accepted with worse weights has to prove itself again.

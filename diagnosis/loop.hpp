@@ -95,7 +95,8 @@ struct LoopResult {
   std::vector<Found> found;
   std::vector<Ranked> first_ranking;  ///< beside masses alone
   std::vector<Ranked> last_ranking;   ///< of what was left out
-  std::vector<std::string> hidden;    ///< can hardly be told from masses and what was found
+  /// Ids of what can hardly be told from masses and what was found, at any time.
+  std::vector<std::string> hidden;
   /// kg: the base's beside constant forces, whose place the accelerometer's noise took for a mass
   /// nearer to the given one.
   std::optional<double> mass_beside_forces;

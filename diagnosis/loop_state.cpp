@@ -125,9 +125,9 @@ Series LoopState::left_by(const RichModel& model) const {
   return series(robot, settings.rows, model, log, settings.stride);
 }
 
-std::optional<Rest> LoopState::rest_of_reference() const {
+std::optional<Rest> LoopState::rest_of_reference(const RichModel& model) const {
   if (!reference) return std::nullopt;
-  return Rest{*reference, series(robot, settings.rows, result.model.in_reference(), *reference,
+  return Rest{*reference, series(robot, settings.rows, model.in_reference(), *reference,
                                  log.stride_for(*reference, settings.stride))};
 }
 

@@ -44,8 +44,8 @@ struct LoopState {
                       const std::vector<Eigen::VectorXd>& of_reference = {});
   /// What a model leaves of the log.
   [[nodiscard]] Series left_by(const RichModel& model) const;
-  /// The reference log, if there is one, and what the present model leaves of it.
-  [[nodiscard]] std::optional<Rest> rest_of_reference() const;
+  /// The reference log, if there is one, and what a model leaves of it.
+  [[nodiscard]] std::optional<Rest> rest_of_reference(const RichModel& model) const;
   /// The model's effects from what was found; transformations are kept within their limits.
   void collect_effects();
   /// The settings' rule, for this robot: no constant force exceeds its weight.

@@ -71,7 +71,10 @@ class Names {
       if (!is_ripple(all[k])) continue;
       RichModel without = state_.result.model;
       without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(k));
-      append(ripple_placebos(state_.robot, state_.log, state_.left_by(without), all[k].site));
+      // One that went is in the reference log alone.
+      const Rest rest = all[k].acts_in_log() ? Rest{state_.log, state_.left_by(without)}
+                                             : *state_.rest_of_reference(without);
+      append(ripple_placebos(state_.robot, rest.log, rest.left, all[k].site));
     }
     const std::size_t first_carrier = all.size();
     append(carriers(state_.robot, state_.result.model.effects));

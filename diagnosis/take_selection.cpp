@@ -33,6 +33,31 @@ void step_transformations(const Tally& tally, const Term& fixed, const Fit& fit,
   }
 }
 
+/// Each once: what cannot be told in either log. Of what came or went the other log may know all;
+/// and what has been found at another time hides itself, and is known.
+std::vector<std::string> ids_of_hidden(const BlockFits& fits, const Term& fixed,
+                                       const std::vector<Candidate>& list,
+                                       const Selection& selection) {
+  std::vector<std::string> ids;
+  for (const std::size_t k : selection.hidden) {
+    const Candidate& hidden = list[k];
+    const bool asked_of_both = std::ranges::any_of(list, [&](const Candidate& c) {
+      return same_law(c.effect, hidden.effect) && c.effect.when == When::always;
+    });
+    if (asked_of_both && hidden.effect.when != When::always) continue;
+    std::vector<Term> others = {fixed};
+    bool is_found = false;
+    for (const Verdict& v : selection.accepted) {
+      const bool same = same_law(list[v.candidate].effect, hidden.effect);
+      is_found = is_found || same;
+      if (!same) others.push_back(list[v.candidate].term);
+    }
+    if (is_found && !fits.promises(others, {hidden.term}).front().hidden()) continue;
+    if (std::ranges::find(ids, hidden.term.id) == ids.end()) ids.push_back(hidden.term.id);
+  }
+  return ids;
+}
+
 }  // namespace
 
 void take_selection(const BlockFits& fits, const Term& fixed, const std::vector<Candidate>& list,
@@ -63,11 +88,7 @@ void take_selection(const BlockFits& fits, const Term& fixed, const std::vector<
   result.hypotheses = static_cast<std::size_t>(
       std::count_if(list.begin(), list.end(), [](const Candidate& c) { return !c.only_rival; }));
   result.last_ranking = ranked(list, selection.last_ranking);
-  result.hidden.clear();
-  for (const std::size_t k : selection.hidden) {
-    const std::string& id = list[k].term.id;
-    if (result.hidden.empty() || result.hidden.back() != id) result.hidden.push_back(id);
-  }
+  result.hidden = ids_of_hidden(fits, fixed, list, selection);
   result.wrong_signs.clear();
   for (const Scored& s : selection.wrong_signs) {
     const Term& term = list[s.candidate].term;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "shapeid/diagnosis/in_parallel.hpp"
@@ -213,6 +214,22 @@ Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypothes
   }
   tally.width = column + 1;
   return tally;
+}
+
+Tally with_first(const Tally& tally, std::size_t hypotheses) {
+  Tally result = tally;
+  result.hypotheses.resize(hypotheses);
+  result.first.resize(hypotheses);
+  result.modulations.clear();
+  result.first_modulated.clear();
+  Eigen::Index columns = tally.inertial;
+  for (const AppliedEffect& h : result.hypotheses) columns += h.value.size();
+  std::vector<Eigen::Index> kept(static_cast<std::size_t>(columns));
+  std::iota(kept.begin(), kept.end(), Eigen::Index{0});
+  kept.push_back(tally.columns());
+  result.width = std::ssize(kept);
+  for (Block& block : result.blocks) block.sums = Eigen::MatrixXd(block.sums(kept, kept));
+  return result;
 }
 
 void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const RichModel& model,

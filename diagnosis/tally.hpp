@@ -89,4 +89,7 @@ void add_to_tally(Tally& tally, const Robot& robot, RowSource source, const Rich
 [[nodiscard]] Tally empty_tally(const Robot& robot, const std::vector<AppliedEffect>& hypotheses,
                                 const std::vector<Modulation>& modulations = {});
 
+/// The same sums with the columns of the first so many hypotheses alone, without modulations.
+[[nodiscard]] Tally with_first(const Tally& tally, std::size_t hypotheses);
+
 }  // namespace shapeid::diagnosis

@@ -150,6 +150,7 @@ void Verdicts::name_common_causes(const Chosen& accepted, const Eigen::VectorXd&
     if (!credibility_.within_limits(rival, beside, own)) continue;
     for (std::size_t i = 0; i < accepted.size(); ++i) {
       Chosen& named = verdicts[i].ambiguous;
+      if (contenders_.same_law(accepted[i], rival)) continue;  // other times are asked on their own
       if (!contenders_.is_among(accepted[i], beside) && !contenders_.is_among(rival, named)) {
         named.push_back(rival);
       }

@@ -64,13 +64,15 @@ std::optional<Plausibility::Span> Plausibility::Slope::add(double t, double posi
   if (follows) integral += 0.5 * (velocity + dq) * (t - time);
   std::optional<Span> ended;
   if (follows && in_span == span) {
-    ended = {position - start, integral};
+    ended = {position - start, integral, t - began};
+    spans.push_back(*ended);
     changes += ended->change * ended->change;
     integrals += ended->integral * ended->integral;
   }
   if (!follows || ended) {
     in_span = 0;
     start = position;
+    began = t;
     integral = 0.0;
   }
   ++in_span;
@@ -287,6 +289,27 @@ bool Plausibility::moves(int j) const {
   return moved_far(robot_.joint(j), range(plan_.q + j).width());
 }
 
+/// An offset of the velocity is no motion, and noise of single rows next to none over a span: it
+/// must be as fast, span by span, as goes far in a second, and go as far.
+bool Plausibility::moves_by_velocity(int j) const {
+  const std::vector<Span>& spans = slopes_[static_cast<std::size_t>(j)].spans;
+  double way = 0.0, seconds = 0.0;
+  for (const Span& s : spans) {
+    way += s.integral;
+    seconds += s.seconds;
+  }
+  const double offset = seconds > 0.0 ? way / seconds : 0.0;
+  double place = 0.0, squares = 0.0;
+  ValueRange places;
+  for (const Span& s : spans) {
+    const double moved = s.integral - offset * s.seconds;
+    squares += moved * moved / s.seconds;
+    places.add(place += moved);
+  }
+  return seconds > 0.0 && moved_far(robot_.joint(j), std::sqrt(squares / seconds)) &&
+         moved_far(robot_.joint(j), places.width());
+}
+
 double Plausibility::slope(int position, int velocity) const {
   return products_(position, velocity) / slopes_[static_cast<std::size_t>(position)].changes;
 }
@@ -358,9 +381,7 @@ void Plausibility::judge_frozen() const {
     any = any || moves(j);
     torque = torque || range(plan_.tau + j).width() > 0.0;
     const Range& tau = range(plan_.tau + j);
-    // By spans, for noise of a velocity sums up to little and an offset of it to no more.
-    const double moved = std::sqrt(slopes_[static_cast<std::size_t>(j)].integrals);
-    if (range(plan_.q + j).frozen() && moved_far(robot_.joint(j), moved)) refuse(plan_.q + j);
+    if (range(plan_.q + j).frozen() && moves_by_velocity(j)) refuse(plan_.q + j);
     // Zero is what a free joint has.
     if (moves(j) && tau.frozen() && tau.least != 0.0) refuse(plan_.tau + j);
   }

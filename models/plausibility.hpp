@@ -60,15 +60,16 @@ class Plausibility {
     void add(double value, int at);
     [[nodiscard]] bool frozen() const { return least == most; }
   };
-  /// Of a short span: the change of q, and the integral of dq.
+  /// Of a short span: the change of q, the integral of dq, and how long it is (s).
   struct Span {
-    double change = 0.0, integral = 0.0;
+    double change = 0.0, integral = 0.0, seconds = 0.0;
   };
   struct Slope {
     double changes = 0.0, integrals = 0.0;  ///< sums of squares over spans
+    std::vector<Span> spans;
     int in_span = 0;
-    double start = 0.0, integral = 0.0;  ///< of the present span
-    double time = 0.0, dq = 0.0;         ///< last row
+    double start = 0.0, began = 0.0, integral = 0.0;  ///< of the present span
+    double time = 0.0, dq = 0.0;                      ///< last row
     /// The span, if one ends here.
     std::optional<Span> add(double t, double position, double velocity, double longest_step);
   };
@@ -97,6 +98,7 @@ class Plausibility {
   [[nodiscard]] double correlation(int position, int velocity) const;
   void judge_gravity() const;
   [[nodiscard]] bool moves(int j) const;
+  [[nodiscard]] bool moves_by_velocity(int j) const;
   void judge_frozen() const;
   void judge_rate();
 

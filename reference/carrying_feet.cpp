@@ -66,15 +66,24 @@ void CarryingFeet::add(const Sample& sample) {
   if (sample.time - looked_at_ < (any_long ? closely : now_and_then)) return;
   looked_at_ = sample.time;
   const Eigen::VectorXd force = supporting_forces(*robot_, sample, Phi_);
-  for (Foot& foot : feet_) {
-    double on_foot = 0.0;
-    for (const std::size_t c : foot.contacts) on_foot += force[static_cast<Eigen::Index>(c)];
-    if (!foot.in_the_air) {
-      standing_.add(on_foot);
-    } else if (foot.now.seconds() > swing) {
-      foot.now.force.add(on_foot);
-    }
+  const Eigen::MatrixXd per_torque = support_per_torque(*robot_, sample);
+  for (const Foot& foot : feet_) {
+    if (foot.in_the_air) continue;
+    standing_.add(on(foot, force)[0]);
+    per_torque_.add(on(foot, per_torque).norm());
   }
+  for (Foot& foot : feet_) {
+    if (!foot.in_the_air || !(foot.now.seconds() > swing)) continue;
+    constexpr double straight = 2.0;
+    if (on(foot, per_torque).norm() > straight * per_torque_.value()) continue;
+    foot.now.force.add(on(foot, force)[0]);
+  }
+}
+
+Eigen::RowVectorXd CarryingFeet::on(const Foot& foot, const Eigen::MatrixXd& contacts) {
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(contacts.cols());
+  for (const std::size_t c : foot.contacts) sum += contacts.row(static_cast<Eigen::Index>(c));
+  return sum;
 }
 
 void CarryingFeet::judge() {

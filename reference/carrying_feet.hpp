@@ -13,7 +13,9 @@ namespace shapeid::reference {
 
 /// A foot that is declared in the air for longer than any swing, and whose leg's torques ask for as
 /// much of a force as those of feet that are declared to stand (supporting_forces(), by the given
-/// links; the base is in none of these rows), has a dead flag. Contacts of one link are one foot.
+/// links; the base is in none of these rows), has a dead flag. A leg that is so straight that a
+/// torque makes twice the force that it makes of those which stand says nothing: friction and an
+/// offset of its torque would look like a force. Contacts of one link are one foot.
 /// Sums alone are kept. The robot must outlive this.
 class CarryingFeet {
  public:
@@ -39,6 +41,8 @@ class CarryingFeet {
     Stretch now, strongest;
   };
 
+  /// Of a contact's row of forces, or of what torques make of these, the foot's.
+  [[nodiscard]] static Eigen::RowVectorXd on(const Foot& foot, const Eigen::MatrixXd& contacts);
   [[nodiscard]] static bool stands(const Foot& foot, const Sample& sample);
   static void land(Foot& foot);
   [[nodiscard]] std::string names(const Foot& foot) const;
@@ -46,7 +50,8 @@ class CarryingFeet {
   const Robot* robot_;
   Eigen::VectorXd Phi_;
   std::vector<Foot> feet_;
-  Mean standing_;  ///< N
+  Mean standing_;    ///< N
+  Mean per_torque_;  ///< of feet that stand: N that an N m, or N, at a joint makes
   bool begun_ = false;
   double last_ = 0.0, looked_at_ = 0.0;  ///< s
 };

@@ -7,25 +7,45 @@
 
 namespace shapeid::reference {
 
-Eigen::VectorXd supporting_forces(const Robot& robot, const Sample& sample,
-                                  const Eigen::VectorXd& Phi) {
+namespace {
+
+Sample with_all_contacts(const Robot& robot, const Sample& sample) {
   Sample all = sample;
   all.in_contact.assign(robot.contacts.size(), true);
-  const Eigen::MatrixXd J = contact_jacobian(robot, all);
-  const Eigen::VectorXd asked = regressor(robot, all) * Phi - applied_force(robot, all);
-  const Eigen::Index n = robot.joint_count();
-  const Eigen::MatrixXd Jt = J.rightCols(n).transpose();
-  const Eigen::VectorXd f =
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(Jt).solve(asked.tail(n));
+  return all;
+}
 
+/// J_joints^T, which takes contact forces to joints.
+Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> of_joints(const Robot& robot,
+                                                                  const Sample& all) {
+  const Eigen::MatrixXd J = contact_jacobian(robot, all);
+  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(
+      J.rightCols(robot.joint_count()).transpose());
+}
+
+/// Of forces and moments at all contacts (rows) what is along the specific force, a row a contact.
+Eigen::MatrixXd upward(const Robot& robot, const Sample& sample, const Eigen::MatrixXd& forces) {
   const Eigen::Vector3d up = sample.base_specific_force.normalized();
-  Eigen::VectorXd supporting(static_cast<Eigen::Index>(robot.contacts.size()));
+  Eigen::MatrixXd along(std::ssize(robot.contacts), forces.cols());
   Eigen::Index row = 0;
-  for (Eigen::Index c = 0; c < supporting.size(); ++c) {
-    supporting[c] = f.segment<3>(row).dot(up);
+  for (Eigen::Index c = 0; c < along.rows(); ++c) {
+    along.row(c) = up.transpose() * forces.middleRows<3>(row);
     row += force_numbers(robot.contacts[static_cast<std::size_t>(c)].kind);
   }
-  return supporting;
+  return along;
+}
+
+}  // namespace
+
+Eigen::VectorXd supporting_forces(const Robot& robot, const Sample& sample,
+                                  const Eigen::VectorXd& Phi) {
+  const Sample all = with_all_contacts(robot, sample);
+  const Eigen::VectorXd asked = regressor(robot, all) * Phi - applied_force(robot, all);
+  return upward(robot, sample, of_joints(robot, all).solve(asked.tail(robot.joint_count())));
+}
+
+Eigen::MatrixXd support_per_torque(const Robot& robot, const Sample& sample) {
+  return upward(robot, sample, of_joints(robot, with_all_contacts(robot, sample)).pseudoInverse());
 }
 
 std::vector<bool> detect_contacts(const Robot& robot, const Sample& sample,

@@ -17,6 +17,11 @@ namespace shapeid::reference {
 [[nodiscard]] Eigen::VectorXd supporting_forces(const Robot& robot, const Sample& sample,
                                                 const Eigen::VectorXd& Phi);
 
+/// Supporting forces as supporting_forces() has them by another torque: column j is what 1 N m (or
+/// N) less at joint j adds to each, contacts by joints. A leg that is nearly straight, or that
+/// pushes along its joint's axis, has large ones: a little friction there looks like a force.
+[[nodiscard]] Eigen::MatrixXd support_per_torque(const Robot& robot, const Sample& sample);
+
 /// Contacts of links on which the supporting forces of all contacts together exceed `share` of the
 /// robot's weight.
 [[nodiscard]] std::vector<bool> detect_contacts(const Robot& robot, const Sample& sample,

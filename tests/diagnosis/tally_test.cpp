@@ -53,5 +53,33 @@ TEST(Tally, ItsSumsAreTheSquaresThatPredictionsLeave) {
   EXPECT_LT(test::scaled(off, terms, left.residual.size()), test::few_hundred_eps);
 }
 
+/// Of the same log, as though the others had not been asked for.
+TEST(Tally, OfTheFirstHypothesesHasTheSumsOfThese) {
+  const Robot robot = test::arm();
+  const Recording log = test::record({});
+  const RichModel rigid{stacked_parameters(robot), {}};
+  TallyOptions options;
+  options.weight = Eigen::VectorXd::Ones(robot.dof());
+  options.block_seconds = log.duration() / 3.0;
+  const std::vector<AppliedEffect> two = {test::effect("external_force", 1, {0.0, 0.0, 0.0}),
+                                          test::effect("viscous_friction", 2, {0.0})};
+  std::vector<AppliedEffect> three = two;
+  three.push_back(test::effect("encoder_offset", 1, {0.0}));
+  Tally few = empty_tally(robot, two);
+  Tally all = empty_tally(robot, three, {{.hypothesis = 1, .signal = Signal::position}});
+  for (Tally* tally : {&few, &all}) {
+    add_to_tally(*tally, robot, ContactTreatment::ignore, rigid, log, options, false);
+  }
+  const Tally first = with_first(all, 2);
+  EXPECT_EQ(first.width, few.width);
+  EXPECT_EQ(first.first, few.first);
+  EXPECT_TRUE(first.modulations.empty() && first.first_modulated.empty());
+  ASSERT_EQ(first.blocks.size(), few.blocks.size());
+  for (std::size_t b = 0; b < few.blocks.size(); ++b) {
+    EXPECT_LT(test::scaled_difference(first.blocks[b].sums, few.blocks[b].sums, 1000),
+              test::few_hundred_eps);
+  }
+}
+
 }  // namespace
 }  // namespace shapeid::diagnosis

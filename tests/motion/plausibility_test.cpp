@@ -12,6 +12,7 @@
 #include "shapeid/models/error.hpp"
 #include "shapeid/tests/motion/example.hpp"
 #include "shapeid/tests/motion/message_of.hpp"
+#include "shapeid/tests/support/load_problem.hpp"
 #include "shapeid/tests/support/scratch_folder.hpp"
 
 namespace shapeid {
@@ -306,6 +307,31 @@ TEST(Plausibility, APositionThatStaysWhileItsVelocityMovesIsRefused) {
     s.dq[1] = 0.02 * std::sin(1e5 * s.time) + 0.01;
   };
   EXPECT_EQ(reception(stands, chain(3, Root::fixed)), "accepted");
+}
+
+/// The same joint for a minute and a half of slow logs: an offset sums up to radians there, and
+/// noise to tenths of one. What its drive does slowly is motion.
+TEST(Plausibility, AnOffsetAndNoiseOfVelocityAreNoMotionInAnyLog) {
+  const Robot robot = chain(3, Root::fixed);
+  const ScratchFolder scratch;
+  const auto path = scratch.path("x.csv");
+  for (const double rate : {50.0, 200.0, 500.0}) {
+    test::Draw draw(20261130);
+    const auto received = [&](double offset, double noise, double speed) {
+      write_log(path, robot, regular_times(0.0, rate, 4200), [&](double t) {
+        Sample s = smooth_motion(robot, t);
+        s.q[1] = 0.3;
+        s.dq[1] = offset + noise * draw.normal() + speed * std::sin(2.0 * t);
+        return s;
+      });
+      return message_of<InputError>([&] { static_cast<void>(read_motion(path, robot, {})); }, path);
+    };
+    EXPECT_EQ(received(0.1, 0.0, 0.0), "accepted") << rate;
+    EXPECT_EQ(received(0.0, 0.2, 0.0), "accepted") << rate;
+    EXPECT_EQ(received(0.1, 0.2, 0.0), "accepted") << rate;
+    EXPECT_NE(received(0.1, 0.1, 0.3).find("column q.j1: stays at 0.3 while"), std::string::npos)
+        << rate;
+  }
 }
 
 TEST(Plausibility, PassiveJointsAndWheelsPass) {

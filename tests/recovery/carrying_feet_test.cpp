@@ -2,6 +2,7 @@
 #include "shapeid/reference/carrying_feet.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/QR>
 
 #include <cmath>
 #include <cstddef>
@@ -10,7 +11,11 @@
 #include <vector>
 
 #include "shapeid/models/error.hpp"
+#include "shapeid/reference/contact.hpp"
+#include "shapeid/reference/contact_detection.hpp"
+#include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/recovery/quadruped.hpp"
+#include "shapeid/tests/support/scaled.hpp"
 
 namespace shapeid {
 namespace {
@@ -90,6 +95,72 @@ TEST(CarryingFeet, AreNotFoundElsewhere) {
   EXPECT_EQ(trot.said(held_up), "");
   reference::CarryingFeet none(trot.robot());
   EXPECT_NO_THROW(none.judge());
+}
+
+/// What the joints of the robot must do so that feet 1 to 3 carry it, as it stands with foot 0 up.
+Sample standing_on_three(const Robot& robot, double knee) {
+  const Eigen::Index n = robot.joint_count();
+  Sample s;
+  s.q = s.dq = s.ddq = s.tau = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index leg = 0; leg < n; leg += 3) s.q.segment<3>(leg) << 0.1, 0.8, -1.6;
+  s.q.head<3>() << 0.1, -0.5 * knee, knee;
+  s.base_specific_force = {0.3, -0.2, 9.8};
+  s.in_contact = {false, true, true, true};
+  const Eigen::MatrixXd J = reference::contact_jacobian(robot, s);
+  const Eigen::VectorXd need = reference::regressor(robot, s) * stacked_parameters(robot);
+  const Eigen::VectorXd f =
+      J.leftCols(6).transpose().completeOrthogonalDecomposition().solve(need.head(6));
+  s.tau = (need - J.transpose() * f).tail(n);
+  return s;
+}
+
+/// At the end of its range the knee takes half a newton metre of friction for a fifth of a foot's
+/// load, and beyond it a tenth for all. Bent as the others it is named for what it carries.
+TEST(CarryingFeet, AreNotLegsThatAreHeldUpStraight) {
+  const Robot robot = test::bundled_quadruped().robot;
+  const auto said = [&](const Sample& still) {
+    reference::CarryingFeet feet(robot);
+    Sample s = still;
+    for (int k = 0; k < 2000; ++k) {
+      s.time = 0.002 * k;
+      feet.add(s);
+    }
+    try {
+      feet.judge();
+    } catch (const Refusal& refusal) {
+      return std::string(refusal.what());
+    }
+    return std::string("accepted");
+  };
+  for (const double knee : {-0.1, -0.2, -0.4, -0.55}) {
+    for (const double friction : {0.0, 0.3, -0.3, 0.6, -0.6}) {
+      Sample s = standing_on_three(robot, knee);
+      s.tau[2] += friction;
+      EXPECT_EQ(said(s), "accepted") << knee << " " << friction;
+    }
+  }
+  Sample carries = standing_on_three(robot, -1.6);
+  EXPECT_EQ(said(carries), "accepted");
+  carries.in_contact = {true, false, true, true};
+  EXPECT_NE(said(carries).find("FL_foot is declared in the air"), std::string::npos);
+}
+
+/// A change of any torque changes the forces as the columns say: forces are linear in torques.
+TEST(CarryingFeet, HaveForcesThatFollowTorques) {
+  const Robot robot = test::bundled_quadruped().robot;
+  const Eigen::VectorXd Phi = stacked_parameters(robot);
+  const Sample s = standing_on_three(robot, -1.1);
+  const Eigen::VectorXd force = reference::supporting_forces(robot, s, Phi);
+  const Eigen::MatrixXd per_torque = reference::support_per_torque(robot, s);
+  ASSERT_EQ(per_torque.cols(), robot.joint_count());
+  for (Eigen::Index j = 0; j < per_torque.cols(); ++j) {
+    Sample less = s;
+    less.tau[j] -= 1.0;
+    const Eigen::VectorXd change = reference::supporting_forces(robot, less, Phi) - force;
+    EXPECT_LT(test::scaled((change - per_torque.col(j)).norm(), force.norm() + change.norm(), 12),
+              test::few_hundred_eps)
+        << j;
+  }
 }
 
 }  // namespace
