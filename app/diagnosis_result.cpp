@@ -126,6 +126,10 @@ json links_json(const DiagnosisRun& run, const Robot& robot) {
          errors_of_determined(run.unnoticed.error.segment<10>(at), determined)},
         {"unnoticed", std::vector<std::string>(run.unnoticed.effect.begin() + at,
                                                run.unnoticed.effect.begin() + at + 10)},
+        {"move_behind_slower_filter",
+         run.moves_behind_filter.size() > 0
+             ? errors_of_determined(run.moves_behind_filter.segment<10>(at), determined)
+             : json()},
         {"far_from_given", diagnosis::is_surely_far_from_given(robot, free_links, run.consistent,
                                                                run.unnoticed.error, i)},
         {"data_standard_error", numbers(data.standard_error.segment<10>(own))},

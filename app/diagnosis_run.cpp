@@ -401,6 +401,11 @@ void Diagnosis::find_bodies() {
   diagnosis::mark_faded(log_, run_.settings, run_.consistent, run_.loop);
   run_.unnoticed =
       diagnosis::unnoticed(robot, log_, reference(), run_.settings, run_.loop, run_.consistent);
+  run_.moves_behind_filter = noise_->moves(run_);
+  if (run_.moves_behind_filter.size() > 0) {
+    diagnosis::allow_for_filter(run_.moves_behind_filter, run_.settings.shapes.free_links,
+                                run_.unnoticed);
+  }
   run_.causes_alone =
       diagnosis::beside_causes_alone(robot, log_, reference(), run_.settings, run_.loop);
 }

@@ -60,7 +60,8 @@ struct DiagnosisRun {
   diagnosis::Series before, after;  ///< on the test motion
   MotionReport motion;
   std::vector<std::string> notes;
-  std::string robot_yaml{};  ///< that was read; may be empty
+  std::string robot_yaml{};               ///< that was read; may be empty
+  Eigen::VectorXd moves_behind_filter{};  ///< diagnosis::moves_behind(); empty if it was not asked
 };
 
 [[nodiscard]] DiagnosisRun run_diagnosis(const RobotInputs& robot, const DiagnoseOptions& options);

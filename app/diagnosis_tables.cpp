@@ -11,6 +11,7 @@
 #include "shapeid/app/result.hpp"
 #include "shapeid/diagnosis/body_sums.hpp"
 #include "shapeid/diagnosis/hypotheses.hpp"
+#include "shapeid/diagnosis/motion_noise.hpp"
 #include "shapeid/models/student.hpp"
 #include "shapeid/models/version.hpp"
 
@@ -162,6 +163,10 @@ Table parameters_table(const DiagnosisRun& run, const Robot& robot, std::size_t 
   const int link = run.settings.shapes.free_links[sought];
   Table table = {{"parameter", "given", "found", "95 % interval", "with what was not noticed",
                   "determined by"}};
+  const bool behind_slower = run.moves_behind_filter.size() > 0;
+  if (behind_slower) {
+    table[0].push_back(fmt::format("behind {:.3g} Hz", diagnosis::slower_by * run.settings.cutoff));
+  }
   if (run.causes_alone) table[0].push_back("beside causes alone");
   const Link& given = robot.links[static_cast<std::size_t>(link)];
   const bool is_given = given.inertia.mass() > 0.0;
@@ -184,10 +189,9 @@ Table parameters_table(const DiagnosisRun& run, const Robot& robot, std::size_t 
                          std::clamp(digits, 0, 12));
     };
     const std::string& effect = run.unnoticed.effect[static_cast<std::size_t>(at)];
-    const std::string wider = !determined ? "-"
-                              : effect.empty()
-                                  ? "the same"
-                                  : interval(run.unnoticed.error[at]) + " (" + effect + ")";
+    std::string wider = interval(run.unnoticed.error[at]);
+    if (determined && !effect.empty()) wider += " (" + effect + ")";
+    if (determined && effect.empty() && !behind_slower) wider = "the same";
     table.push_back({names[static_cast<std::size_t>(p)],
                      is_given ? short_number(known(given.inertia.values[p])) : "-",
                      short_number(value), interval(run.consistent.Phi_error[at]), wider,
@@ -195,6 +199,10 @@ Table parameters_table(const DiagnosisRun& run, const Robot& robot, std::size_t 
                      : hangs    ? "not: hangs on descriptions"
                      : is_given ? "given inertia and bodies"
                                 : "bodies and expected mass"});
+    if (behind_slower) {
+      table.back().push_back(determined ? short_number(known(value + run.moves_behind_filter[at]))
+                                        : "-");
+    }
     if (run.causes_alone) {
       table.back().push_back(short_number(known(run.causes_alone->model.Phi[at])));
     }

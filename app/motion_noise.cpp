@@ -82,6 +82,16 @@ void NoiseOfMotion::take_back_names(const diagnosis::Recording& log,
   }
 }
 
+Eigen::VectorXd NoiseOfMotion::moves(const DiagnosisRun& run) {
+  const bool is_asked = !run.settings.shapes.free_links.empty();
+  if (!is_asked || log_inputs_.inputs.exact || !(log_inputs_.inputs.cutoff > 0.0)) return {};
+  try {
+    return diagnosis::moves_behind(log_inputs_.robot.robot, smoother(run), run.loop);
+  } catch (const Refusal&) {
+    return {};
+  }
+}
+
 void NoiseOfMotion::question_curves(const diagnosis::Recording& log,
                                     const diagnosis::Series& remaining, DiagnosisRun& run) {
   const Robot& robot = log_inputs_.robot.robot;

@@ -26,6 +26,9 @@ class NoiseOfMotion {
   /// were taken back are silent.
   void question_curves(const diagnosis::Recording& log, const diagnosis::Series& remaining,
                        DiagnosisRun& run);
+  /// diagnosis::moves_behind(); empty where no link is sought, there is no filter, or a slower one
+  /// leaves too little.
+  [[nodiscard]] Eigen::VectorXd moves(const DiagnosisRun& run);
   [[nodiscard]] const std::vector<std::string>& silent() const { return silent_; }
   /// Whether most of what remains of a joint is noise of motion, as far as was asked.
   [[nodiscard]] bool is_noisy(const std::string& joint) const;

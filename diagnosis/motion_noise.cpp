@@ -125,4 +125,11 @@ std::vector<Structure> unexplained_behind(const Robot& robot, const FilteredLogs
   return unexplained(robot, state.log, state.left_by(state.result.model), smoother.settings.stride);
 }
 
+Eigen::VectorXd moves_behind(const Robot& robot, const FilteredLogs& smoother,
+                             const LoopResult& loop) {
+  LoopState state = behind(robot, smoother, loop);
+  refit_numbers(state);
+  return state.result.model.Phi - loop.model.Phi;
+}
+
 }  // namespace shapeid::diagnosis

@@ -51,4 +51,10 @@ std::vector<Stranger> take_back_noise(const Robot& robot, const FilteredLogs& sm
                                                         const FilteredLogs& smoother,
                                                         const LoopResult& loop);
 
+/// 10 per link: how far the loop's inertial numbers move when all its numbers are fitted anew
+/// behind the slower filter. Noise of motion, which it takes away, has spoilt them, and what a
+/// filter makes of products is corrected to first order. Throws likewise.
+[[nodiscard]] Eigen::VectorXd moves_behind(const Robot& robot, const FilteredLogs& smoother,
+                                           const LoopResult& loop);
+
 }  // namespace shapeid::diagnosis

@@ -86,6 +86,16 @@ Unnoticed unnoticed(const Robot& robot, const Recording& log, const Recording* r
   return result;
 }
 
+void allow_for_filter(const Eigen::VectorXd& moves, const std::vector<int>& free_links,
+                      Unnoticed& unnoticed) {
+  for (const int link : free_links) {
+    for (Eigen::Index number = Eigen::Index{10} * link; number < Eigen::Index{10} * link + 10;
+         ++number) {
+      unnoticed.error[number] = std::hypot(unnoticed.error[number], moves[number]);
+    }
+  }
+}
+
 bool is_far_from_given(const Robot& robot, const Consistent& consistent,
                        const Eigen::VectorXd& error, int link) {
   const double given = robot.links[static_cast<std::size_t>(link)].inertia.mass();

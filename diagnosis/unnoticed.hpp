@@ -10,7 +10,8 @@ namespace shapeid::diagnosis {
 
 struct Unnoticed {
   /// 10 per link: root of the mean square error that a number has if the effect that moves it most
-  /// is there, as large as the data allow; never below its standard error. Zero for known links.
+  /// is there, as large as the data allow, and of what a slower filter moves it by, if it was
+  /// asked; never below its standard error. Zero for known links.
   Eigen::VectorXd error;
   std::vector<std::string> effect;  ///< 10 per link: that effect; empty where none moves the number
 };
@@ -26,6 +27,12 @@ struct Unnoticed {
 [[nodiscard]] Unnoticed unnoticed(const Robot& robot, const Recording& log,
                                   const Recording* reference, const LoopSettings& settings,
                                   const LoopResult& loop, const Consistent& consistent);
+
+/// What noise of motion and the filter have done to a number scatters no more than they do: of that
+/// the scatter between tenths of a log says nothing. `moves`: moves_behind() of the model, for the
+/// numbers of the sought links.
+void allow_for_filter(const Eigen::VectorXd& moves, const std::vector<int>& free_links,
+                      Unnoticed& unnoticed);
 
 /// Whether the link's mass is below half or above twice the given one, by more than three of
 /// `error` (10 per link; Unnoticed's, if there is one). One of the two is wrong then, and the log

@@ -2,9 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "shapeid/tests/app/command.hpp"
@@ -76,13 +75,21 @@ TEST(StillJoint, OfNumbersThatAreNotDeterminedNoErrorIsSaid) {
     for (std::size_t p = 0; p < 10; ++p) {
       const bool is_determined = link.at("determined").at(p).get<bool>();
       ++(is_determined ? determined : held);
-      for (const char* error : {"standard_error", "error_if_unnoticed"}) {
+      for (const char* error :
+           {"standard_error", "error_if_unnoticed", "move_behind_slower_filter"}) {
         EXPECT_EQ(link.at(error).at(p).is_null(), !is_determined) << error << " " << p;
       }
+      if (!is_determined) continue;
+      const double move = link.at("move_behind_slower_filter").at(p).get<double>();
+      EXPECT_GE(link.at("error_if_unnoticed").at(p).get<double>(), std::abs(move)) << p;
     }
   }
   EXPECT_GT(determined, 0U);
   EXPECT_GT(held, 0U);
+  const auto unfiltered = diagnosed("--robot still.urdf --log still.csv --cutoff 0");
+  for (const auto& link : unfiltered.at("links")) {
+    EXPECT_TRUE(link.at("move_behind_slower_filter").is_null());
+  }
 }
 
 TEST(StillJoint, HasNoErrorInADiagnosis) {

@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <string>
 #include <tuple>
 #include <vector>
 
+#include "shapeid/diagnosis/consistent.hpp"
+#include "shapeid/diagnosis/unnoticed.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/segment_filter.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
@@ -184,6 +188,48 @@ TEST(NoiseOfMotion, CurvesAreAskedBesideRefittedNumbers) {
   const auto found = structures(warped, loop);
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].joint, "joint2");
+}
+
+/// The arm's log with noise of its accelerations, of so many rad/s^2.
+Recording shaken(double size) {
+  return record({{}, 20.0, 0.02, 3}, [size](std::vector<Sample>& samples) {
+    std::mt19937 generator(7);
+    std::normal_distribution<double> noise;
+    for (Sample& s : samples) {
+      for (double& ddq : s.ddq) ddq += size * noise(generator);
+    }
+  });
+}
+
+/// It makes inertias too small, and a log with less of it says by how much: what a number moves by
+/// goes towards the truth, for all that the noise has moved by more than its error.
+TEST(NoiseOfMotion, WhatItDoesToInertiasShowsBehindTheSlowerFilter) {
+  const LoopSettings settings = test::arm_settings();
+  const Recording log = shaken(1.0), smoother = shaken(0.1);
+  const LoopResult loop = loop_of(log);
+  const Eigen::VectorXd moves = moves_behind(arm(), {smoother, nullptr, settings}, loop);
+  EXPECT_EQ(moves_behind(arm(), {log, nullptr, settings}, loop).size(), moves.size());
+  const Eigen::VectorXd off = loop.model.Phi - stacked_parameters(arm());
+  const Consistent model = make_consistent(arm(), log, nullptr, settings, loop);
+  int biased = 0;
+  for (Eigen::Index p = 10; p < off.size(); ++p) {
+    constexpr double surely = 6.0;
+    if (!model.data.determined[static_cast<std::size_t>(p - 10)]) continue;
+    if (!(std::abs(off[p]) > surely * model.Phi_error[p])) continue;
+    ++biased;
+    EXPECT_NEAR(moves[p] / -off[p], 1.0, 0.3) << p;
+  }
+  EXPECT_GT(biased, 1);
+  EXPECT_EQ(moves.head(10), Eigen::VectorXd::Zero(10)) << "of a link that is not sought";
+}
+
+/// Beside what an effect may have done; nothing of links that are not sought.
+TEST(NoiseOfMotion, IsInTheErrorOfWhatIsSought) {
+  Unnoticed unnoticed{Eigen::VectorXd::Constant(30, 3.0), std::vector<std::string>(30)};
+  allow_for_filter(Eigen::VectorXd::Constant(30, -4.0), {1}, unnoticed);
+  EXPECT_EQ(unnoticed.error.head(10), Eigen::VectorXd::Constant(10, 3.0));
+  EXPECT_EQ(unnoticed.error.segment(10, 10), Eigen::VectorXd::Constant(10, 5.0));
+  EXPECT_EQ(unnoticed.error.tail(10), Eigen::VectorXd::Constant(10, 3.0));
 }
 
 }  // namespace

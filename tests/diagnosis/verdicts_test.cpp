@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -178,6 +180,68 @@ TEST(Verdicts, SayWhetherTheLogsTellWhatCameSince) {
       for (const Verdict& v : verdicts(log, {came, always})) EXPECT_TRUE(v.other_times.empty());
     }
   }
+}
+
+/// At another time it would have this column of the finding's, this sign allowed or not, and no
+/// more than this number; of a transformation what it is already counts.
+struct OtherTime {
+  double factor = 1.0;
+  bool nonnegative = false;
+  double limit = std::numeric_limits<double>::infinity();
+  std::optional<double> applied = {};
+};
+
+bool may_be(const OtherTime& time) {
+  Planted log(40);
+  Effect change = law("change");
+  change.parameters[0].nonnegative = time.nonnegative;
+  change.parameters[0].limit = time.limit;
+  if (time.applied) {
+    change.transform.rows = [](const Robot&, const Sample&, const Eigen::Vector3d&, int,
+                               const Eigen::VectorXd&, Rows&) {};
+  }
+  const Eigen::MatrixXd column = log.normal(1);
+  const std::size_t came = log.add(change, column);
+  log.candidates()[came].effect.when = When::since_reference;
+  const std::size_t always = log.add(change, time.factor * column);
+  log.candidates()[always].effect.effect = log.candidates()[came].effect.effect;
+  log.candidates()[always].effect.value = number(time.applied.value_or(0.0));
+  log.plant(came, number(Planted::size_of(25.0)));
+  log.add_noise();
+  return verdicts(log, {came})[0].other_times == std::vector{When::always};
+}
+
+/// With the finding's size of 0.8 it may have been so at another time only with a number that is
+/// one.
+TEST(Verdicts, SayOtherTimesOnlyIfTheirNumbersCouldBe) {
+  EXPECT_NEAR(Planted::size_of(25.0), 0.8, 0.1);
+  EXPECT_TRUE(may_be({.nonnegative = true}));
+  EXPECT_FALSE(may_be({.factor = -1.0, .nonnegative = true}));
+  EXPECT_TRUE(may_be({.factor = -1.0}));
+  EXPECT_FALSE(may_be({.factor = 0.01, .limit = 10.0}));
+  EXPECT_TRUE(may_be({.factor = 0.1, .limit = 10.0}));
+  EXPECT_TRUE(may_be({.limit = 10.0, .applied = 9.0}));
+  EXPECT_FALSE(may_be({.limit = 10.0, .applied = 9.5}));
+}
+
+/// What was there always may be two that came and went, one of them the same law: of that it is
+/// another time, and a common cause of the other alone.
+TEST(Verdicts, DoNotNameALawBesideItselfAsACommonCause) {
+  Planted log(7);
+  const Eigen::VectorXd always = log.normal(1);
+  Eigen::VectorXd late = always, early = always;
+  late.head(Planted::rows / 2).setZero();
+  early.tail(Planted::rows / 2).setZero();
+  const std::size_t since = log.add(law("friction"), late);
+  log.candidates()[since].effect.when = When::since_reference;
+  const std::size_t other = log.add(law("other"), early);
+  const std::size_t whole = log.add(law("friction"), always);
+  log.candidates()[whole].effect.effect = log.candidates()[since].effect.effect;
+  for (const std::size_t k : {since, other}) log.plant(k, number(Planted::size_of(30.0)));
+  log.add_noise();
+  const std::vector<Verdict> said = verdicts(log, {since, other});
+  EXPECT_EQ(said[0].ambiguous, Chosen{});
+  EXPECT_EQ(said[1].ambiguous, Chosen{whole});
 }
 
 /// One that could stand in the place of one alone is no common cause: a spring whose offset is all
