@@ -70,7 +70,8 @@ void BatchOptions::add_to(CLI::App& verb) {
   inputs.add_row_cutoff_to(verb);
   add_solver_options(verb, settings);
   sought.add_to(verb);
-  verb.add_option("--min-mass", least_mass, "kg: a link found lighter keeps its given inertia")
+  verb.add_option("--min-mass", least_mass,
+                  "kg: a link found lighter is written with this mass, its given inertia scaled")
       ->check(zero_or_above())
       ->capture_default_str();
   verb.add_option("--threads", threads, "logs that are read at once, by each process")

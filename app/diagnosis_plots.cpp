@@ -127,6 +127,13 @@ std::vector<Eigen::Index> with_breaks(const DiagnosisRun& run, Eigen::Index from
   return places;
 }
 
+/// Whether any of these is: gnuplot draws no panel of which it knows no point.
+bool any_counted(const diagnosis::Series& series, Eigen::Index row,
+                 const std::vector<Eigen::Index>& places) {
+  return std::ranges::any_of(places,
+                             [&](Eigen::Index i) { return i >= 0 && series.counted(row, i); });
+}
+
 /// What is in no error is not drawn as one.
 double counted_residual(const diagnosis::Series& series, Eigen::Index row, Eigen::Index i) {
   return series.counted(row, i) ? series.residual(row, i)
@@ -142,6 +149,7 @@ std::string torque_picture(const DiagnosisRun& run, const Robot& robot, int join
   const auto [from, end] = liveliest(run, joint, shown);
   const double start = sample_at(run, 0).time;
   const std::vector<Eigen::Index> places = with_breaks(run, from, end);
+  if (!any_counted(run.after, row, places)) return {};
   std::string script =
       canvas(plot_width, height) + data_rows("d", std::ssize(places), [&](Eigen::Index k) {
         const Eigen::Index i = places[static_cast<std::size_t>(k)];
@@ -173,6 +181,9 @@ std::string scatter_picture(const DiagnosisRun& run, const Robot& robot, int joi
   constexpr Eigen::Index most = 400;  // points a panel: more hide each other
   const Eigen::Index stride = std::max<Eigen::Index>(1, run.after.residual.cols() / most);
   const Eigen::Index count = run.after.residual.cols() / stride;
+  std::vector<Eigen::Index> places;
+  for (Eigen::Index i = 0; i < count; ++i) places.push_back(i * stride);
+  if (!any_counted(run.after, row, places)) return {};
   const double start = sample_at(run, 0).time;
   constexpr int height = 250, panels = 4;
   constexpr double between = 28.0;  // pixels

@@ -12,10 +12,12 @@ namespace shapeid::app {
 [[nodiscard]] std::string errors_picture(const DiagnosisRun& run, const Robot& robot);
 
 /// Logged torque with both predictions, and both residuals below, over the seconds of the test
-/// motion in which the joint moves most.
+/// motion in which the joint moves most. Empty if it stands still there, as friction at rest holds
+/// any torque.
 [[nodiscard]] std::string torque_picture(const DiagnosisRun& run, const Robot& robot, int joint);
 
-/// What is left after, over the joint's velocity, position, predicted torque, and time.
+/// What is left after, over the joint's velocity, position, predicted torque, and time. Empty
+/// likewise.
 [[nodiscard]] std::string scatter_picture(const DiagnosisRun& run, const Robot& robot, int joint);
 
 /// Autocorrelation of the residual before and after, with the band of white noise, every joint.

@@ -157,13 +157,21 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
   for (int j = 0; j < robot.joint_count(); ++j) {
     page.heading("Joint " + robot.joint(j).name);
     const std::string& name = robot.joint(j).name;
+    const std::string torques = torque_picture(run, robot, j);
+    const std::string scatter = scatter_picture(run, robot, j);
+    if (torques.empty() || scatter.empty()) {
+      page.paragraph(
+          "It stands still in the test, and friction at rest holds any torque: it has no "
+          "residual to be shown.");
+      continue;
+    }
     page.picture(
-        torque_picture(run, robot, j),
+        torques,
         fmt::format("{}, test motion: logged{} and predicted torque, and their difference. "
                     "Time since the first sample of the test, several logs one after the "
                     "other. {}",
                     name, filtered ? " (filtered)" : "", beyond_contacts(run, robot)));
-    page.picture(scatter_picture(run, robot, j),
+    page.picture(scatter,
                  name + ": residual before (orange) and after (blue); rest does not count");
   }
   page.heading("Autocorrelation of the residual");
@@ -174,7 +182,8 @@ std::string diagnosis_report(const DiagnosisRun& run, const Robot& robot,
   page.paragraph(
       "The 95 % interval takes for granted that nothing acts but what was found. With what was not "
       "noticed: if the effect that is named acts, as large as this log allows without its being "
-      "found.");
+      "found, and with what the number changes by behind a slower filter (noise of motion, and the "
+      "filter itself).");
   if (run.causes_alone) {
     page.paragraph(
         "Beside causes alone: fitted again without the effects whose name does not stand. A link "

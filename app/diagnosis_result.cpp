@@ -479,10 +479,15 @@ std::string diagnosed_urdf(DiagnosisRun& run, const Robot& robot, const std::str
     const InertialParameters inertia{run.consistent.model.Phi.segment<10>(Eigen::Index{10} * link)};
     const std::string& name = robot.links[static_cast<std::size_t>(link)].name;
     if (!(inertia.mass() > 0.0)) {
-      run.notes.push_back(
-          fmt::format("link {} is undetermined: it was left without mass and keeps "
-                      "the given inertia in identified.urdf",
-                      name));
+      const auto lightest =
+          lightest_written(robot.links[static_cast<std::size_t>(link)].inertia, 0.0);
+      if (lightest) written.push_back({link, *lightest});
+      run.notes.push_back(fmt::format(
+          "link {} was left without mass: in identified.urdf it {}", name,
+          lightest
+              ? fmt::format("has {:g} kg, a thousandth of the given, because readers want some",
+                            lightest->mass())
+              : "keeps the given inertia"));
     } else if (const Violation why = why_impossible(inertia)) {
       run.notes.push_back(fmt::format("link {} keeps the given inertia: {}", name, *why));
     } else {

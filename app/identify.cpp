@@ -99,7 +99,7 @@ void add_identify(CLI::App& app) {
   verb->add_option("--effects", options->run.effects,
                    "effects.yaml of diagnose: friction and the like, taken as known");
   verb->add_option("--min-mass", options->run.least_mass,
-                   "kg: a link found lighter keeps its given inertia")
+                   "kg: a link found lighter is written with this mass, its given inertia scaled")
       ->check(zero_or_above())
       ->capture_default_str();
   add_delivery_options(*verb, options->delivery);

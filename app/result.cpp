@@ -203,23 +203,42 @@ void check_some_mass(const Result& result, double expected_mass) {
                                        causes_of_no_mass));
 }
 
+std::optional<InertialParameters> lightest_written(const InertialParameters& given,
+                                                   double least_mass) {
+  constexpr double share = 1e-3;  // of the given mass: no residual shows it
+  const double mass = std::max(least_mass, share * given.mass());
+  if (!(given.mass() > mass)) return {};
+  return InertialParameters{(mass / given.mass()) * given.values};
+}
+
 void choose_written_links(Result& result, const Robot& robot, double least_mass) {
-  for (const int index : result.found.run.model.free_links) {
+  for (std::size_t i = 0; i < result.found.run.model.free_links.size(); ++i) {
+    const int index = result.found.run.model.free_links[i];
     const InertialParameters inertia{result.found.Phi.segment<10>(Eigen::Index{10} * index)};
     const std::string& name = link_at(robot, index).name;
     const double given = link_at(robot, index).inertia.mass();
     const bool carries_a_load = result.sought.known[Eigen::Index{10} * index] > 0.0;
-    if (!carries_a_load && given > 0.0 && inertia.mass() > far_from_given * given) {
+    // (What the data do not determine is the shapes' or a neighbour's.)
+    const bool is_known = result.found.data.determined.at(10 * i);
+    if (is_known && !carries_a_load && given > 0.0 && inertia.mass() > far_from_given * given) {
       result.notes.push_back(
-          fmt::format("link {} was found with {:.3g} kg, given {:.3g}: some effect that is not a "
-                      "rigid body may "
-                      "hide in it (friction, for a link that turns about a vertical axis)",
+          fmt::format("link {} was found with {:.3g} kg, given {:.3g}: either that is wrong, or "
+                      "some effect that is not a rigid body hides in it (friction, for a link that "
+                      "turns about a vertical axis)",
                       name, inertia.mass(), given));
     }
     if (!(inertia.mass() > least_mass)) {
-      result.notes.push_back(
-          fmt::format("link {} keeps the given inertia: it was left with {:g} kg (limit {:g})",
-                      name, inertia.mass(), least_mass));
+      const std::string left =
+          fmt::format("it was left with {:g} kg (limit {:g})", inertia.mass(), least_mass);
+      const auto lightest = lightest_written(link_at(robot, index).inertia, least_mass);
+      if (lightest) {
+        result.notes.push_back(
+            fmt::format("link {} is written with {:g} kg, its given inertia scaled: {}", name,
+                        lightest->mass(), left));
+        result.written.push_back({index, *lightest});
+      } else {
+        result.notes.push_back(fmt::format("link {} keeps the given inertia: {}", name, left));
+      }
     } else if (const Violation why = why_impossible(inertia)) {
       result.notes.push_back(fmt::format(
           "link {} keeps the given inertia: what was found cannot be written ({})", name, *why));

@@ -47,8 +47,15 @@ struct Result {
 /// Throws Refusal ("no-mass") if next to nothing of what was expected (kg) was found.
 void check_some_mass(const Result& result, double expected_mass);
 
-/// Which free links get a new inertia: those with more than `least_mass` (kg) that a URDF reader,
-/// ours included, accepts. Adds a note for each link that keeps the given one.
+/// What a URDF says of a link that was found without mass, or with less than `least_mass` (kg):
+/// readers want some. With the given one's it would be another model, for its neighbours have taken
+/// that over. As the given one in all else, of that mass or, if it is more, a thousandth of the
+/// given one's; none if that is no less than what is given.
+[[nodiscard]] std::optional<InertialParameters> lightest_written(const InertialParameters& given,
+                                                                 double least_mass);
+
+/// Which free links get a new inertia: those of which a URDF reader, ours included, accepts what
+/// was found, or lightest_written(). Adds a note for each that has not what was found.
 void choose_written_links(Result& result, const Robot& robot, double least_mass);
 
 /// `floor`: of infinitely many divisions, proved; empty: none was.

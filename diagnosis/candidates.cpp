@@ -176,6 +176,11 @@ double periods_told_apart(const Recording& log, const AppliedEffect& effect) {
   return std::max(1.0, (N.upper - N.lower) * range_of(log, effect.site) / pi);
 }
 
+bool is_ripple_at_rest(const Recording& log, const AppliedEffect& effect) {
+  constexpr double hardly = 0.5;  // rad, of phase
+  return is_ripple(effect) && effect.shape[0] * range_of(log, effect.site) < hardly;
+}
+
 bool is_long_ripple(const Recording& log, const AppliedEffect& effect) {
   return is_ripple(effect) && effect.shape[0] * range_of(log, effect.site) < 4.0 * pi;
 }

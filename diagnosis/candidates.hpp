@@ -27,6 +27,9 @@ namespace shapeid::diagnosis {
 [[nodiscard]] bool is_ripple(const AppliedEffect& effect);
 /// How many periods of a ripple at its joint the log tells apart; 1 for what is no ripple.
 [[nodiscard]] double periods_told_apart(const Recording& log, const AppliedEffect& effect);
+/// Whether it is a ripple of which the joint goes through hardly a tenth of a period, as noise of
+/// an encoder does where nothing moves: there it is what that noise makes of gravity.
+[[nodiscard]] bool is_ripple_at_rest(const Recording& log, const AppliedEffect& effect);
 /// Whether it is a ripple of which the joint goes through less than two periods.
 [[nodiscard]] bool is_long_ripple(const Recording& log, const AppliedEffect& effect);
 

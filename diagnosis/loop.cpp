@@ -202,10 +202,17 @@ class Loop {
     rule.transformations = round_ > 0;
     rule.excluded = [this](const AppliedEffect& h) {
       return state_.is_applied_transformation(h) || is_banned(h) ||
-             (moments_describe_ > 1 && h.begins());
+             (moments_describe_ > 1 && h.begins()) || rests(h);
     };
     rule.choices = [this](const AppliedEffect& h) { return periods_told_apart(state_.log, h); };
     return candidates(state_.robot, fits, rule);
+  }
+
+  /// Whether it is a ripple of a joint that moves in none of the logs in which it acts.
+  [[nodiscard]] bool rests(const AppliedEffect& h) const {
+    const auto& reference = state_.reference;
+    return (!h.acts_in_log() || is_ripple_at_rest(state_.log, h)) &&
+           (!h.acts_in_reference() || !reference || is_ripple_at_rest(*reference, h));
   }
 
   void screen() {

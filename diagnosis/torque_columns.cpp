@@ -87,8 +87,9 @@ void check_scale(const Robot& robot, const Products& sums) {
     throw Refusal(
         "torque-scale",
         fmt::format("the logged torque follows the given model at {} joint{}, but is {:.2g} times "
-                    "as large: another unit than N m, a current or the motor's torque; declare it "
-                    "in the mapping (scale, or torque: kind, factor)",
+                    "as large: another unit than N m, a current or the motor's torque (declare it "
+                    "in the mapping: scale, or torque: kind, factor), or given masses that "
+                    "are as far off (give about right ones)",
                     telling, telling == 1 ? "" : "s", std::exp(typical / telling)));
   }
 }

@@ -369,6 +369,18 @@ void Plausibility::judge_gravity() const {
                    fmt::format("the accelerometer's mean magnitude is {:.3g} m/s^2", mean), right);
 }
 
+/// By another axis of the gyro, or by blows from more than one side. A base that lies still, or
+/// goes straight up, turns by less than a coarse gyro shows, and a simulated one not at all.
+bool Plausibility::base_turns() const {
+  constexpr double turns = 0.1, thrown = 1.0;  // rad/s, m/s^2
+  int sides = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (range(plan_.gyro + axis).width() > turns) return true;
+    if (range(plan_.accel + axis).width() > thrown) ++sides;
+  }
+  return sides > 1;
+}
+
 void Plausibility::judge_frozen() const {
   if (rows_ < enough_rows) return;
   const auto refuse = [&](int channel) {
@@ -392,7 +404,9 @@ void Plausibility::judge_frozen() const {
   for (const int imu : {plan_.gyro, plan_.accel}) {
     for (int axis = 0; any && plan_.floating() && axis < 3; ++axis) {
       const Range& reading = range(imu + axis);
-      if (reading.frozen() && !(options_.exact && reading.least == 0.0)) refuse(imu + axis);
+      const bool may_rest = imu == plan_.gyro && !base_turns();
+      if (!reading.frozen() || may_rest) continue;
+      if (!(options_.exact && reading.least == 0.0)) refuse(imu + axis);
     }
   }
 }

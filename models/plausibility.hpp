@@ -99,6 +99,7 @@ class Plausibility {
   void judge_gravity() const;
   [[nodiscard]] bool moves(int j) const;
   [[nodiscard]] bool moves_by_velocity(int j) const;
+  [[nodiscard]] bool base_turns() const;
   void judge_frozen() const;
   void judge_rate();
 

@@ -40,7 +40,7 @@ void CarryingFeet::land(Foot& foot) {
   foot.in_the_air = false;
   const Stretch& now = foot.now;
   if (now.seconds() < dead || now.force.count < enough) return;
-  if (now.force.value() > foot.strongest.force.value()) foot.strongest = now;
+  if (now.least() > foot.strongest.least()) foot.strongest = now;
 }
 
 void CarryingFeet::add(const Sample& sample) {
@@ -58,7 +58,7 @@ void CarryingFeet::add(const Sample& sample) {
       if (foot.in_the_air) land(foot);
       continue;
     }
-    if (!foot.in_the_air) foot.now = {sample.time, sample.time, {}};
+    if (!foot.in_the_air) foot.now = {sample.time, sample.time, {}, {}};
     foot.in_the_air = true;
     foot.now.end = sample.time;
     any_long = any_long || foot.now.seconds() > swing;
@@ -66,6 +66,8 @@ void CarryingFeet::add(const Sample& sample) {
   if (sample.time - looked_at_ < (any_long ? closely : now_and_then)) return;
   looked_at_ = sample.time;
   const Eigen::VectorXd force = supporting_forces(*robot_, sample, Phi_);
+  const Eigen::VectorXd of_torques =
+      supporting_forces(*robot_, sample, Eigen::VectorXd::Zero(Phi_.size()));
   const Eigen::MatrixXd per_torque = support_per_torque(*robot_, sample);
   for (const Foot& foot : feet_) {
     if (foot.in_the_air) continue;
@@ -77,6 +79,7 @@ void CarryingFeet::add(const Sample& sample) {
     constexpr double straight = 2.0;
     if (on(foot, per_torque).norm() > straight * per_torque_.value()) continue;
     foot.now.force.add(on(foot, force)[0]);
+    foot.now.of_torques.add(on(foot, of_torques)[0]);
   }
 }
 
@@ -93,13 +96,14 @@ void CarryingFeet::judge() {
   constexpr double carries = 0.2;
   if (standing_.count < enough || !(standing_.value() > 0.0)) return;
   for (const Foot& foot : feet_) {
-    const double share = foot.strongest.force.value() / standing_.value();
+    const double share = foot.strongest.least() / standing_.value();
     if (!(share > carries)) continue;
     throw Refusal(
         "contact-labels",
         fmt::format("{} is declared in the air for {:.2g} s from {:.6g} s on, and by the torques "
                     "of its leg carries {:.0f} % of what feet do that are declared to stand: a "
-                    "flag that is dead; mend it, or leave these rows out",
+                    "flag that is dead (mend it, or leave these rows out), or given masses of the "
+                    "leg that are far off",
                     names(foot), foot.strongest.seconds(), foot.strongest.begin, 1e2 * share));
   }
 }

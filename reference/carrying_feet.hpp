@@ -1,6 +1,7 @@
 // What the joints' torques say of feet that are declared in the air.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -13,7 +14,8 @@ namespace shapeid::reference {
 
 /// A foot that is declared in the air for longer than any swing, and whose leg's torques ask for as
 /// much of a force as those of feet that are declared to stand (supporting_forces(), by the given
-/// links; the base is in none of these rows), has a dead flag. A leg that is so straight that a
+/// links; the base is in none of these rows), has a dead flag. It must be so with legs that weigh
+/// nothing, too: given masses may be placeholders. A leg that is so straight that a
 /// torque makes twice the force that it makes of those which stand says nothing: friction and an
 /// offset of its torque would look like a force. Contacts of one link are one foot.
 /// Sums alone are kept. The robot must outlive this.
@@ -31,7 +33,9 @@ class CarryingFeet {
   /// A foot in the air.
   struct Stretch {
     double begin = 0.0, end = 0.0;  ///< s
-    Mean force;                     ///< N, once it is longer than a swing
+    Mean force, of_torques;         ///< N, once it is longer than a swing
+    /// What can be believed of it.
+    [[nodiscard]] double least() const { return std::min(force.value(), of_torques.value()); }
     [[nodiscard]] double seconds() const { return end - begin; }
   };
   struct Foot {

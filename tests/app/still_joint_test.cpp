@@ -92,6 +92,17 @@ TEST(StillJoint, OfNumbersThatAreNotDeterminedNoErrorIsSaid) {
   }
 }
 
+/// Nothing of it can be drawn; gnuplot refuses a panel without points, and the whole report was
+/// lost.
+TEST(StillJoint, LosesNoReport) {
+  swinging_and_braked();
+  const CommandRun run = shapeid("diagnose " + post_files + "--free swing_arm --out still_report");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string page = text_of(scratch() + "/still_report/report.html");
+  EXPECT_NE(page.find("It stands still in the test"), std::string::npos);
+  EXPECT_NE(page.find("swing, test motion: logged"), std::string::npos);
+}
+
 TEST(StillJoint, HasNoErrorInADiagnosis) {
   swinging_and_braked();
   const auto result = diagnosed(post_files);

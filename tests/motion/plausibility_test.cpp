@@ -296,6 +296,23 @@ TEST(Plausibility, AnAxisThatReadsZeroIsDead) {
   EXPECT_NE(reception(no_side, robot).find("base.accel.y: stays at 0"), std::string::npos);
 }
 
+/// A base that does not turn, as in a squat: only a gyro of which some axis turns has a dead one,
+/// or that of a base which is thrown about.
+TEST(Plausibility, AGyroOfABaseThatDoesNotTurnIsNotDead) {
+  const Robot robot = chain(2, Root::floating);
+  const auto squats = [](Sample& s) {
+    s.base_angular_velocity.setZero();
+    s.base_specific_force = {0.0, 0.1 * std::sin(s.time), 9.81 + std::sin(3.0 * s.time)};
+    s.base_specific_force.x() = 0.05 * std::cos(s.time);
+  };
+  EXPECT_EQ(reception(squats, robot), "accepted");
+  const auto gallops = [&](Sample& s) {
+    squats(s);
+    s.base_specific_force.x() = std::sin(2.0 * s.time);
+  };
+  EXPECT_NE(reception(gallops, robot).find("column base.gyro.x: stays at 0"), std::string::npos);
+}
+
 /// An encoder that is dead where the motor's speed is not; a joint that stands, whose speed is
 /// noise and a little off.
 TEST(Plausibility, APositionThatStaysWhileItsVelocityMovesIsRefused) {
