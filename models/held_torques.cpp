@@ -1,5 +1,6 @@
 #include "shapeid/models/held_torques.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "shapeid/models/motion_extent.hpp"
@@ -27,7 +28,12 @@ void HeldTorques::add(const MeasuredRow& row) {
     // What went on across a gap is not held.
     const bool goes_on = track.begun && row.time - track.last <= long_held;
     if (!goes_on || torque != track.torque) {
-      const std::optional<HeldTorque> ended = present(j);
+      std::optional<HeldTorque> ended = present(j);
+      if (goes_on) {
+        const double jump = std::abs(torque - track.torque);
+        track.finest = std::min(track.finest, jump);
+        if (ended) ended->jump = jump;
+      }
       if (ended && track.held.size() < most_kept) track.held.push_back(*ended);
       track.begun = true;
       track.since = row.time;
@@ -55,7 +61,9 @@ std::optional<HeldTorque> HeldTorques::longest(std::size_t& count) const {
   for (std::size_t j = 0; j < tracks_.size(); ++j) {
     const ValueRange& torques = tracks_[j].torques;
     const auto take = [&](const HeldTorque& held) {
+      constexpr double steps = 2.5;
       if (held.torque == torques.least || held.torque == torques.most) return;
+      if (held.jump < steps * tracks_[j].finest) return;
       ++count;
       if (!longest || held.seconds > longest->seconds) longest = held;
     };

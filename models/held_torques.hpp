@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -17,10 +18,13 @@ struct HeldTorque {
   double seconds = 0.0;  ///< that it stayed
   double torque = 0.0;   ///< N m or N
   double way = 0.0;      ///< that the joint moved meanwhile, rad or m
+  /// N m or N, by which the torque changed then; infinity if the log ends, or has a gap.
+  double jump = std::numeric_limits<double>::infinity();
 };
 
 /// Watches the joints' torques, each by itself. A drive at its limit stays there, too: what is the
-/// largest or the smallest of all of a joint's torques is not held.
+/// largest or the smallest of all of a joint's torques is not held. Nor is what goes on by a step
+/// of the reading: at constant speed a coarse one stays.
 class HeldTorques {
  public:
   HeldTorques(const ChannelPlan& plan, const Robot& robot);
@@ -38,6 +42,7 @@ class HeldTorques {
     int line = 0;                    ///< likewise
     ValueRange way;                  ///< of the position while it stays
     ValueRange torques, positions;   ///< of the whole log
+    double finest = std::numeric_limits<double>::infinity();  ///< change from row to row
     std::vector<HeldTorque> held;
   };
   [[nodiscard]] std::optional<HeldTorque> present(std::size_t joint) const;

@@ -68,6 +68,11 @@ TEST(HeldTorques, WhatMayStayIsNone) {
   }
   const auto coarse = [](double, Sample& s) { s.tau = (s.tau * 50.0).array().round() / 50.0; };
   EXPECT_TRUE(noted(coarse).empty());
+  const auto coarse_at_constant_speed = [](double time, Sample& s) {
+    s.q[1] = 0.4 * time;
+    s.tau[1] = 0.05 * std::round(2.0 * std::sin(time) + 0.2 * std::sin(40.0 * time));
+  };
+  EXPECT_TRUE(noted(coarse_at_constant_speed).empty());
   const auto stands = [](double time, Sample& s) {
     if (time < 1.0) s.tau[0] = 0.1;
     s.q[0] = 0.3;
