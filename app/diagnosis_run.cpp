@@ -471,7 +471,7 @@ std::vector<double> Diagnosis::noise_of_torque() const {
   noise =
       diagnosis::torque_noise({robot, run_.settings.rows, {}},
                               {log_, rough_->recording, options_.inputs.cutoff, less_smooth.cutoff},
-                              stride_of(less_smooth, run_.motion.rate));
+                              run_.consistent.model.Phi, stride_of(less_smooth, run_.motion.rate));
   for (std::size_t j = 0; j < noise.size(); ++j) {
     if (noise_->is_noisy(robot.joint(static_cast<int>(j)).name)) noise[j] = unknown;
   }

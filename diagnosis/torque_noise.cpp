@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "shapeid/diagnosis/same_time.hpp"
 #include "shapeid/diagnosis/spectrum.hpp"
@@ -23,7 +24,22 @@ struct Fast {
   Eigen::ArrayXXd counts;  ///< one or zero
 };
 
-Fast fast_torque(const Viewer& viewer, const TwoFilters& log, std::size_t stride) {
+/// What the links need where nothing moves and the accelerometer reads this, dof: how a change of
+/// its reading changes what they need.
+Eigen::VectorXd carried(const Viewer& viewer, const View& view, const Eigen::Vector3d& reading,
+                        const Eigen::VectorXd& Phi) {
+  Sample still = view.sample;
+  still.dq.setZero();
+  still.ddq.setZero();
+  still.tau.setZero();
+  still.base_angular_velocity.setZero();
+  still.base_angular_acceleration.setZero();
+  still.base_specific_force = reading;
+  return viewer.links(viewer.scene(std::move(still), view.surroundings), Phi);
+}
+
+Fast fast_torque(const Viewer& viewer, const TwoFilters& log, const Eigen::VectorXd& Phi,
+                 std::size_t stride) {
   const Robot& robot = viewer.robot();
   const std::vector<std::size_t> usable = log.smooth.usable(stride);
   Fast fast{{},
@@ -36,6 +52,10 @@ Fast fast_torque(const Viewer& viewer, const TwoFilters& log, std::size_t stride
     const View view = viewer.view(log.smooth, index);
     Eigen::VectorXd difference = Eigen::VectorXd::Zero(robot.dof());
     difference.tail(robot.joint_count()) = rough->tau - log.smooth[index].tau;
+    if (robot.root == Root::floating) {
+      difference -= carried(
+          viewer, view, rough->base_specific_force - log.smooth[index].base_specific_force, Phi);
+    }
     const auto column = std::ssize(fast.time);
     fast.torque.col(column) =
         beyond_contacts(viewer, view.J, difference).bottomRows(robot.joint_count());
@@ -50,10 +70,11 @@ Fast fast_torque(const Viewer& viewer, const TwoFilters& log, std::size_t stride
 
 }  // namespace
 
-std::vector<double> torque_noise(const Viewer& viewer, const TwoFilters& log, std::size_t stride) {
+std::vector<double> torque_noise(const Viewer& viewer, const TwoFilters& log,
+                                 const Eigen::VectorXd& Phi, std::size_t stride) {
   const auto joints = static_cast<std::size_t>(viewer.robot().joint_count());
   std::vector<double> noise(joints, std::numeric_limits<double>::quiet_NaN());
-  const Fast fast = fast_torque(viewer, log, stride);
+  const Fast fast = fast_torque(viewer, log, Phi, stride);
   if (fast.time.size() < fewest) return noise;
   const double step = usual_step(fast.time);
   const Butterworth taken(log_filter_order, log.cutoff, log.smooth.rate());

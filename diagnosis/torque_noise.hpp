@@ -1,4 +1,5 @@
-// How strong the noise of the logged torque is, from what is faster than the filter.
+// How strong the noise of the logged torque and of the accelerometer is, from what is faster than
+// the filter.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +18,13 @@ struct TwoFilters {
   double cutoff, rough_cutoff;
 };
 
-/// Power of each joint's logged torque per Hz, (N m)^2/Hz or N^2/Hz, between 1.5 times and twice
-/// the cutoff, beyond what contact forces can explain, on samples that counted_rows() counts. White
-/// noise is as strong below; where the robot itself moves as fast, this says more than noise. Of
-/// every `stride`-th sample, which must be enough for the rough filter. NaN of a joint of which the
-/// log tells too little.
+/// Power per Hz, (N m)^2/Hz or N^2/Hz, of each joint's logged torque less what links `Phi` (10
+/// each) would need for the accelerometer's reading, between 1.5 times and twice the cutoff, beyond
+/// what contact forces can explain, on samples that counted_rows() counts. White noise of either is
+/// as strong below; where the robot itself moves as fast, this says more than noise. Of every
+/// `stride`-th sample, which must be enough for the rough filter. NaN of a joint of which the log
+/// tells too little.
 [[nodiscard]] std::vector<double> torque_noise(const Viewer& viewer, const TwoFilters& log,
-                                               std::size_t stride);
+                                               const Eigen::VectorXd& Phi, std::size_t stride);
 
 }  // namespace shapeid::diagnosis

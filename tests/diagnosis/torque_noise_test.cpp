@@ -8,19 +8,29 @@
 #include <random>
 
 #include "shapeid/models/segment_filter.hpp"
+#include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/diagnosis/arm.hpp"
 #include "shapeid/tests/diagnosis/trot.hpp"
 
 namespace shapeid::diagnosis {
 namespace {
 
-/// The torque through the filter of a log; what else is in it stays.
+/// The torque and the accelerometer through the filter of a log; what else is in it stays.
 std::vector<Sample> behind(double cutoff, double rate, std::vector<Sample> samples) {
   const Eigen::Index joints = samples[0].tau.size();
-  SegmentFilter filter(Smoothing::zero_phase, Butterworth(log_filter_order, cutoff, rate), joints);
-  for (const Sample& s : samples) filter.push(s.tau);
+  SegmentFilter filter(Smoothing::zero_phase, Butterworth(log_filter_order, cutoff, rate),
+                       joints + 3);
+  for (const Sample& s : samples) {
+    Eigen::VectorXd both(joints + 3);
+    both << s.tau, s.base_specific_force;
+    filter.push(both);
+  }
   filter.finish();
-  for (Sample& s : samples) s.tau = *filter.next();
+  for (Sample& s : samples) {
+    const Eigen::VectorXd both = *filter.next();
+    s.tau = both.head(joints);
+    s.base_specific_force = both.tail<3>();
+  }
   return samples;
 }
 
@@ -47,7 +57,8 @@ struct BothFilters {
         rough(with_pause(behind(3.0 * arm_cutoff, arm_rate, samples)), arm_rate) {}
   [[nodiscard]] std::vector<double> noise() const {
     return torque_noise({test::arm(), ContactTreatment::ignore, {}},
-                        {smooth, rough, arm_cutoff, 3.0 * arm_cutoff}, 1);
+                        {smooth, rough, arm_cutoff, 3.0 * arm_cutoff},
+                        stacked_parameters(test::arm()), 1);
   }
   Recording smooth, rough;
 };
@@ -110,36 +121,57 @@ TEST(TorqueNoise, IsUnknownWhereTheRoughLogHasNoSamples) {
   for (const double n : both.noise()) EXPECT_TRUE(std::isnan(n));
 }
 
-/// The same noise at all joints of a trot: what contact forces could explain of it is gone.
-TEST(TorqueNoise, IsThatBeyondContactForces) {
+/// The same noise at all joints of a trot, or of its accelerometer: what contact forces could
+/// explain of it is gone, and that of the accelerometer is what the links make of it.
+void expect_that_beyond_contacts(double of_torque, double of_accelerometer) {
   const test::Trot trot;
-  constexpr double of_filter = 15.0, sigma = 0.1;
+  const Eigen::VectorXd Phi = stacked_parameters(trot.robot);
+  constexpr double of_filter = 15.0;
   std::vector<Sample> quiet = trot.samples, noisy = quiet;
-  add_noise(Eigen::VectorXd::Constant(trot.robot.joint_count(), sigma), noisy);
+  add_noise(Eigen::VectorXd::Constant(trot.robot.joint_count(), of_torque), noisy);
+  std::mt19937 generator(6);
+  std::normal_distribution<double> noise_of_reading;
   // The noise alone: contacts' forces change the torque faster than any filter.
-  for (std::size_t i = 0; i < noisy.size(); ++i) noisy[i].tau -= quiet[i].tau;
+  for (std::size_t i = 0; i < noisy.size(); ++i) {
+    noisy[i].tau -= quiet[i].tau;
+    for (double& s : noisy[i].base_specific_force) {
+      s = of_accelerometer * noise_of_reading(generator);
+    }
+  }
   const Recording smooth(behind(of_filter, test::Trot::rate, noisy), test::Trot::rate);
   const Recording rough(behind(3.0 * of_filter, test::Trot::rate, noisy), test::Trot::rate);
   const Viewer viewer(trot.robot, ContactTreatment::project, {});
   const std::vector<double> noise =
-      torque_noise(viewer, {smooth, rough, of_filter, 3.0 * of_filter}, 4);
+      torque_noise(viewer, {smooth, rough, of_filter, 3.0 * of_filter}, Phi, 4);
 
   const auto usable = smooth.usable(20);
-  Eigen::VectorXd expected = Eigen::VectorXd::Zero(trot.robot.joint_count());
+  const Eigen::Index n = trot.robot.joint_count();
+  Eigen::VectorXd expected = Eigen::VectorXd::Zero(n);
   for (const std::size_t i : usable) {
     const Eigen::MatrixXd JT = viewer.view(smooth, i).J.transpose();
     const Eigen::MatrixXd P = Eigen::MatrixXd::Identity(JT.rows(), JT.rows()) -
                               JT * JT.completeOrthogonalDecomposition().pseudoInverse();
-    expected += P.bottomRightCorner(expected.size(), expected.size()).rowwise().squaredNorm();
+    expected += std::pow(of_torque, 2) * P.bottomRightCorner(n, n).rowwise().squaredNorm();
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      Sample pushed = smooth[i];
+      pushed.base_specific_force[axis] += of_accelerometer;
+      const Eigen::VectorXd more =
+          (reference::regressor(trot.robot, pushed) - reference::regressor(trot.robot, smooth[i])) *
+          Phi;
+      expected += (P * more).tail(n).cwiseAbs2();
+    }
   }
-  expected *= sigma * sigma / (test::Trot::rate * static_cast<double>(usable.size()));
-  ASSERT_LT(expected.maxCoeff(), 0.9 * sigma * sigma / test::Trot::rate);
+  expected /= test::Trot::rate * static_cast<double>(usable.size());
   for (std::size_t j = 0; j < noise.size(); ++j) {
     EXPECT_NEAR(noise[j] / expected[static_cast<Eigen::Index>(j)], 1.0,
                 four_deviations(smooth.duration(), of_filter))
         << j;
   }
 }
+
+TEST(TorqueNoise, IsThatBeyondContactForces) { expect_that_beyond_contacts(0.1, 0.0); }
+
+TEST(TorqueNoise, HoldsThatOfTheAccelerometer) { expect_that_beyond_contacts(0.05, 0.05); }
 
 }  // namespace
 }  // namespace shapeid::diagnosis
