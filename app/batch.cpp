@@ -7,6 +7,7 @@
 #include <memory>
 #include <thread>
 
+#include "shapeid/app/coarseness.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/shared_stretches.hpp"
 #include "shapeid/app/verbs.hpp"
@@ -97,10 +98,11 @@ void batch(const BatchOptions& options, Peers& peers) {
   warn_of_unused_masses(model.free_links, robot);
   BatchOptions with_mass = options;
   with_mass.settings.expected_mass = expected_mass(options.sought, robot, model);
-  const std::optional<BatchResult> found = run_batch(with_mass, robot, model, peers);
+  std::optional<BatchResult> found = run_batch(with_mass, robot, model, peers);
   if (!found) return;
   const Judgement judged = judge(found->result);
   const std::optional<double>& floor = judged.certified.proof.floor;
+  note_coarse_shapes(found->result, robot.robot, floor);
   json document = result_json(found->result, floor, robot.robot);
   document["logs"] = logs_json(found->logs);
   deliver(options.delivery, document,

@@ -11,6 +11,7 @@
 
 #include "shapeid/app/batch.hpp"
 #include "shapeid/app/json_text.hpp"
+#include "shapeid/app/limit.hpp"
 #include "shapeid/app/merge_order.hpp"
 #include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/app/recordings.hpp"
@@ -331,7 +332,9 @@ Result solved(const std::vector<BatchLog>& logs, std::vector<reference::RowBlock
   result.log_file = fmt::format("{} logs", used);
   result.sought = model;
   result.motion = motion_of(logs);
-  result.found = identify(model, {std::move(blocks), result.motion.samples}, options.settings);
+  reference::IdentifySettings settings = options.settings;
+  settings.floor = floor_of_divisions;
+  result.found = identify(model, {std::move(blocks), result.motion.samples}, settings);
   check_some_mass(result, options.settings.expected_mass);
   result.notes = robot.notes_with(result.motion);
   choose_written_links(result, robot.robot, options.least_mass);

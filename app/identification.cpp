@@ -10,6 +10,7 @@
 
 #include "shapeid/app/certificate_text.hpp"
 #include "shapeid/app/json_text.hpp"
+#include "shapeid/app/limit.hpp"
 #include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/output_folder.hpp"
@@ -134,22 +135,6 @@ class EffectsRun {
   std::size_t next_ = 0;
 };
 
-/// Masses that fit one log and predict another worse than what was given have taken up something
-/// else.
-void note_worse_prediction(const Robot& robot, Result& result) {
-  if (result.heldout.samples == 0) return;
-  const double given = overall(result.heldout.given, robot);
-  const double found = overall(result.heldout.found, robot);
-  const std::string before = fmt::format("{:.3g}", given), now = fmt::format("{:.3g}", found);
-  if (!(found > given) || now == before) return;
-  result.notes.push_back(fmt::format(
-      "held-out torque is predicted worse than by the given model (rms over all joints {} instead "
-      "of {}): look for what rigid links lack (diagnose), wrong units, exchanged joints, or the "
-      "size "
-      "of a shape",
-      now, before));
-}
-
 }  // namespace
 
 void check_solver(const reference::IdentifySettings& settings) {
@@ -162,6 +147,7 @@ reference::IdentifySettings settings_for(const LogSamples& log, const RobotInput
                                          const MotionInputs& inputs,
                                          reference::IdentifySettings settings) {
   settings.contacts = log.contacts();
+  settings.floor = floor_of_divisions;
   if (settings.weight.size() == 0) settings.weight = weight(robot);
   if (inputs.row_cutoff > 0.0) {
     check_cutoff("--row-cutoff", inputs.row_cutoff, log.report().rate);
@@ -229,7 +215,6 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
                    return effects ? effects->compare(robot, inputs, options, result.found.Phi)
                                   : compare(robot, inputs, options, result.found.Phi);
                  });
-  note_worse_prediction(robot.robot, result);
   if (result.sought.free_links.size() < moving_links(robot.robot).size()) {
     result.notes.emplace_back(
         "standard errors are of the scatter between blocks of time: what is taken as given (other "
@@ -289,7 +274,9 @@ void add_solver_options(CLI::App& verb, reference::IdentifySettings& settings) {
   verb.add_option("--k2", division.k2, "equation (16): weight of dense shapes")
       ->check(weight_of_criterion())
       ->capture_default_str();
-  verb.add_option("--eps", division.step, "stop when a division changes Phi by less, relatively")
+  verb.add_option("--eps", division.step,
+                  "stop when divisions change Phi by less, relatively, and no "
+                  "plateau holds them far above the floor; 0: never")
       ->check(zero_or_above())
       ->capture_default_str();
   verb.add_option("--lambda", settings.lambda,

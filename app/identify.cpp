@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "shapeid/app/coarseness.hpp"
 #include "shapeid/app/identification.hpp"
 #include "shapeid/app/noted_refusal.hpp"
 #include "shapeid/app/option_checks.hpp"
@@ -77,11 +78,12 @@ void identify(IdentifyArguments& options) {
 
   options.run.settings.expected_mass = mass;
   check_test_log(robot, options.inputs, options.run);
-  const Result result = run_identification(robot, model, options.inputs, options.run);
+  Result result = run_identification(robot, model, options.inputs, options.run);
   with_notes([&] { return robot.notes_with(result.motion); },
              [&] { check_some_mass(result, mass); });
   const Judgement judged = judge(result);
   const std::optional<double>& floor = judged.certified.proof.floor;
+  note_coarse_shapes(result, robot.robot, floor);
   deliver(options.delivery, result_json(result, floor, robot.robot),
           result_text(result, floor, robot.robot), result, judged, robot, options.inputs);
 }

@@ -1,9 +1,11 @@
 #include "shapeid/app/limit.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "shapeid/models/inertia.hpp"
+#include "shapeid/proofs/certificate/floor.hpp"
 #include "shapeid/proofs/certificate/quadric.hpp"
 #include "shapeid/reference/mass_solver.hpp"
 
@@ -110,6 +112,13 @@ certificate::Guess limit_of_divisions(const StatedProblem& stated, const LimitOp
     solution = reference::solve_masses(now.problem, now.start);
   }
   return best;
+}
+
+double floor_of_divisions(const BodyModel& undivided, const MassProblem& problem) {
+  const StatedProblem stated{problem, {}, regions_of(undivided)};
+  const certificate::Guess guess = limit_of_divisions(stated);
+  const auto floor = certificate::floor_of_divisions(stated, guess.parameters, guess.others);
+  return floor ? std::max(0.0, floor->get_d()) : 0.0;
 }
 
 }  // namespace shapeid::app

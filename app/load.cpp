@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "shapeid/app/coarseness.hpp"
 #include "shapeid/app/identification.hpp"
 #include "shapeid/app/load_text.hpp"
 #include "shapeid/app/noted_refusal.hpp"
@@ -97,6 +98,7 @@ void load(LoadArguments& options) {
   if (!note.empty()) result.notes.push_back(note);
   const Judgement judged = judge(result);
   const std::optional<double>& floor = judged.certified.proof.floor;
+  note_coarse_shapes(result, robot.robot, floor);
   nlohmann::json document = result_json(result, floor, robot.robot);
   document["load"] = load_json(result, robot.robot, other);
   deliver(options.delivery, document,

@@ -186,15 +186,8 @@ double overall(const Eigen::VectorXd& rms, const Robot& robot) {
 }
 
 StatedProblem stated_problem(const Result& result) {
-  const auto placed = [](const BodyModel& model) {
-    std::vector<Region> shapes;
-    for (const SoughtShape& s : model.shapes) {
-      const auto place = std::lower_bound(model.free_links.begin(), model.free_links.end(), s.link);
-      shapes.push_back({place - model.free_links.begin(), s.shape});
-    }
-    return shapes;
-  };
-  return {result.found.run.problem, {}, placed(result.sought), placed(result.found.run.model)};
+  const reference::DivisionRun& run = result.found.run;
+  return {run.problem, {}, regions_of(result.sought), regions_of(run.model)};
 }
 
 void check_some_mass(const Result& result, double expected_mass) {

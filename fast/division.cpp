@@ -66,7 +66,10 @@ Outcome Division::start(const Eigen::MatrixXd& R, Start from) noexcept {
     if (from == Start::last_masses && mass > 0.0) solver_.start_at(part, mass);
   }
   const Outcome outcome = solver_.solve(R);
-  if (outcome == Outcome::solved) undivided_ = solver_.m();
+  if (outcome == Outcome::solved) {
+    undivided_ = solver_.m();
+    undivided_objective_ = solver_.value().total();
+  }
   return outcome;
 }
 
@@ -129,8 +132,8 @@ Division::Step Division::divide(int at_once) noexcept {
   return Step::divided;
 }
 
-Division::Stop Division::run() noexcept {
-  int small_steps = 0;
+Division::Stop Division::run(std::optional<double> floor) noexcept {
+  int small_steps = 0, settled_steps = 0;
   while (true) {
     switch (divide()) {
       case Step::no_room:
@@ -142,8 +145,13 @@ Division::Stop Division::run() noexcept {
       case Step::divided:
         break;
     }
-    small_steps = history_.back().step.maxCoeff() < options_.step ? small_steps + 1 : 0;
-    if (small_steps >= options_.patience) return Stop::step;
+    const Cut& last = history_.back();
+    const int cuts = tree_[parts_[static_cast<std::size_t>(last.place)]].generation - 1;
+    small_steps = last.step.maxCoeff() < options_.step ? small_steps + 1 : 0;
+    settled_steps = cuts >= settled_cuts ? settled_steps + 1 : 0;
+    if (small_steps < options_.patience) continue;
+    const bool is_near = !floor || is_near_floor(undivided_objective_, solver_.value(), *floor);
+    if (is_near || settled_steps >= options_.patience) return Stop::step;
   }
 }
 

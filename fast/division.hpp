@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,8 +49,9 @@ class Division {
 
   enum class Stop { step, limit, nothing_divisible, declined };
 
-  /// Divides one by one until the options say stop.
-  Stop run() noexcept;
+  /// Divides one by one until the options say stop. With a floor (of the data term, however finely
+  /// the shapes are divided) small steps end the run where they do in divide_and_solve().
+  Stop run(std::optional<double> floor = std::nullopt) noexcept;
 
   struct Cut {
     int place;         ///< of the shape that was cut; its second part is the last shape
@@ -78,9 +80,10 @@ class Division {
 
   DivisionOptions options_;
   PartTree tree_;
-  std::vector<int> links_;        ///< of the model's shapes, places among the free links
-  std::vector<std::string> ids_;  ///< of the model's shapes
-  Eigen::VectorXd undivided_;     ///< masses at the last start()
+  std::vector<int> links_;            ///< of the model's shapes, places among the free links
+  std::vector<std::string> ids_;      ///< of the model's shapes
+  Eigen::VectorXd undivided_;         ///< masses at the last start()
+  double undivided_objective_ = 0.0;  ///< likewise
   double whole_volume_ = 0.0;
   MassSolver solver_;
   std::vector<int> parts_;  ///< which part stands at each place

@@ -1,8 +1,15 @@
 #include "shapeid/models/division.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace shapeid {
+
+bool is_near_floor(double undivided, const Objective& now, double floor) {
+  constexpr double of_gain = 1e-2, of_rest = 1e-4;
+  // The density term, which no floor contains, is not there to be gained.
+  return now.data - floor <= std::max(of_gain * (undivided - floor), of_rest * now.total());
+}
 
 Violation why_senseless(const DivisionOptions& options) {
   if (!(options.expected_mass > 0.0 && std::isfinite(options.expected_mass))) {

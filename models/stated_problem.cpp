@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace shapeid {
@@ -23,6 +24,15 @@ Violation why_misplaced(const std::vector<Region>& regions, const char* what,
 }
 
 }  // namespace
+
+std::vector<Region> regions_of(const BodyModel& model) {
+  std::vector<Region> regions;
+  for (const SoughtShape& s : model.shapes) {
+    const auto place = std::lower_bound(model.free_links.begin(), model.free_links.end(), s.link);
+    regions.push_back({place - model.free_links.begin(), s.shape});
+  }
+  return regions;
+}
 
 Violation why_malformed(const StatedProblem& p) {
   if (Violation why = why_malformed(p.masses)) return why;

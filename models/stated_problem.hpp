@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "shapeid/models/body_model.hpp"
 #include "shapeid/models/mass_problem.hpp"
 #include "shapeid/models/shape.hpp"
 
@@ -34,6 +35,9 @@ struct StatedProblem {
   /// whether that is so.
   std::vector<Region> shapes = {};
 };
+
+/// The shapes of a model, in their order, with their links' places among the free ones.
+[[nodiscard]] std::vector<Region> regions_of(const BodyModel& model);
 
 /// Empty if the mass problem is well-formed, the other columns have its rows and finite numbers,
 /// lower bounds are not above upper ones, regions are well-formed shapes on free links, and so are

@@ -35,6 +35,11 @@ Eigen::Vector3d relative_groups(const Eigen::VectorXd& difference, const Eigen::
   return relative;
 }
 
+/// "3.0.1" has had two.
+int cuts_of(const std::string& id) {
+  return static_cast<int>(std::count(id.begin(), id.end(), '.'));
+}
+
 }  // namespace
 
 Eigen::VectorXd division_criterion(const BodyModel& model, const Eigen::VectorXd& m,
@@ -44,8 +49,7 @@ Eigen::VectorXd division_criterion(const BodyModel& model, const Eigen::VectorXd
   Eigen::VectorXd v = Eigen::VectorXd::Zero(V.size());
   for (Eigen::Index j = 0; j < v.size(); ++j) {
     const SoughtShape& sought = model.shapes[static_cast<std::size_t>(j)];
-    const auto cuts = std::count(sought.id.begin(), sought.id.end(), '.');  // "3.0.1" has had two
-    if (cuts >= most_cuts || !divisible(sought.shape)) continue;
+    if (cuts_of(sought.id) >= most_cuts || !divisible(sought.shape)) continue;
     const double mass = m[j] / options.expected_mass, size = V[j] / V0;
     v[j] = options.k1 * mass * size + options.k2 * mass / size;  // (16)
   }
@@ -137,12 +141,20 @@ std::optional<NextSplit> largest_that_splits(const DivisionRun& run,
 
 DivisionRun divide_and_solve(const BodyModel& model, const MassProblem& problem,
                              const DivisionOptions& options,
-                             const std::function<void(const DivisionRun&)>& watch) {
+                             const std::function<void(const DivisionRun&)>& watch,
+                             const std::function<double(const DivisionRun&)>& floor) {
   if (const Violation reason = why_senseless(options)) throw std::invalid_argument(*reason);
   SHAPEID_CONTRACT(why_unrelated(model, problem));
   DivisionRun run{model, problem, solve_masses(problem), {}, {}};
   if (watch) watch(run);
-  int small_steps = 0;
+  const double undivided = run.solution.value.total();
+  std::optional<double> known_floor;
+  const auto is_near = [&] {
+    if (!floor) return true;
+    if (!known_floor) known_floor = floor(run);
+    return is_near_floor(undivided, run.solution.value, *known_floor);
+  };
+  int small_steps = 0, settled_steps = 0;
   while (true) {
     if (static_cast<int>(run.history.size()) >= options.most_divisions) {
       run.stopped_by = "limit";
@@ -172,8 +184,10 @@ DivisionRun divide_and_solve(const BodyModel& model, const MassProblem& problem,
     run.history.push_back(std::move(step));
     if (watch) watch(run);
 
-    small_steps = run.history.back().step.maxCoeff() < options.step ? small_steps + 1 : 0;
-    if (small_steps >= options.patience) {
+    const DivisionStep& last = run.history.back();
+    small_steps = last.step.maxCoeff() < options.step ? small_steps + 1 : 0;
+    settled_steps = cuts_of(last.divided) >= settled_cuts ? settled_steps + 1 : 0;
+    if (small_steps >= options.patience && (settled_steps >= options.patience || is_near())) {
       run.stopped_by = "step";
       return run;
     }

@@ -55,10 +55,13 @@ struct Split {
 
 /// Algorithm 1 from an undivided model, whose columns and volumes are the problem's. `watch` (may
 /// be empty) is called after the first solve and after every division. Only the objective
-/// converges; a small step proves no optimality. Throws std::invalid_argument for options that make
-/// no sense.
+/// converges; a small step proves no optimality: where `floor` is given, small steps end the run
+/// only near it (is_near_floor()) or in parts that have been cut settled_cuts times. It is asked
+/// once, if at all; what it answers is to hold for every later division. Throws
+/// std::invalid_argument for options that make no sense.
 [[nodiscard]] DivisionRun divide_and_solve(
     const BodyModel& model, const MassProblem& problem, const DivisionOptions& options,
-    const std::function<void(const DivisionRun&)>& watch = {});
+    const std::function<void(const DivisionRun&)>& watch = {},
+    const std::function<double(const DivisionRun&)>& floor = {});
 
 }  // namespace shapeid::reference

@@ -269,11 +269,22 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
   problem.U = shape_columns(model);
   problem.V = shape_volumes(model);
   problem.lambda = settings.lambda.value_or(default_lambda(problem, settings.expected_mass));
-  result.run = divide_and_solve(model, problem, division, watch);
-  // Only certificates use it. What was expected may have been a guess: what was found fits in.
-  const double found = result.run.solution.m.sum();
-  result.run.problem.mass_bound =
-      settings.mass_bound.value_or(std::max(10.0 * settings.expected_mass, 2.0 * found));
+  // Only floors and certificates use it. What was expected may have been a guess: what was found
+  // fits in.
+  const auto mass_bound = [&](const DivisionRun& run) {
+    const double found = run.solution.m.sum();
+    return settings.mass_bound.value_or(std::max(10.0 * settings.expected_mass, 2.0 * found));
+  };
+  std::function<double(const DivisionRun&)> floor;
+  if (settings.floor) {
+    floor = [&](const DivisionRun& run) {
+      MassProblem bounded = run.problem;
+      bounded.mass_bound = mass_bound(run);
+      return settings.floor(model, bounded);
+    };
+  }
+  result.run = divide_and_solve(model, problem, division, watch, floor);
+  result.run.problem.mass_bound = mass_bound(result.run);
   const auto& history = result.run.history;
   result.undivided_objective =
       history.empty() ? result.run.solution.value.total() : history.front().objective_before;

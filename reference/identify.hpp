@@ -28,7 +28,11 @@ struct IdentifySettings {
   std::optional<double> lambda;  ///< default: default_lambda()
   /// kg; default: the larger of ten times M0 and twice what is found.
   std::optional<double> mass_bound;
-  DivisionOptions division;    ///< most_divisions = 0 solves once and does not divide
+  DivisionOptions division;  ///< most_divisions = 0 solves once and does not divide
+  /// What no data term is below, however finely the undivided model is divided; of a problem with a
+  /// mass bound and its present shapes. Asked where steps are small (divide_and_solve()); empty:
+  /// small steps alone end the divisions.
+  std::function<double(const BodyModel& undivided, const MassProblem&)> floor;
   double block_seconds = 0.5;  ///< contiguous blocks for standard errors
   /// Low-pass the rows in time; the samples then need little smoothing of their own.
   std::optional<RowFilterOptions> row_filter;
