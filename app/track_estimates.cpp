@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "shapeid/models/error.hpp"
@@ -136,20 +135,22 @@ Estimates::Estimates(const Robot& robot, const BodyModel& model, const EstimateS
   mass_variance_ = total_variance();
 }
 
-Identifier::Fed Estimates::feed(const Sample& sample) {
+Identifier::Fed Estimates::feed(const Sample& sample, bool repeats) {
   change_.reset();
   const Identifier::Fed fed = identifier_.feed(sample);
   if (fed == Identifier::Fed::sample_declined) return fed;
-  rows_ += rows_of(robot_, sample, settings_.identifier.contacts);
+  const double rows = rows_of(robot_, sample, settings_.identifier.contacts);
+  rows_.all += rows;
+  if (!repeats) rows_.changing += rows;
   if (fed == Identifier::Fed::kept) return fed;
   if (fed == Identifier::Fed::answered) take_window(sample.time);
-  rows_ = 0.0;
+  rows_ = {};
   return fed;
 }
 
 void Estimates::forget_samples() {
   identifier_.forget_samples();
-  rows_ = 0.0;
+  rows_ = {};
   disagreeing_ = 0;
   pulls_.clear();
 }
@@ -177,18 +178,28 @@ void Estimates::take_window(double time) {
 
 /// From what least squares leaves of the window. One that has hardly more rows than unknowns is
 /// explained whatever they say: then by the longer window before it, and as long as that is as
-/// short, all that the rows say may be noise.
+/// short, all that the rows say may be noise. Rows that repeat others are no further ones: they
+/// repeat their errors too, and leave nothing, however wrong they are. So while a robot rests
+/// behind sensors that round, nothing is learned.
 void Estimates::learn_noise() {
   constexpr double enough = 10.0;
   const Eigen::MatrixXd& R = identifier_.window().R();
   const auto unknowns = static_cast<double>(R.cols() - 1);
-  const double before = std::accumulate(recent_rows_.begin(), recent_rows_.end(), 0.0);
-  if (rows_ >= unknowns + enough) {
-    noise_.learn(left_of(R) / (rows_ - unknowns));
-  } else if (before >= unknowns + enough) {
-    noise_.learn(left_of(sliding_.triangle().R()) / (before - unknowns));
+  const double needed = unknowns + enough;
+  Rows before;
+  for (const Rows& rows : recent_rows_) {
+    before.all += rows.all;
+    before.changing += rows.changing;
+  }
+  const double all_noise = R.col(R.cols() - 1).squaredNorm() / std::max(rows_.all, 1.0);
+  if (rows_.changing >= needed) {
+    noise_.learn(left_of(R) / (rows_.changing - unknowns));
+  } else if (before.changing >= needed) {
+    noise_.learn(left_of(sliding_.triangle().R()) / (before.changing - unknowns));
+  } else if (std::max(rows_.all, before.all) >= needed) {
+    noise_.suppose(all_noise);
   } else {
-    noise_.learn(R.col(R.cols() - 1).squaredNorm() / std::max(rows_, 1.0));
+    noise_.learn(all_noise);
   }
   ++windows_;
 }

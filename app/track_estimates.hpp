@@ -43,7 +43,8 @@ class Estimates {
   Estimates(const Robot& robot, const BodyModel& model, const EstimateSettings& settings,
             double rate);
 
-  fast::Identifier::Fed feed(const Sample& sample);
+  /// `repeats`: it says again what the sample before said (RepeatWatch).
+  fast::Identifier::Fed feed(const Sample& sample, bool repeats);
   /// The next sample does not follow the last one.
   void forget_samples();
   /// So much time went by without a sample that says anything, s.
@@ -109,6 +110,17 @@ class Estimates {
   [[nodiscard]] double least_change(double error) const;
   void watch_load(double time);
 
+  /// Of samples, free of contact forces.
+  struct Rows {
+    double all = 0.0;
+    double changing = 0.0;  ///< of samples that do not repeat
+    template <class Archive>
+    void state(Archive& archive) {
+      archive("all", all);
+      archive("changing", changing);
+    }
+  };
+
   /// What was believed behind a window.
   struct Past {
     double mass = 0.0;         ///< kg, tracked
@@ -149,14 +161,14 @@ class Estimates {
   fast::SlidingTriangle sliding_;
   fast::ParameterTracker tracker_;
   Eigen::VectorXd recent_, tracked_;
-  double mass_variance_;            ///< kg^2, mass_error()
-  std::size_t windows_ = 0;         ///< that were answered
-  double mean_square_ = 0.0;        ///< of the pulls of windows, running: learn_correlation()
-  std::deque<double> pulls_;        ///< of the windows of a stance, newest first
-  double rows_ = 0.0;               ///< free of contact forces, since the window began
-  std::deque<Past> past_;           ///< of as many windows as the longer one has
-  std::size_t disagreeing_ = 0;     ///< windows in a row
-  std::deque<double> recent_rows_;  ///< of each of the windows in sliding_
+  double mass_variance_;          ///< kg^2, mass_error()
+  std::size_t windows_ = 0;       ///< that were answered
+  double mean_square_ = 0.0;      ///< of the pulls of windows, running: learn_correlation()
+  std::deque<double> pulls_;      ///< of the windows of a stance, newest first
+  Rows rows_;                     ///< since the window began
+  std::deque<Past> past_;         ///< of as many windows as the longer one has
+  std::size_t disagreeing_ = 0;   ///< windows in a row
+  std::deque<Rows> recent_rows_;  ///< of each of the windows in sliding_
   std::optional<Found> found_;
   std::size_t settles_in_ = 0;  ///< windows
   std::optional<LoadChange> change_;

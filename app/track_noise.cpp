@@ -29,4 +29,9 @@ void TrackNoise::learn(double variance) {
   last_ = variance > limit ? variance : usual_;
 }
 
+void TrackNoise::suppose(double variance) {
+  if (variances_.empty()) usual_ = variance;
+  last_ = usual_;
+}
+
 }  // namespace shapeid::app

@@ -16,6 +16,9 @@ class TrackNoise {
 
   /// The variance that least squares leaves of a row of the next window, >= 0.
   void learn(double variance);
+  /// The next window says nothing of noise: it is as noisy as usual, or so much as long as nothing
+  /// was learned.
+  void suppose(double variance);
 
   [[nodiscard]] double usual() const { return usual_; }
   /// Of the last window: as usual, or its own where it stands out.

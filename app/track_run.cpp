@@ -55,6 +55,7 @@ TrackRun::TrackRun(const LogTable& log, const RobotInputs& robot, const BodyMode
       guard_(meaning_.plan(), static_cast<std::size_t>(robot.robot.joint_count())),
       stream_(log.path(), meaning_.plan(), robot.robot, robot.notes.imu, settings_.stream),
       events_(meaning_.plan().channels.size(), robot.robot.contacts.size()),
+      repeats_(meaning_.plan(), robot.robot.joint_count()),
       path_(log.path()) {
   check_forces(path_, settings_.estimates.identifier.contacts, meaning_.plan().force >= 0);
 }
@@ -92,6 +93,7 @@ void TrackRun::watch_clock(MeasuredRow row) {
     guard_.flush();
     while (const std::optional<GuardedRow> held = guard_.next()) take(*held);
     stream_.restart();
+    repeats_.restart();
     while (const std::optional<Sample> sample = stream_.next()) take(*sample);
     line_time_.reset();
   }
@@ -111,6 +113,7 @@ void TrackRun::watch_clock(MeasuredRow row) {
 
 void TrackRun::take(const GuardedRow& row) {
   events_.add(row.faults);
+  repeats_.push(row.row);
   stream_.push(row.row);
   if (stream_.rate() > 0.0 && !estimates_) {
     prepare();
@@ -121,6 +124,8 @@ void TrackRun::take(const GuardedRow& row) {
   }
   watch_units(row.row);
   while (const std::optional<Sample> sample = stream_.next()) take(*sample);
+  // Where rows make no samples, none asks for them.
+  if (estimates_) repeats_.forget_before(row.row.time - stream_.latency());
 }
 
 /// A wrong unit is wrong from the beginning. A robot that has run for hours is not stopped for what
@@ -186,7 +191,7 @@ void TrackRun::take(const Sample& sample) {
     return print(Why::still, sample.time);
   }
   held_back_ = 0;
-  const Identifier::Fed fed = estimates_->feed(sample);
+  const Identifier::Fed fed = estimates_->feed(sample, repeats_.repeats(sample.time));
   if (fed == Identifier::Fed::sample_declined) {
     const bool forces = settings_.estimates.identifier.contacts == ContactTreatment::measured &&
                         sample.contact_force.size() != robot_.robot.contacts.size();

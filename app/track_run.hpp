@@ -10,6 +10,7 @@
 #include "shapeid/app/inputs.hpp"
 #include "shapeid/app/track_estimates.hpp"
 #include "shapeid/app/track_events.hpp"
+#include "shapeid/app/track_repeats.hpp"
 #include "shapeid/app/track_slip.hpp"
 #include "shapeid/models/plausibility.hpp"
 #include "shapeid/models/row_guard.hpp"
@@ -42,6 +43,7 @@ class TrackRun {
   void state(Archive& archive) {
     archive("meaning", meaning_);
     archive("guard", guard_);
+    archive("repeats", repeats_);
     archive("stream", stream_);
     if (stream_.rate() > 0.0) {
       if (!estimates_) prepare();
@@ -94,6 +96,7 @@ class TrackRun {
   std::optional<Estimates> estimates_;  ///< once the rate is known
   std::optional<SlipWatch> slip_;
   TrackEvents events_;
+  RepeatWatch repeats_;
   std::optional<double> row_time_;     ///< s, of the last row
   std::optional<double> row_step_;     ///< s, between the last two
   std::optional<double> line_time_;    ///< s, of the last line, or of the first row after a break
