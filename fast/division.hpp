@@ -80,16 +80,16 @@ class Division {
 
   DivisionOptions options_;
   PartTree tree_;
-  std::vector<int> links_;            ///< of the model's shapes, places among the free links
-  std::vector<std::string> ids_;      ///< of the model's shapes
-  Eigen::VectorXd undivided_;         ///< masses at the last start()
-  double undivided_objective_ = 0.0;  ///< likewise
+  std::vector<int> links_;        ///< of the model's shapes, places among the free links
+  std::vector<std::string> ids_;  ///< of the model's shapes
+  Eigen::VectorXd undivided_;     ///< masses at the last start()
   double whole_volume_ = 0.0;
   MassSolver solver_;
   std::vector<int> parts_;  ///< which part stands at each place
   std::vector<Candidate> candidates_;
   std::vector<Cut> history_;
   Eigen::VectorXd last_Phi_;
+  double undivided_objective_ = 0.0;  ///< at the last start()
 };
 
 }  // namespace shapeid::fast
