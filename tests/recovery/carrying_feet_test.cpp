@@ -114,35 +114,50 @@ Sample standing_on_three(const Robot& robot, double knee) {
   return s;
 }
 
+/// What is said of a robot that stands like that for four seconds.
+std::string said_of(const Robot& robot, Sample s) {
+  reference::CarryingFeet feet(robot);
+  for (int k = 0; k < 2000; ++k) {
+    s.time = 0.002 * k;
+    feet.add(s);
+  }
+  try {
+    feet.judge();
+  } catch (const Refusal& refusal) {
+    return refusal.what();
+  }
+  return "accepted";
+}
+
 /// At the end of its range the knee takes half a newton metre of friction for a fifth of a foot's
 /// load, and beyond it a tenth for all. Bent as the others it is named for what it carries.
 TEST(CarryingFeet, AreNotLegsThatAreHeldUpStraight) {
   const Robot robot = test::bundled_quadruped().robot;
-  const auto said = [&](const Sample& still) {
-    reference::CarryingFeet feet(robot);
-    Sample s = still;
-    for (int k = 0; k < 2000; ++k) {
-      s.time = 0.002 * k;
-      feet.add(s);
-    }
-    try {
-      feet.judge();
-    } catch (const Refusal& refusal) {
-      return std::string(refusal.what());
-    }
-    return std::string("accepted");
-  };
   for (const double knee : {-0.1, -0.2, -0.4, -0.55}) {
     for (const double friction : {0.0, 0.3, -0.3, 0.6, -0.6}) {
       Sample s = standing_on_three(robot, knee);
       s.tau[2] += friction;
-      EXPECT_EQ(said(s), "accepted") << knee << " " << friction;
+      EXPECT_EQ(said_of(robot, s), "accepted") << knee << " " << friction;
     }
   }
   Sample carries = standing_on_three(robot, -1.6);
-  EXPECT_EQ(said(carries), "accepted");
+  EXPECT_EQ(said_of(robot, carries), "accepted");
   carries.in_contact = {true, false, true, true};
-  EXPECT_NE(said(carries).find("FL_foot is declared in the air"), std::string::npos);
+  EXPECT_NE(said_of(robot, carries).find("FL_foot is declared in the air"), std::string::npos);
+}
+
+/// Links of a kilogram each, as exporters write: a leg in the air would need more torque than there
+/// is, as though a foot carried it.
+TEST(CarryingFeet, AreNotLegsThatAreGivenTooHeavy) {
+  const Robot robot = test::bundled_quadruped().robot;
+  Robot heavy = robot;
+  for (std::size_t link = 1; link < heavy.links.size(); ++link) {
+    heavy.links[link].inertia.values *= 8.0;
+  }
+  const Sample s = standing_on_three(robot, -1.6);
+  const Eigen::VectorXd force = reference::supporting_forces(heavy, s, stacked_parameters(heavy));
+  EXPECT_GT(force[0], 0.2 * force.tail(3).mean());
+  EXPECT_EQ(said_of(heavy, s), "accepted");
 }
 
 /// A change of any torque changes the forces as the columns say: forces are linear in torques.
