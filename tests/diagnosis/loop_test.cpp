@@ -201,6 +201,23 @@ TEST(Candidates, AGroupPaysForThePeriodsOfItsMembers) {
   EXPECT_GT(others, 3);
 }
 
+/// What noise of its encoder makes of gravity was called cogging, of 16 N m at a joint that asks
+/// for 2.
+TEST(Candidates, AJointThatStandsHasNoRipple) {
+  const Recording log = record({}, [](std::vector<Sample>& samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      samples[i].q[2] = 0.7 + 1e-4 * std::sin(1e3 * static_cast<double>(i));
+      samples[i].dq[2] = samples[i].ddq[2] = 0.0;
+    }
+  });
+  AppliedEffect ripple = effect("cogging", 2, {0.1, 0.1});
+  ripple.shape[0] = 100.0;
+  EXPECT_TRUE(is_ripple_at_rest(log, ripple));
+  ripple.site = 1;
+  EXPECT_FALSE(is_ripple_at_rest(log, ripple));
+  EXPECT_EQ(test::loop_of(log).hypotheses + 1, test::loop_of(record({})).hypotheses);
+}
+
 /// What it found is told before names are questioned; unless that asks for other logs it is closed.
 TEST(Loop, IsBrokenOffWhereItsCausesAskForOtherLogs) {
   const Recording log = record({{effect("torque_lag", 0, {0.009})}});
