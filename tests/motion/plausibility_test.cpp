@@ -413,9 +413,10 @@ TEST(Plausibility, AClockThatIsSetBackIsNoMotion) {
   Plausibility plausibility("x.csv", robot, plan, {.longest_step = 0.1});
   for (int k = 0; k < 4000; ++k) {
     const double step = 0.002, back = 0.07;
+    const int times_back = k / 17;  // a row more than a span of the test takes
     MeasuredRow row;
     row.line = k + 2;
-    row.time = step * k - back * (k / 17);  // a row more than a span of the test takes
+    row.time = step * k - back * times_back;
     row.values.resize(static_cast<Eigen::Index>(plan.channels.size()));
     row.values[plan.q] = std::sin(3.0 * step * k);
     row.values[plan.dq] = 3.0 * std::cos(3.0 * step * k);
