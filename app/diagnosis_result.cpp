@@ -484,10 +484,8 @@ std::string diagnosed_urdf(DiagnosisRun& run, const Robot& robot, const std::str
       if (lightest) written.push_back({link, *lightest});
       run.notes.push_back(fmt::format(
           "link {} was left without mass: in identified.urdf it {}", name,
-          lightest
-              ? fmt::format("has {:g} kg, a thousandth of the given, because readers want some",
-                            lightest->mass())
-              : "keeps the given inertia"));
+          lightest ? fmt::format("has {:g} kg, because readers want some", lightest->mass())
+                   : "keeps the given inertia"));
     } else if (const Violation why = why_impossible(inertia)) {
       run.notes.push_back(fmt::format("link {} keeps the given inertia: {}", name, *why));
     } else {

@@ -66,9 +66,8 @@ void CarryingFeet::add(const Sample& sample) {
   if (sample.time - looked_at_ < (any_long ? closely : now_and_then)) return;
   looked_at_ = sample.time;
   const Eigen::VectorXd force = supporting_forces(*robot_, sample, Phi_);
-  const Eigen::VectorXd of_torques =
-      supporting_forces(*robot_, sample, Eigen::VectorXd::Zero(Phi_.size()));
   const Eigen::MatrixXd per_torque = support_per_torque(*robot_, sample);
+  const Eigen::VectorXd of_torques = -per_torque * sample.tau;
   for (const Foot& foot : feet_) {
     if (foot.in_the_air) continue;
     standing_.add(on(foot, force)[0]);
