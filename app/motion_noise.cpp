@@ -50,18 +50,21 @@ void NoiseOfMotion::question_laws(const diagnosis::Recording& log,
       robot, log,
       diagnosis::series(robot, run.settings.rows, run.loop.model, log, run.settings.stride),
       run.settings.cutoff);
-  const bool asks_names =
-      !run.loop.found.empty() && std::ranges::any_of(fast_shares_, diagnosis::is_noise_of_motion);
+  had_noise_for_name_.assign(fast_shares_.size(), false);
   try {
-    if (asks_names) take_back_names(log, reference, run);
+    if (!run.loop.found.empty()) take_back_names(log, reference, run);
     const auto& laws = run.loop.strangers;
     if (std::none_of(laws.begin(), laws.end(), [&](const diagnosis::Stranger& s) {
           return is_noisy(robot.joint(s.law.joint).name);
         })) {
       return;
     }
+    std::vector<double> shares = fast_shares_;
+    for (std::size_t j = 0; j < shares.size(); ++j) {
+      if (had_noise_for_name_[j]) shares[j] = 1.0;
+    }
     for (const diagnosis::Stranger& s :
-         diagnosis::take_back_noise(robot, smoother(run), fast_shares_, run.loop)) {
+         diagnosis::take_back_noise(robot, smoother(run), shares, run.loop)) {
       taken_back_.push_back(diagnosis::law_text(s, robot));
     }
   } catch (const Refusal& refusal) {
@@ -77,8 +80,9 @@ void NoiseOfMotion::take_back_names(const diagnosis::Recording& log,
        diagnosis::take_back_names(robot, {log, reference, run.settings}, smoother(run), run.loop)) {
     names_taken_back_.push_back(f.id);
     const std::vector<bool> reach = diagnosis::reach_of(robot, f.effect);
-    if (std::ranges::count(reach, true) != 1) continue;  // all the joints that move a link
-    fast_shares_[static_cast<std::size_t>(std::ranges::find(reach, true) - reach.begin())] = 1.0;
+    for (std::size_t j = 0; j < reach.size(); ++j) {
+      if (reach[j]) had_noise_for_name_[j] = true;
+    }
   }
 }
 
@@ -121,8 +125,9 @@ void NoiseOfMotion::question_curves(const diagnosis::Recording& log,
 void NoiseOfMotion::note(DiagnosisRun& run) const {
   std::vector<std::string> noisy;
   const Robot& robot = log_inputs_.robot.robot;
-  for (int j = 0; j < robot.joint_count() && !fast_shares_.empty(); ++j) {
-    if (is_noisy(robot.joint(j).name)) noisy.push_back(robot.joint(j).name);
+  for (std::size_t j = 0; j < fast_shares_.size(); ++j) {
+    if (!diagnosis::is_noise_of_motion(fast_shares_[j])) continue;
+    noisy.push_back(robot.joint(static_cast<int>(j)).name);
   }
   const double slower = diagnosis::slower_by * run.settings.cutoff;
   if (!noisy.empty()) {
@@ -138,8 +143,10 @@ void NoiseOfMotion::note(DiagnosisRun& run) const {
         slower, why_not_asked_));
   }
   if (!names_taken_back_.empty()) {
-    run.notes.push_back(fmt::format("gone behind a filter of {:.3g} Hz, and so no cause: {}",
-                                    slower, fmt::join(names_taken_back_, ", ")));
+    run.notes.push_back(fmt::format(
+        "gone behind a filter of {:.3g} Hz, and so no cause, but what noise of differentiated "
+        "positions made (--cutoff {:.3g} leaves less of it): {}",
+        slower, slower, fmt::join(names_taken_back_, ", ")));
   }
   if (taken_back_.empty()) return;
   run.notes.push_back(fmt::format("gone behind a filter of {:.3g} Hz, and so not unexplained: {}",
@@ -147,10 +154,10 @@ void NoiseOfMotion::note(DiagnosisRun& run) const {
 }
 
 bool NoiseOfMotion::is_noisy(const std::string& joint) const {
-  const Robot& robot = log_inputs_.robot.robot;
-  const std::optional<int> j = robot.find_joint(joint);
-  return j && !fast_shares_.empty() &&
-         diagnosis::is_noise_of_motion(fast_shares_[static_cast<std::size_t>(*j)]);
+  const std::optional<int> j = log_inputs_.robot.robot.find_joint(joint);
+  if (!j || fast_shares_.empty()) return false;
+  const auto at = static_cast<std::size_t>(*j);
+  return had_noise_for_name_[at] || diagnosis::is_noise_of_motion(fast_shares_[at]);
 }
 
 }  // namespace shapeid::app

@@ -30,7 +30,8 @@ class NoiseOfMotion {
   /// leaves too little.
   [[nodiscard]] Eigen::VectorXd moves(const DiagnosisRun& run);
   [[nodiscard]] const std::vector<std::string>& silent() const { return silent_; }
-  /// Whether most of what remains of a joint is noise of motion, as far as was asked.
+  /// Whether most of what remains of a joint is noise of motion, as far as was asked, or such noise
+  /// had a name that reaches it.
   [[nodiscard]] bool is_noisy(const std::string& joint) const;
   /// Adds notes: of which joints most of what remains is noise of motion, and what was taken back.
   void note(DiagnosisRun& run) const;
@@ -47,6 +48,7 @@ class NoiseOfMotion {
   std::optional<RecordedLog> log_, reference_;
   diagnosis::LoopSettings settings_;
   std::vector<double> fast_shares_;
+  std::vector<bool> had_noise_for_name_;  ///< joints that a name which was taken back reaches
   std::vector<std::string> names_taken_back_, taken_back_, silent_;
   std::string why_not_asked_;  ///< behind the slower filter, with what is left of the log there
 };

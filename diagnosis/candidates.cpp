@@ -185,6 +185,14 @@ bool is_long_ripple(const Recording& log, const AppliedEffect& effect) {
   return is_ripple(effect) && effect.shape[0] * range_of(log, effect.site) < 4.0 * pi;
 }
 
+bool is_fast_ripple(const Recording& log, const AppliedEffect& effect, double frequency) {
+  if (!is_ripple(effect)) return false;
+  const double speed = 2.0 * pi * frequency / effect.shape[0];  // rad/s or m/s
+  const auto fast = std::ranges::count_if(
+      log.samples(), [&](const Sample& s) { return std::abs(s.dq[effect.site]) > speed; });
+  return 2 * fast > std::ssize(log.samples());
+}
+
 Term term_of_masses(const std::vector<int>& links) {
   Term term{"masses", {}, {}, 0};
   for (const int link : links) {

@@ -32,6 +32,9 @@ namespace shapeid::diagnosis {
 [[nodiscard]] bool is_ripple_at_rest(const Recording& log, const AppliedEffect& effect);
 /// Whether it is a ripple of which the joint goes through less than two periods.
 [[nodiscard]] bool is_long_ripple(const Recording& log, const AppliedEffect& effect);
+/// Whether it is a ripple that is faster than `frequency` (Hz) at more than half of the samples.
+[[nodiscard]] bool is_fast_ripple(const Recording& log, const AppliedEffect& effect,
+                                  double frequency);
 
 struct CandidateRule {
   std::vector<int> free_links;  ///< a load that is always there cannot be told from these

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/refit.hpp"
@@ -25,14 +26,24 @@ constexpr double motion_as_fast = 2.0;
 // the slower filter, and all others more than it (docs/derivations/diagnosis-history.md).
 constexpr double kept_share = 0.5;
 
-/// Of unit power still, and without ends from which a slow motion would seem fast.
-Eigen::VectorXd tapered(const std::vector<double>& time, Eigen::VectorXd y) {
-  const double size = std::sqrt(8.0 / 3.0);
-  for (std::size_t i = 0; i < time.size(); ++i) {
-    const double part = (time[i] - time.front()) / (time.back() - time.front());
-    y[static_cast<Eigen::Index>(i)] *= size * std::pow(std::sin(std::numbers::pi * part), 2);
+/// Tapered anew between gaps, of unit power still: of ends and gaps a slow motion would seem fast.
+/// What stands between gaps for less than `shortest` (s) is zero; all is where nothing else is.
+Eigen::VectorXd tapered(const std::vector<double>& time, double shortest, Eigen::VectorXd y) {
+  const double gap = 1.5 * usual_step(time);
+  Eigen::VectorXd shape = Eigen::VectorXd::Zero(y.size());
+  std::size_t begin = 0;
+  while (begin < time.size()) {
+    std::size_t end = begin + 1;
+    while (end < time.size() && time[end] - time[end - 1] < gap) ++end;
+    const double duration = time[end - 1] - time[begin];
+    for (std::size_t i = begin; i < end && duration >= shortest; ++i) {
+      const double part = (time[i] - time[begin]) / duration;
+      shape[static_cast<Eigen::Index>(i)] = std::pow(std::sin(std::numbers::pi * part), 2);
+    }
+    begin = end;
   }
-  return y;
+  const double size = shape.norm() / std::sqrt(static_cast<double>(y.size()));
+  return size > 0.0 ? (y.array() * shape.array() / size).matrix() : y;
 }
 
 /// What the loop has come to, before the smoother logs.
@@ -53,12 +64,13 @@ std::vector<double> fast_shares(const Robot& robot, const Recording& recording,
   std::vector<double> shares(static_cast<std::size_t>(robot.joint_count()), 0.0);
   const std::vector<double> time = times(recording, series);
   if (time.size() < fewest) return shares;
+  const double shortest = static_cast<double>(fewest) / (slower_by * cutoff);
   for (int j = 0; j < robot.joint_count(); ++j) {
     const Eigen::Index row = robot.base_dof() + j;
     const double highest = 0.5 / usual_step(time);
     const Spectrum left = spectrum(time, centred(series, series.residual, row), highest);
     const Spectrum asked =
-        spectrum(time, tapered(time, centred(series, series.predicted, row)), highest);
+        spectrum(time, tapered(time, shortest, centred(series, series.predicted, row)), highest);
     const std::size_t from = left.at(slower_by * cutoff), end = left.power.size();
     if (from < fewest || end - from < fewest) continue;
     const double all = left.mean(0, end) * static_cast<double>(end);
@@ -80,7 +92,8 @@ std::vector<Found> take_back_names(const Robot& robot, const FilteredLogs& logs,
   std::vector<Found> gone, stay;
   for (std::size_t k = 0; k < loop.found.size(); ++k) {
     const Found& f = loop.found[k];
-    (now[k].share < kept_share * f.gain ? gone : stay).push_back(f);
+    const bool is_lost = is_fast_ripple(logs.log, f.effect, smoother.settings.cutoff);
+    (!is_lost && now[k].share < kept_share * f.gain ? gone : stay).push_back(f);
   }
   if (gone.empty()) return gone;
   LoopState state(robot, logs.log, logs.reference, logs.settings);

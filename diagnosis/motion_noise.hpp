@@ -34,7 +34,8 @@ struct FilteredLogs {
 /// too small (errors in variables), and a law whose column goes with the motion makes up for that:
 /// it predicts, and is no cause. What is slow loses nothing to a slower filter, and noise does, so
 /// a cause gains a larger share of the error there; what gains less than half the share is taken
-/// back, and the others' numbers are fitted anew. Returns it. Throws Refusal "too-short" as
+/// back, and the others' numbers are fitted anew; not a ripple that is lost there itself
+/// (is_fast_ripple()). Returns it. Throws Refusal "too-short" as
 /// close_loop() does: a slower filter leaves less of a log.
 std::vector<Found> take_back_names(const Robot& robot, const FilteredLogs& logs,
                                    const FilteredLogs& smoother, LoopResult& loop);

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "shapeid/diagnosis/candidates.hpp"
 #include "shapeid/diagnosis/consistent.hpp"
 #include "shapeid/diagnosis/unnoticed.hpp"
 #include "shapeid/models/error.hpp"
@@ -84,6 +85,31 @@ TEST(NoiseOfMotion, IsFasterThanNoiseOfTorque) {
         Eigen::VectorXd::LinSpaced(count, 0.0, 1500.0).array().sin().matrix().transpose();
     EXPECT_EQ(fast_shares(arm(), log, series, filter_cutoff)[1], 0.0);
   }
+}
+
+/// A motion that is slow and far larger than the noise, of which stretches are held out: at gaps it
+/// seems fast.
+TEST(NoiseOfMotion, IsKnownBetweenStretchesThatAreHeldOut) {
+  const Recording log = record({{}, 20.0, 0.02, 3});
+  Series series;
+  for (std::size_t i = 0; i < log.samples().size(); ++i) {
+    constexpr double stretch = 2.0;  // s, of which every fifth is left out
+    if (static_cast<int>(log[i].time / stretch) % 5 != 2) series.index.push_back(i);
+  }
+  const auto count = static_cast<Eigen::Index>(series.index.size());
+  ASSERT_LT(series.index.size(), log.samples().size());
+  const Eigen::VectorXd motion = filtered(second_difference(white(count, 21)));
+  Eigen::VectorXd slow(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    slow[i] = std::sin(0.7 + 2.0 * log[series.index[static_cast<std::size_t>(i)]].time);
+  }
+  series.counted.setConstant(3, count, true);
+  series.residual = motion.transpose().replicate(3, 1);
+  series.predicted = series.residual;
+  series.predicted.row(1) += 1e3 * slow.transpose();
+  const std::vector<double> shares = fast_shares(arm(), log, series, filter_cutoff);
+  EXPECT_TRUE(is_noise_of_motion(shares[0]));
+  EXPECT_EQ(shares[1], shares[0]);
 }
 
 TEST(NoiseOfMotion, OfALogThatIsTooShortNothingIsSaid) {
@@ -168,6 +194,25 @@ TEST(NoiseOfMotion, WhatTheSmootherLogLacksIsNoCause) {
   const auto gain_before = std::ranges::find(before.found, loop.found[0].id, &Found::id)->gain;
   EXPECT_LT(loop.found[0].gain, gain_before);
   EXPECT_GT(loop.found[0].gain, 0.0);
+}
+
+/// A ripple of so many periods a radian that the smoother log has lost it is no noise for that; one
+/// that a smoother log would still have is.
+TEST(NoiseOfMotion, ARippleThatTheSlowerFilterTakesAwayStands) {
+  for (const double periods : {40.0, 4.0}) {
+    AppliedEffect ripple = test::effect("cogging", 1, {0.2, 0.1});
+    ripple.shape[0] = periods;
+    const Recording log = record({{ripple}}), smoother = record({});
+    LoopSettings settings = test::arm_settings(), slower = settings;
+    slower.cutoff = 2.0;
+    LoopResult loop = loop_of(log);
+    ASSERT_EQ(loop.found.size(), 1U) << periods;
+    const bool is_fast = is_fast_ripple(log, loop.found[0].effect, slower.cutoff);
+    EXPECT_EQ(is_fast, periods > 10.0);
+    const auto gone =
+        take_back_names(arm(), {log, nullptr, settings}, {smoother, nullptr, slower}, loop);
+    EXPECT_EQ(gone.empty(), is_fast);
+  }
 }
 
 /// Numbers are fitted anew: what noise has made of the masses is no structure of a log that has
