@@ -155,14 +155,6 @@ void check_logs(const RobotInputs& robot, const DiagnoseOptions& options, const 
              [&] { check_each(robot, options, logs, settings); });
 }
 
-std::size_t stride_of(const MotionInputs& inputs, double rate) {
-  // A log's rate is one over a difference of rounded times: a floor of a whole number would be
-  // decided by when the log was begun.
-  constexpr double samples_a_period = 5.0, below_whole = 0.999;
-  const double cutoff = inputs.cutoff > 0.0 ? inputs.cutoff : rate;
-  return static_cast<std::size_t>(std::max(1.0, below_whole * rate / (samples_a_period * cutoff)));
-}
-
 double margin_of(const MotionInputs& inputs, double rate) {
   constexpr double longest = 0.1;
   return std::min(0.5 / (inputs.cutoff > 0.0 ? inputs.cutoff : rate), longest);

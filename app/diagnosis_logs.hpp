@@ -31,10 +31,6 @@ struct DiagnosedLogs {
 void check_logs(const RobotInputs& robot, const DiagnoseOptions& options, const DiagnosedLogs& logs,
                 const diagnosis::LoopSettings& settings);
 
-/// Every how many samples of a log of this rate (Hz) count: five a period of the filter's cutoff
-/// say all that is left in the signals.
-[[nodiscard]] std::size_t stride_of(const MotionInputs& inputs, double rate);
-
 /// s between blocks of a log of this rate (Hz).
 [[nodiscard]] double margin_of(const MotionInputs& inputs, double rate);
 

@@ -362,6 +362,14 @@ std::string held_out_words(const MotionInputs& inputs) {
                            2 * (inputs.held_out_stretch - 1));
 }
 
+std::size_t stride_of(const MotionInputs& inputs, double rate) {
+  // A log's rate is one over a difference of rounded times: a floor of a whole number would be
+  // decided by when the log was begun.
+  constexpr double samples_a_period = 5.0, below_whole = 0.999;
+  const double cutoff = inputs.cutoff > 0.0 ? inputs.cutoff : rate;
+  return static_cast<std::size_t>(std::max(1.0, below_whole * rate / (samples_a_period * cutoff)));
+}
+
 void add_hold_out_option(CLI::App& verb, MotionInputs& inputs) {
   verb.add_option("--hold-out", inputs.held_out_stretch,
                   "which of every five stretches of two seconds to test on, if no --test is given")

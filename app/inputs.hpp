@@ -61,6 +61,10 @@ void say_warnings(const RobotInputs& inputs);
 /// What complaints and notes about a log call options of the command.
 [[nodiscard]] MotionOptionNames names_of_options();
 
+/// Every how many samples of a log of this rate (Hz) count: five a period of the filter's cutoff
+/// say all that is left in the signals.
+[[nodiscard]] std::size_t stride_of(const MotionInputs& inputs, double rate);
+
 /// Throws InputError for a log that flows by, which can be read once only.
 void check_no_stream(const std::string& log);
 

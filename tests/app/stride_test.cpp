@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "shapeid/app/diagnosis_logs.hpp"
+#include "shapeid/app/inputs.hpp"
 
 namespace shapeid::test {
 namespace {
