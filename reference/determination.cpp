@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -22,7 +24,28 @@ constexpr double largest_unjudged = 0.5;
 /// The level at which errors are widened for few blocks: at two of them.
 constexpr double widened_at = 2.0;
 
+/// Of a link's ten parameters those that no body has below zero: m, Ixx, Iyy, Izz.
+constexpr std::array<bool, 10> never_negative = {true,  false, false, false, true,
+                                                 false, false, true,  false, true};
+
 }  // namespace
+
+bool Determination::is_impossible(Eigen::Index parameter) const {
+  return never_negative.at(static_cast<std::size_t>(parameter % 10)) && value[parameter] < 0.0 &&
+         !agrees(parameter, 0.0);
+}
+
+bool differ(const Determination& a, const Determination& b, Eigen::Index parameter) {
+  const double larger =
+      std::max(a.wider * a.standard_error[parameter], b.wider * b.standard_error[parameter]);
+  return std::abs(a.value[parameter] - b.value[parameter]) > widened_at * larger;
+}
+
+bool is_held(double standard_error, double data_standard_error) {
+  // Of the data's variance, the share that is left is how far the number follows the data.
+  constexpr double half = 0.5;
+  return standard_error * standard_error < half * data_standard_error * data_standard_error;
+}
 
 Determination determine(const std::vector<RowBlock>& blocks, const Eigen::VectorXd& natural_size) {
   const Eigen::Index n = natural_size.size();
@@ -81,6 +104,19 @@ Determination determine(const std::vector<RowBlock>& blocks, const Eigen::Vector
     result.determined[static_cast<std::size_t>(i)] = result.wider * share < largest_share;
   }
   return result;
+}
+
+void take_back(Determination& data, const std::optional<Determination>& slower,
+               const Eigen::VectorXd& natural_size) {
+  for (Eigen::Index i = 0; i < natural_size.size(); ++i) {
+    bool stands = !data.is_impossible(i);
+    if (slower && differ(data, *slower, i)) {
+      const double move = slower->value[i] - data.value[i];
+      const double error = data.wider * std::hypot(data.standard_error[i], move);
+      stands = stands && error < largest_share * natural_size[i];
+    }
+    if (!stands) data.determined[static_cast<std::size_t>(i)] = false;
+  }
 }
 
 }  // namespace shapeid::reference

@@ -1,9 +1,11 @@
 // Which parameters the data determine, and which come from the shapes and the density term.
+// Derivation: docs/derivations/determination.md.
 #pragma once
 
 #include <Eigen/Core>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace shapeid::reference {
@@ -33,7 +35,19 @@ struct Determination {
   [[nodiscard]] bool agrees(Eigen::Index parameter, double number) const {
     return std::abs(number - value[parameter]) <= 3.0 * wider * standard_error[parameter];
   }
+
+  /// Whether `value` is no body's: a mass, or a moment of inertia, that is negative by more than
+  /// that. Noise in the motion makes such values of links that hardly turn.
+  [[nodiscard]] bool is_impossible(Eigen::Index parameter) const;
 };
+
+/// Whether the values of a parameter by two filters of the same data differ by more than two
+/// widened errors of either. They share their noise of torque, so that chance makes less.
+[[nodiscard]] bool differ(const Determination& a, const Determination& b, Eigen::Index parameter);
+
+/// Whether shapes and bounds hold a number to which they leave `standard_error`, where the data by
+/// themselves have another: it then follows less than half of what the data say by chance.
+[[nodiscard]] bool is_held(double standard_error, double data_standard_error);
 
 /// A parameter whose error exceeds half of its own natural size is not known even to its sign.
 inline constexpr double largest_share = 0.5;
@@ -47,5 +61,11 @@ inline constexpr double largest_share = 0.5;
 /// columns, so that rank and shares do not depend on units.
 [[nodiscard]] Determination determine(const std::vector<RowBlock>& blocks,
                                       const Eigen::VectorXd& natural_size);
+
+/// Takes back that parameters are determined: those with a value that no body has, and those of
+/// which rows behind a slower filter (`slower`) say so much else that the difference, as part of
+/// the error, is more than `largest_share` allows.
+void take_back(Determination& data, const std::optional<Determination>& slower,
+               const Eigen::VectorXd& natural_size);
 
 }  // namespace shapeid::reference

@@ -20,21 +20,17 @@ namespace {
 /// Contiguous blocks of rows; twice as long each time there are too many.
 class Blocks {
  public:
-  using RowsOf = std::function<SampleRows(const Sample&)>;
-  Blocks(Window window, std::optional<RowFilter> filter, RowsOf rows, double seconds)
-      : window_(std::move(window)),
-        filter_(std::move(filter)),
-        rows_(std::move(rows)),
-        seconds_(seconds) {}
+  Blocks(Window window, std::optional<RowFilter> filter, double seconds)
+      : window_(std::move(window)), filter_(std::move(filter)), seconds_(seconds) {}
 
-  void add(const Sample& sample) {
+  void add(double time, const SampleRows& rows) {
     if (filter_) {
-      filter_->push(sample.time, rows_(sample));
+      filter_->push(time, rows);
       add_filtered();
       return;
     }
-    close_before(sample.time);
-    window_.add(rows_(sample));
+    close_before(time);
+    window_.add(rows);
   }
 
   std::vector<RowBlock> finish() {
@@ -84,7 +80,6 @@ class Blocks {
 
   Window window_;
   std::optional<RowFilter> filter_;
-  RowsOf rows_;
   double seconds_, start_ = 0.0, last_ = 0.0;
   std::vector<RowBlock> blocks_;
 };
@@ -164,20 +159,24 @@ CompressedRows compress(const Robot& robot, const BodyModel& model, const Sample
   const Eigen::VectorXd weight = settings.weight.size() > 0
                                      ? settings.weight
                                      : Eigen::VectorXd(Eigen::VectorXd::Ones(robot.dof()));
-  std::optional<RowFilter> filter;
-  if (settings.row_filter) {
-    filter.emplace(robot, model, settings.contacts, weight, *settings.row_filter);
-  }
-  const auto rigid = [&](const Sample& sample) {
-    return sample_rows(robot, model.known, model.free_links, settings.contacts, sample);
+  const auto blocks = [&](const std::optional<RowFilterOptions>& options) {
+    std::optional<RowFilter> filter;
+    if (options) filter.emplace(robot, model, settings.contacts, weight, *options);
+    return Blocks(Window(robot, model, settings.contacts, weight), std::move(filter),
+                  settings.block_seconds);
   };
-  Blocks collected(Window(robot, model, settings.contacts, weight), std::move(filter),
-                   settings.rows ? settings.rows : rigid, settings.block_seconds);
+  Blocks collected = blocks(settings.row_filter);
+  std::optional<Blocks> slower;
+  if (settings.slower) slower.emplace(blocks(settings.slower));
   CompressedRows result;
   StandingFeet feet(robot);
   CarryingFeet carrying(robot);
   while (const std::optional<Sample> sample = next()) {
-    collected.add(*sample);
+    const SampleRows rows = settings.rows ? settings.rows(*sample)
+                                          : sample_rows(robot, model.known, model.free_links,
+                                                        settings.contacts, *sample);
+    collected.add(sample->time, rows);
+    if (slower) slower->add(sample->time, rows);
     if (settings.contacts == ContactTreatment::project) {
       feet.add(*sample);
       carrying.add(*sample);
@@ -187,6 +186,7 @@ CompressedRows compress(const Robot& robot, const BodyModel& model, const Sample
   feet.judge();
   carrying.judge();
   result.blocks = collected.finish();
+  if (slower) result.slower = slower->finish();
   return result;
 }
 
@@ -246,7 +246,8 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
   }
   Identification result;
   result.samples = rows.samples;
-  result.data = determine(rows.blocks, natural_sizes(model, settings.expected_mass));
+  const Eigen::VectorXd sizes = natural_sizes(model, settings.expected_mass);
+  result.data = determine(rows.blocks, sizes);
   result.blocks = rows.blocks.size();
   const auto& known = result.data.determined;
   if (std::none_of(known.begin(), known.end(), [](bool is_known) { return is_known; })) {
@@ -258,11 +259,14 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
                                 "parameter by; log a longer motion, and logs of like length",
                                 rows.blocks.size()));
     }
-    refuse_disagreement(rows.blocks, natural_sizes(model, settings.expected_mass));
+    refuse_disagreement(rows.blocks, sizes);
     throw Refusal("not-excited",
                   "the motion determines no parameter of the free links; use a log in which they "
                   "move, turn or are loaded");
   }
+
+  if (!rows.slower.empty()) result.slower = determine(rows.slower, sizes);
+  take_back(result.data, result.slower, sizes);
 
   MassProblem problem;
   set_rows(problem, all_rows);

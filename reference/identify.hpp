@@ -36,6 +36,9 @@ struct IdentifySettings {
   double block_seconds = 0.5;  ///< contiguous blocks for standard errors
   /// Low-pass the rows in time; the samples then need little smoothing of their own.
   std::optional<RowFilterOptions> row_filter;
+  /// The same rows are asked once more behind this filter, slower than all others: what of the
+  /// answer is noise of the motion is less there.
+  std::optional<RowFilterOptions> slower;
   /// Rows of a sample when more than rigid links is known of the robot (friction, ...); empty:
   /// sample_rows().
   std::function<SampleRows(const Sample&)> rows;
@@ -46,6 +49,8 @@ struct Identification {
   double undivided_objective = 0.0;  ///< of the shapes as given
   Eigen::VectorXd Phi;               ///< all links of the robot, 10 each
   Determination data;                ///< per parameter of the free links
+  /// The same of the rows behind the slower filter; none if it was not asked for.
+  std::optional<Determination> slower;
   /// Standard errors of Phi of the free links with shapes, bounds and density term at work, by
   /// leaving out each block once (jackknife). Bias from noise in Y is not in them.
   Eigen::VectorXd standard_error;
@@ -61,6 +66,8 @@ struct CompressedRows {
   /// Fewer than most_blocks: neighbours merge when there are that many.
   std::vector<RowBlock> blocks;
   std::size_t samples = 0;
+  /// Behind the slower filter; empty if it was not asked for, or leaves nothing.
+  std::vector<RowBlock> slower;
 };
 
 /// Reads a stream to its end. Memory does not grow with it. No blocks for an empty stream. Throws

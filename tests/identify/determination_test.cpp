@@ -103,6 +103,54 @@ TEST(Determination, TellsWhatTheDataSay) {
   }
 }
 
+/// Ten parameters of these values and errors, all called determined.
+Determination ten_parameters(const VectorXd& value, double error) {
+  Determination ten;
+  ten.value = value;
+  ten.standard_error = VectorXd::Constant(10, error);
+  ten.determined.assign(10, true);
+  return ten;
+}
+
+// Three errors below zero, of a mass or a moment of inertia: no body is so. First moments and
+// products may be.
+TEST(Determination, TakesBackWhatNoBodyHas) {
+  VectorXd value = VectorXd::Constant(10, -3.01);
+  Determination data = ten_parameters(value, 1.0);
+  take_back(data, {}, VectorXd::Constant(10, 100.0));
+  EXPECT_EQ(data.determined,
+            (std::vector<bool>{false, true, true, true, false, true, true, false, true, false}));
+  data = ten_parameters(-2.99 / 3.01 * VectorXd::Constant(10, 3.01), 1.0);
+  take_back(data, {}, VectorXd::Constant(10, 100.0));
+  EXPECT_EQ(data.determined, std::vector<bool>(10, true)) << "within its errors of a body's";
+}
+
+// A filter that moves a number by more than errors allow adds to its error; which then may be too
+// large for it to be determined.
+TEST(Determination, TakesBackWhatHangsOnTheFilter) {
+  const VectorXd value = VectorXd::LinSpaced(10, 20.0, 30.0), size = VectorXd::Constant(10, 10.0);
+  Determination slower = ten_parameters(value, 1.5);
+  slower.value[1] += 2.9;   // within two of its own errors
+  slower.value[2] -= 3.1;   // not, but with it the error is sqrt(1 + 3.1^2), less than 5
+  slower.value[3] += 4.95;  // sqrt(1 + 4.95^2) is more
+  slower.value[5] -= 9.0;
+  slower.standard_error[5] = 5.0;  // the slower filter says little of it
+  Determination data = ten_parameters(value, 1.0);
+  const std::vector<bool> differing = {false, false, true, true, false, false};
+  for (std::size_t i = 0; i < differing.size(); ++i) {
+    EXPECT_EQ(differ(data, slower, static_cast<Eigen::Index>(i)), differing[i]) << i;
+    EXPECT_EQ(differ(slower, data, static_cast<Eigen::Index>(i)), differing[i]) << i;
+  }
+  take_back(data, slower, size);
+  std::vector<bool> left(10, true);
+  left[3] = false;
+  EXPECT_EQ(data.determined, left);
+
+  // Errors of few blocks are wider.
+  slower.wider = 1.2;
+  EXPECT_FALSE(differ(data, slower, 2));
+}
+
 // An error of a third of the size is enough by many blocks, and not by the spread of two.
 TEST(Determination, TwoBlocksMustAgreeMoreClosely) {
   for (const bool few : {false, true}) {

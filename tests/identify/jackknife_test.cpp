@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "shapeid/models/error.hpp"
@@ -83,6 +84,52 @@ TEST(Jackknife, IsAroundTheAnswer) {
   const double squares = answer * answer + std::pow(0.45 - answer, 2) + std::pow(0.35 - answer, 2);
   EXPECT_LT(scaled(std::abs(found.standard_error[0] - std::sqrt(2.0 / 3.0 * squares)), 1.0, 11),
             few_hundred_eps);
+}
+
+// One cuboid has one ratio of Ixx to mass. Readings of the mass are ten times as certain, in it, as
+// those of Ixx, and say what both are.
+TEST(Jackknife, IsOfTheShapesWhereTheyHoldANumber) {
+  const BodyModel model = of_cuboids({{0.1, 0.4, 0.3}});
+  const double ratio = unit_parameters(model.shapes[0].shape).values[4];
+  CompressedRows rows;
+  for (const double error : {1.0, -1.0, -1.0, 1.0, 1.0, -1.0}) {
+    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(11, 11);
+    block(0, 0) = 10.0;
+    block(0, 10) = 10.0 * 3.0 + 0.2 * error;
+    block(1, 4) = 1.0 / ratio;
+    block(1, 10) = 3.2 + 0.2 * (rows.blocks.size() % 2 == 0 ? 1.0 : -1.0);
+    rows.blocks.push_back({block});
+  }
+  IdentifySettings settings;
+  settings.expected_mass = 3.0;
+  settings.lambda = 0.0;
+  settings.division.most_divisions = 0;
+  const Identification found = identify(model, rows, settings);
+  ASSERT_TRUE(found.data.determined[0] && found.data.determined[4]);
+  ASSERT_TRUE(found.data.agrees(4, found.Phi[4]));
+  EXPECT_FALSE(is_held(found.standard_error[0], found.data.standard_error[0]));
+  EXPECT_TRUE(is_held(found.standard_error[4], found.data.standard_error[4]));
+  EXPECT_FALSE(found.slower);
+
+  // The same numbers, and what the slower filter makes of them.
+  rows.slower = rows.blocks;
+  for (RowBlock& block : rows.slower) block.rows(1, 10) += 2.0;
+  const Identification asked = identify(model, rows, settings);
+  EXPECT_EQ(asked.Phi, found.Phi);
+  EXPECT_EQ(asked.standard_error, found.standard_error);
+  ASSERT_TRUE(asked.slower);
+  EXPECT_LT(scaled(std::abs(asked.slower->value[4] - found.data.value[4] - 2.0 * ratio), 1.0, 11),
+            few_hundred_eps);
+  EXPECT_TRUE(asked.data.determined[0]);
+  EXPECT_FALSE(asked.data.determined[4]) << "2 of 3 kg, more than half";
+}
+
+// Variances of 0.49 and 0.51 of the data's.
+TEST(Held, IsWhatFollowsLessThanHalfOfTheData) {
+  EXPECT_TRUE(is_held(0.70, 1.0));
+  EXPECT_FALSE(is_held(0.7142, 1.0));
+  EXPECT_TRUE(is_held(0.0, 1e-9)) << "a mass at zero";
+  EXPECT_TRUE(is_held(1.0, std::numeric_limits<double>::infinity())) << "the data say nothing";
 }
 
 // By hand: two cuboids of 6 and 12 litres share 9 kg as 3 and 6. Every second moment of a cuboid is

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapeid/reference/identify.hpp"
 #include "shapeid/reference/regressor.hpp"
 #include "shapeid/reference/window.hpp"
 #include "shapeid/tests/physics/dynamics.hpp"
@@ -158,6 +159,42 @@ TEST(RowFilter, TakesOutWhatAlternates) {
   for (std::size_t i = 100; i < 300; ++i) {
     ASSERT_LT((found[i].F - expected[i].F).norm(), 1e-3 * expected[i].F.norm());
   }
+}
+
+// The slower filter that `identify` asks beside the rows: both are what each would be alone.
+TEST(RowFilter, BesideTheRowsIsTheSameAsAlone) {
+  const Quadruped quadruped = bundled_quadruped();
+  const std::vector<Sample> samples = trot_with_gap(quadruped.robot).before;
+  reference::IdentifySettings settings;
+  settings.contacts = project;
+  settings.weight = uneven_weight(quadruped.robot);
+  settings.block_seconds = 0.25;
+  const auto compressed = [&] {
+    std::size_t next = 0;
+    return compress(
+        quadruped.robot, quadruped.base,
+        [&]() -> std::optional<Sample> {
+          return next < samples.size() ? std::optional(samples[next++]) : std::nullopt;
+        },
+        settings);
+  };
+  const auto rows_of = [](const std::vector<reference::RowBlock>& blocks) {
+    std::vector<Eigen::MatrixXd> rows;
+    for (const reference::RowBlock& block : blocks) rows.push_back(block.rows);
+    return rows;
+  };
+  const auto plain = rows_of(compressed().blocks);
+  settings.slower.emplace();
+  settings.slower->cutoff = 7.0;
+  settings.slower->keep_every = 3;
+  const reference::CompressedRows both = compressed();
+  settings.row_filter = settings.slower;
+  settings.slower.reset();
+  const auto alone = rows_of(compressed().blocks);
+  EXPECT_GT(plain.size(), 2U);
+  EXPECT_EQ(rows_of(both.blocks), plain);
+  EXPECT_EQ(rows_of(both.slower), alone);
+  EXPECT_NE(alone, plain);
 }
 
 }  // namespace
