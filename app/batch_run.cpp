@@ -14,6 +14,7 @@
 #include "shapeid/app/limit.hpp"
 #include "shapeid/app/merge_order.hpp"
 #include "shapeid/app/noted_refusal.hpp"
+#include "shapeid/app/number_source.hpp"
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/app/tell.hpp"
 #include "shapeid/diagnosis/in_parallel.hpp"
@@ -25,10 +26,10 @@ namespace {
 
 using nlohmann::json;
 
-/// A log, and its rows as a triangle [Y F]; none if it was refused.
+/// A log, and its rows as a triangle [Y F], also behind the slower filter; none if it was refused.
 struct CompressedLog {
   BatchLog log;
-  Eigen::MatrixXd rows;
+  Eigen::MatrixXd rows, slower;
 };
 
 // --- Messages between processes. Numbers keep every bit.
@@ -99,6 +100,7 @@ CompressedLog compressed(const std::string& path, const BatchOptions& options,
     result.log.contacts_derived = report.contacts_derived;
     refuse_without_samples(report);
     result.rows = merged(rows.blocks);
+    if (!rows.slower.empty()) result.slower = merged(rows.slower);
     if (!result.rows.allFinite()) {
       throw Refusal("not-finite", "the log's numbers are too large for the sums of their squares");
     }
@@ -109,7 +111,10 @@ CompressedLog compressed(const std::string& path, const BatchOptions& options,
     result.log.code = e.code();
   }
   if (samples) result.log.notes = samples->report().notes;
-  if (!result.log.refused.empty()) result.rows.resize(0, 0);
+  if (!result.log.refused.empty()) {
+    result.rows.resize(0, 0);
+    result.slower.resize(0, 0);
+  }
   return result;
 }
 
@@ -121,6 +126,13 @@ double residual(const CompressedLog& log, const Eigen::VectorXd& Phi) {
 }
 
 // --- All logs
+
+/// A triangle of both; a log of short pieces has none behind the slower filter.
+Eigen::MatrixXd together(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
+  if (left.size() == 0) return right;
+  if (right.size() == 0) return left;
+  return reference::triangle(reference::stacked(left, right));
+}
 
 /// The logs, each with the process that reads it: contiguous shares, so that neighbours merge where
 /// they are.
@@ -148,11 +160,11 @@ class Shares {
   }
 
   /// Blocks of neighbours among the logs that are used, at most so many, at number 0; empty
-  /// elsewhere.
-  std::vector<reference::RowBlock> merge(std::size_t most) {
+  /// elsewhere. `of_log`: which of its rows.
+  std::vector<reference::RowBlock> merge(std::size_t most, Eigen::MatrixXd CompressedLog::*of_log) {
     const std::vector<std::size_t> used = used_logs();
     std::vector<Eigen::MatrixXd> rows;
-    for (const CompressedLog& log : all_) rows.push_back(log.rows);
+    for (const CompressedLog& log : all_) rows.push_back(log.*of_log);
     const std::size_t stride =
         merge_neighbours(used.size(), most, [&](std::size_t first, std::size_t second) {
           const std::size_t left = used[first], right = used[second];
@@ -161,7 +173,7 @@ class Shares {
             return;
           }
           if (!is_mine(right)) rows[right] = unpacked(peers_.receive(owner(right)));
-          rows[left] = reference::triangle(reference::stacked(rows[left], rows[right]));
+          rows[left] = together(rows[left], rows[right]);
           rows[right].resize(0, 0);
         });
     std::vector<reference::RowBlock> blocks;
@@ -172,7 +184,7 @@ class Shares {
         continue;
       }
       if (!is_mine(k)) rows[k] = unpacked(peers_.receive(owner(k)));
-      blocks.push_back({rows[k]});
+      if (rows[k].size() > 0) blocks.push_back({rows[k]});
     }
     return blocks;
   }
@@ -317,11 +329,11 @@ std::vector<std::string> notes_of(const std::vector<BatchLog>& logs, const Robot
   return notes;
 }
 
-Result solved(const std::vector<BatchLog>& logs, std::vector<reference::RowBlock> blocks,
+Result solved(const std::vector<BatchLog>& logs, reference::CompressedRows rows,
               const BatchOptions& options, const RobotInputs& robot, const BodyModel& model) {
   judge_refused(logs, options.skip_refused);
   check_all_contacts_alike(logs, contact_treatment(options.inputs, robot.robot));
-  if (blocks.size() < 2) {
+  if (rows.blocks.size() < 2) {
     throw Refusal("too-short", "a single log has no spread to judge it by; identify it by itself");
   }
   Result result;
@@ -334,9 +346,12 @@ Result solved(const std::vector<BatchLog>& logs, std::vector<reference::RowBlock
   result.motion = motion_of(logs);
   reference::IdentifySettings settings = options.settings;
   settings.floor = floor_of_divisions;
-  result.found = identify(model, {std::move(blocks), result.motion.samples}, settings);
+  rows.samples = result.motion.samples;
+  result.found = identify(model, rows, settings);
+  result.slower_cutoff = slower_cutoff(options.inputs);
   check_some_mass(result, options.settings.expected_mass);
   result.notes = robot.notes_with(result.motion);
+  note_numbers_that_hang(result);
   choose_written_links(result, robot.robot, options.least_mass);
   return result;
 }
@@ -347,7 +362,9 @@ std::optional<BatchResult> run_batch(const BatchOptions& options, const RobotInp
                                      const BodyModel& model, Peers& peers) {
   Shares shares(options, robot, model, peers);
   shares.gather_reports();
-  std::vector<reference::RowBlock> blocks = shares.merge(options.most_blocks);
+  reference::CompressedRows rows;
+  rows.blocks = shares.merge(options.most_blocks, &CompressedLog::rows);
+  rows.slower = shares.merge(options.most_blocks, &CompressedLog::slower);
   if (peers.rank() != 0) {
     shares.gather_residuals({});
     return std::nullopt;
@@ -355,7 +372,7 @@ std::optional<BatchResult> run_batch(const BatchOptions& options, const RobotInp
   BatchResult batch;
   const std::vector<BatchLog> logs = shares.logs();
   batch.result = with_notes([&] { return notes_of(logs, robot); },
-                            [&] { return solved(logs, std::move(blocks), options, robot, model); });
+                            [&] { return solved(logs, std::move(rows), options, robot, model); });
   shares.gather_residuals(batch.result.found.run.solution.Phi);
   batch.logs = shares.logs();
   return batch;

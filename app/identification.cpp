@@ -12,12 +12,14 @@
 #include "shapeid/app/json_text.hpp"
 #include "shapeid/app/limit.hpp"
 #include "shapeid/app/noted_refusal.hpp"
+#include "shapeid/app/number_source.hpp"
 #include "shapeid/app/option_checks.hpp"
 #include "shapeid/app/output_folder.hpp"
 #include "shapeid/app/recordings.hpp"
 #include "shapeid/app/shared_stretches.hpp"
 #include "shapeid/app/tell.hpp"
 #include "shapeid/diagnosis/effects_yaml.hpp"
+#include "shapeid/diagnosis/motion_noise.hpp"
 #include "shapeid/diagnosis/series.hpp"
 #include "shapeid/models/butterworth.hpp"
 #include "shapeid/models/error.hpp"
@@ -155,7 +157,21 @@ reference::IdentifySettings settings_for(const LogSamples& log, const RobotInput
     settings.row_filter->cutoff = inputs.row_cutoff;
     settings.row_filter->rate = log.report().rate;
   }
+  // Signals behind it would bend a fast motion; rows do not, and need no second reading of the log.
+  MotionInputs slower = inputs;
+  slower.cutoff = slower_cutoff(inputs);
+  if (slower.cutoff > 0.0) {
+    settings.slower.emplace();
+    settings.slower->cutoff = slower.cutoff;
+    settings.slower->rate = log.report().rate;
+    settings.slower->keep_every = static_cast<int>(stride_of(slower, log.report().rate));
+  }
   return settings;
+}
+
+double slower_cutoff(const MotionInputs& inputs) {
+  const double of_signals = inputs.exact ? 0.0 : inputs.cutoff;
+  return diagnosis::slower_by * (inputs.row_cutoff > 0.0 ? inputs.row_cutoff : of_signals);
 }
 
 void check_test_log(const RobotInputs& robot, const MotionInputs& inputs,
@@ -207,7 +223,9 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   };
   with_notes([&] { return robot.notes_with(read()); }, find);
   result.motion = read();
+  result.slower_cutoff = slower_cutoff(inputs);
   result.notes = robot.notes_with(result.motion);
+  note_numbers_that_hang(result);
   choose_written_links(result, robot.robot, options.least_mass);
   result.heldout =
       with_notes([&] { return robot.notes_with(result.motion); },

@@ -9,6 +9,7 @@
 
 #include "shapeid/app/division_history.hpp"
 #include "shapeid/app/no_mass.hpp"
+#include "shapeid/app/number_source.hpp"
 #include "shapeid/models/error.hpp"
 #include "shapeid/models/problem_json.hpp"
 #include "shapeid/models/student.hpp"
@@ -45,11 +46,18 @@ struct FreeLink {
   Vector10 known, whole, sought;
 };
 
-/// What the data say of a link's ten parameters by themselves; not finite where they say nothing.
-Eigen::VectorXd data_values(const reference::Determination& data, const FreeLink& link) {
+/// What is said of a link's ten parameters; not finite where these data say nothing of them.
+Eigen::VectorXd where_told(const reference::Determination& data, const FreeLink& link,
+                           const Vector10& values) {
   const auto told = data.standard_error.segment<10>(link.at).array().isFinite();
-  return told.select(link.known + data.value.segment<10>(link.at),
-                     std::numeric_limits<double>::infinity());
+  return told.select(values, std::numeric_limits<double>::infinity());
+}
+
+/// By how much the data's ten values are others behind the slower filter; null: not asked.
+json moves_json(const reference::Identification& found, const FreeLink& link) {
+  if (!found.slower) return {};
+  const Vector10 move = (found.slower->value - found.data.value).segment<10>(link.at);
+  return numbers(where_told(*found.slower, link, where_told(found.data, link, move)));
 }
 
 json links_json(const Result& result, const Robot& robot) {
@@ -59,21 +67,28 @@ json links_json(const Result& result, const Robot& robot) {
     const FreeLink free(result, i);
     const Link& link = link_at(robot, free.link);
     const Eigen::Index at = free.at;
-    json determined = json::array(), against_data = json::array();
+    json determined = json::array(), against_data = json::array(), determined_by = json::array(),
+         hangs = json::array();
     for (Eigen::Index p = 0; p < 10; ++p) {
       determined.push_back(
           static_cast<bool>(result.found.data.determined[static_cast<std::size_t>(at + p)]));
       against_data.push_back(!result.found.data.agrees(at + p, free.sought[p]));
+      determined_by.push_back(number_source(result.found, at + p));
+      hangs.push_back(hangs_on_filter(result.found, at + p));
     }
+    const Vector10 data_value = free.known + result.found.data.value.segment<10>(at);
     links.push_back(
         {{"name", link.name},
          {"parameters", numbers(free.whole)},
          {"given", numbers(link.inertia.values)},
          {"standard_error", numbers(result.found.standard_error.segment<10>(at))},
-         {"data_value", numbers(data_values(result.found.data, free))},
+         {"data_value", numbers(where_told(result.found.data, free, data_value))},
          {"data_standard_error", numbers(result.found.data.standard_error.segment<10>(at))},
+         {"move_behind_slower_filter", moves_json(result.found, free)},
+         {"hangs_on_filter", hangs},
          {"determined", determined},
-         {"against_data", against_data}});
+         {"against_data", against_data},
+         {"determined_by", determined_by}});
   }
   return links;
 }
@@ -101,12 +116,6 @@ double fitted_seconds(const Result& result) {
 
 std::string shown(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : "none"; }
 
-/// What a number comes from.
-const char* determined_by(const reference::Determination& data, Eigen::Index at, double number) {
-  if (!data.determined[static_cast<std::size_t>(at)]) return "shapes and bounds";
-  return data.agrees(at, number) ? "data" : "shapes, against the data";
-}
-
 std::string links_text(const Result& result, const Robot& robot) {
   std::string text;
   const auto& free_links = result.found.run.model.free_links;
@@ -122,7 +131,7 @@ std::string links_text(const Result& result, const Robot& robot) {
           fmt::format("  {:<6}{:>12.5g}{:>12.5g}{:>12}{:>14}  {:<7} {}\n", parameter_names[k],
                       link.inertia.values[p], free.whole[p], shown(result.found.standard_error[at]),
                       shown(result.found.data.standard_error[at]), parameter_units[k],
-                      determined_by(result.found.data, at, free.sought[p]));
+                      number_source_text(result, at, free.known[p]));
     }
   }
   return text;
@@ -257,6 +266,7 @@ json result_json(const Result& result, const std::optional<double>& floor, const
           {"rate", result.motion.rate},
           {"gaps", result.motion.gaps},
           {"contacts_derived", result.motion.contacts_derived},
+          {"slower_cutoff", result.found.slower ? json(result.slower_cutoff) : json()},
           {"problem_digest", problem_digest(stated_problem(result))},
           {"lambda", run.problem.lambda},
           {"mass_bound", run.problem.mass_bound},
@@ -303,6 +313,7 @@ std::string result_text(const Result& result, const std::optional<double>& floor
       result.found.blocks,
       limit_for(of_95_percent, static_cast<Eigen::Index>(result.found.blocks)));
   text += "note: standard errors do not contain the shrinkage that noise in the motion causes\n";
+  text += number_source_legend(result.found);
   return text;
 }
 

@@ -35,6 +35,7 @@ struct Result {
   reference::Identification found;
   Comparison heldout;
   MotionReport motion;
+  double slower_cutoff = 0.0;  ///< Hz, of Identification::slower; 0: that was not asked for
   /// Links whose identified inertia is written; the others keep what was given, with the reason.
   std::vector<IdentifiedLink> written;
   std::vector<std::string> notes;

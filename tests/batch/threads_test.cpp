@@ -28,10 +28,13 @@ json done(const std::string& arguments) {
   return run.status == 0 ? json::parse(run.out) : json();
 }
 
-Eigen::VectorXd parameters(const json& result) {
-  const auto list = result.at("links").at(0).at("parameters").get<std::vector<double>>();
+/// Ten numbers of the first link.
+Eigen::VectorXd numbers(const json& result, const char* key) {
+  const auto list = result.at("links").at(0).at(key).get<std::vector<double>>();
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
 }
+
+Eigen::VectorXd parameters(const json& result) { return numbers(result, "parameters"); }
 
 TEST(BatchThreads, SameBytesForAnyNumber) {
   const std::string logs = "--divisions 10 --log " + piece_names();
@@ -71,6 +74,21 @@ TEST(BatchThreads, EqualsIdentifyOnOneLogWithGaps) {
   const double data = whole.at("objective").at("data").get<double>();
   EXPECT_LE(scaled(std::abs(parts.at("objective").at("data").get<double>() - data), data, pieces),
             few_hundred_eps);
+}
+
+/// Behind 55 Hz every row counts, so that it does not matter where a log begins to count.
+TEST(BatchThreads, ASlowerFilterSaysTheSameOfOneLogWithGaps) {
+  const std::string options = "--rate 500 --cutoff 110 --divisions 0 --log ";
+  simulated_log("other.csv", "--seconds 2 --rate 500 --seed 9");
+  const json parts = done(batch(options + piece_names())),
+             whole = done(fmt::format("identify {} --json {} {} --test other.csv", bundled_robot(),
+                                      options, whole_name()));
+  EXPECT_EQ(parts.at("slower_cutoff"), 55.0);
+  const auto behind = [](const json& result) -> Eigen::VectorXd {
+    return numbers(result, "data_value") + numbers(result, "move_behind_slower_filter");
+  };
+  EXPECT_GT(numbers(whole, "move_behind_slower_filter").norm(), 1e-3 * behind(whole).norm());
+  EXPECT_LE(scaled_difference(behind(parts), behind(whole), 10), few_hundred_eps);
 }
 
 TEST(BatchThreads, ResidualsOfTheLogsAddUpToTheObjective) {
