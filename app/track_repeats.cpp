@@ -6,28 +6,24 @@
 namespace shapeid::app {
 
 RepeatWatch::RepeatWatch(const ChannelPlan& plan, Eigen::Index joints)
-    : last_(static_cast<Eigen::Index>(plan.channels.size())) {
+    : joints_(joints),
+      kinds_{plan.q, plan.tau},
+      last_(static_cast<Eigen::Index>(plan.channels.size())) {
   restart();
-  const auto is_derivative = [](Eigen::Index channel, Eigen::Index first, Eigen::Index size) {
-    return first >= 0 && channel >= first && channel < first + size;
-  };
-  for (Eigen::Index c = 0; c < last_.size(); ++c) {
-    // The stream differentiates by itself.
-    if (is_derivative(c, plan.dq, joints) || is_derivative(c, plan.ddq, joints) ||
-        is_derivative(c, plan.gyrodot, 3)) {
-      continue;
-    }
-    used_.push_back(c);
-  }
 }
 
 void RepeatWatch::push(const MeasuredRow& row) {
-  bool repeats = true;
-  for (const Eigen::Index c : used_) {
-    const double value = row.values[c];
-    if (std::isnan(value)) continue;
-    repeats = repeats && value == last_[c];
-    last_[c] = value;
+  bool repeats = false;
+  for (const Eigen::Index first : kinds_) {
+    bool says = false, again = true;
+    for (Eigen::Index c = first; c < first + joints_; ++c) {
+      const double value = row.values[c];
+      if (std::isnan(value)) continue;
+      says = true;
+      again = again && value == last_[c];
+      last_[c] = value;
+    }
+    repeats = repeats || (says && again);
   }
   // Behind a clock that was set back, nothing is asked of the rows from before.
   if (!rows_.empty() && row.time <= rows_.back().time) rows_.clear();

@@ -4,15 +4,16 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <deque>
-#include <vector>
 
 #include "shapeid/models/channels.hpp"
 
 namespace shapeid::app {
 
-/// A row repeats the one before when no reading that samples are made of differs, to the last bit.
-/// A sample repeats when the rows on both sides of it do: one row that is written twice is no rest.
+/// A row repeats the one before when no joint's position differs, or no joint's torque, to the last
+/// bit: what is wrong with these is the same again, whatever flickers beside them. A sample repeats
+/// when the rows on both sides of it do: one row that is written twice is no rest.
 class RepeatWatch {
  public:
   /// Of the log of a robot with so many joints.
@@ -46,9 +47,10 @@ class RepeatWatch {
     }
   };
 
-  std::vector<Eigen::Index> used_;  ///< channels
-  Eigen::VectorXd last_;            ///< value of each channel; NaN where there is none
-  std::deque<Row> rows_;            ///< from the one at or before the last sample on
+  Eigen::Index joints_;
+  std::array<Eigen::Index, 2> kinds_;  ///< first channel of positions, of torques
+  Eigen::VectorXd last_;               ///< value of each channel; NaN where there is none
+  std::deque<Row> rows_;               ///< from the one at or before the last sample on
 };
 
 }  // namespace shapeid::app

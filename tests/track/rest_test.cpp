@@ -45,9 +45,10 @@ constexpr const char* arm_urdf = R"(<robot name="arm">
 </robot>
 )";
 
-/// What sensors round to, rad and N m, zero for nothing; and the pace, s.
+/// What sensors round to, rad and N m, zero for nothing; the pace, s; and what every second row
+/// reads more at the elbow, rad and N m.
 struct Rounded {
-  double q, tau, rest, move;
+  double q, tau, rest, move, q_flickers = 0.0, tau_flickers = 0.0;
 };
 
 double rounded(double value, double step) {
@@ -57,6 +58,8 @@ double rounded(double value, double step) {
 struct Joint {
   double q, dq, ddq;
 };
+
+constexpr double encoder = 2.0 * std::numbers::pi / 65536.0;  // rad
 
 /// From pose to pose, at rest before each move; three derivatives are continuous.
 Joint joint_at(double time, const double (&poses)[5], const Rounded& way) {
@@ -86,43 +89,60 @@ std::string arm_log(const Rounded& way) {
     const double upper = g * (m1 * c1 + m2 * length) * std::cos(a.q);
     const double tau1 = M11 * a.ddq + M12 * b.ddq - h * (2.0 * a.dq + b.dq) * b.dq - upper - fore;
     const double tau2 = M12 * a.ddq + M22 * b.ddq + h * a.dq * a.dq - fore;
+    const double odd = row % 2;
     text += fmt::format("{:.3f},{:.9g},{:.9g},{:.9g},{:.9g}\n", time, rounded(a.q, way.q),
-                        rounded(b.q, way.q), rounded(tau1, way.tau), rounded(tau2, way.tau));
+                        rounded(b.q, way.q) + odd * way.q_flickers, rounded(tau1, way.tau),
+                        rounded(tau2, way.tau) + odd * way.tau_flickers);
   }
   return text;
+}
+
+/// Tracks the arm whole, and expects its mass, and nothing else, on every line.
+void expect_the_arm(const Rounded& way) {
+  constexpr double settled = 3.0;  // s: the first move is over
+  scratch_file("arm.urdf", arm_urdf);
+  scratch_file("rests.csv", arm_log(way));
+  const CommandRun run = shapeid("track --robot arm.urdf --whole-body rests.csv");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string said = fmt::format("{} rad, {} N m, rests {} s, flickers by {} rad, {} N m",
+                                       way.q, way.tau, way.rest, way.q_flickers, way.tau_flickers);
+  std::istringstream text(run.out);
+  std::size_t lines = 0;
+  for (std::string part; std::getline(text, part); ++lines) {
+    const json line = json::parse(part);
+    const double time = line.at("time").get<double>();
+    EXPECT_TRUE(line.at("load").is_null()) << said << ", " << time << " s: " << line.at("load");
+    EXPECT_TRUE(line.at("doubt").is_null()) << said << ", " << time << " s";
+    if (time < settled + way.rest) continue;
+    EXPECT_NEAR(line.at("mass").at("tracked").get<double>(), m1 + m2, 0.2 * (m1 + m2))
+        << said << ", " << time << " s";
+  }
+  EXPECT_GT(lines, 300U) << said;
 }
 
 /// Noise that was learned while nothing changed once made the Kalman filter certain of what is
 /// rounded: 16 seconds of such logs ended with tonnes, and told of loads that nobody put on.
 TEST(TrackRest, WhatIsRoundedMakesNothingCertain) {
-  scratch_file("arm.urdf", arm_urdf);
-  constexpr double encoder = 2.0 * std::numbers::pi / 65536.0;
-  constexpr double settled = 3.0;  // s: the first move is over
   for (const Rounded& way : {Rounded{encoder, 0.05, 3.0, 1.0}, Rounded{encoder, 0.05, 1.0, 0.8},
                              Rounded{encoder, 0.05, 0.8, 0.25}, Rounded{0.0, 0.01, 1.0, 1.0},
                              Rounded{encoder, 0.0, 1.0, 1.0}}) {
-    scratch_file("rests.csv", arm_log(way));
-    const CommandRun run = shapeid("track --robot arm.urdf --whole-body rests.csv");
-    ASSERT_EQ(run.status, 0) << run.err;
-    const std::string said = fmt::format("{} rad, {} N m, rests {} s", way.q, way.tau, way.rest);
-    std::istringstream text(run.out);
-    std::size_t lines = 0;
-    for (std::string part; std::getline(text, part); ++lines) {
-      const json line = json::parse(part);
-      const double time = line.at("time").get<double>();
-      EXPECT_TRUE(line.at("load").is_null()) << said << ", " << time << " s: " << line.at("load");
-      EXPECT_TRUE(line.at("doubt").is_null()) << said << ", " << time << " s";
-      if (time < settled + way.rest) continue;
-      EXPECT_NEAR(line.at("mass").at("tracked").get<double>(), m1 + m2, 0.2 * (m1 + m2))
-          << said << ", " << time << " s";
-    }
-    EXPECT_GT(lines, 300U) << said;
+    expect_the_arm(way);
+  }
+}
+
+/// One reading that goes on changing once made rests say what they had not said: such logs ended
+/// with up to 22.6 kg, on the way 76, and doubted it.
+TEST(TrackRest, OneReadingThatFlickersMakesNothingCertain) {
+  for (const Rounded& way :
+       {Rounded{encoder, 0.05, 3.0, 1.0, encoder, 0.0}, Rounded{encoder, 0.05, 1.0, 0.8, 1e-7, 0.0},
+        Rounded{encoder, 0.05, 3.0, 1.0, 0.0, 0.05}, Rounded{encoder, 0.05, 1.0, 0.8, 0.0, 1e-6}}) {
+    expect_the_arm(way);
   }
 }
 
 /// Cut in a rest, whose first rows are behind it and whose last are not.
 TEST(TrackRest, GoesOnAsIfItHadNotBeenCut) {
-  const Rounded way{2.0 * std::numbers::pi / 65536.0, 0.05, 1.0, 0.8};
+  const Rounded way{encoder, 0.05, 1.0, 0.8};
   const std::string log = arm_log(way);
   scratch_file("arm.urdf", arm_urdf);
   scratch_file("whole.csv", log);
