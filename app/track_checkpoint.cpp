@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* format = "shapeid-checkpoint-9";
+constexpr const char* format = "shapeid-checkpoint-10";
 constexpr const char* any_format = "shapeid-checkpoint-";
 constexpr const char* what_is_right = "give a checkpoint that --checkpoint wrote";
 

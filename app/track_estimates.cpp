@@ -20,6 +20,10 @@ using fast::Outcome;
 // s: a stance. What contacts do differently from the model lasts no longer; until it is learned how
 // long, it is taken to last as long.
 constexpr double stance = 0.1;
+// s: of which the filter's mean is averaged, to measure pulls against. Long beside what the filter
+// itself remembers, a stance at most, or what lasts a stance would be hidden; short beside the
+// seconds in which it learns what windows before could not say.
+constexpr double lately = 3.0 * stance;
 // s: over which the variance of the rows is learned. Some strides.
 constexpr double noise_memory = 2.0;
 // s: over which it is learned how long errors last. Tens of strides.
@@ -130,7 +134,8 @@ Estimates::Estimates(const Robot& robot, const BodyModel& model, const EstimateS
       tracker_(Eigen::VectorXd::Zero(settings.natural_size.size()), settings.natural_size,
                settings.wander * settings.natural_size),
       recent_(Eigen::VectorXd::Zero(settings.natural_size.size())),
-      tracked_(recent_) {
+      tracked_(recent_),
+      lately_{recent_} {
   append_shapes(model, solver_);
   mass_variance_ = total_variance();
 }
@@ -153,6 +158,7 @@ void Estimates::forget_samples() {
   rows_ = {};
   disagreeing_ = 0;
   pulls_.clear();
+  lately_.windows = 0;
 }
 
 void Estimates::take_window(double time) {
@@ -207,8 +213,10 @@ void Estimates::learn_noise() {
 /// How far a window pulls at the total mass is a sum over its rows, measured here by the standard
 /// deviation that it would have if their noise were white. Its mean square, covariances with the
 /// windows of a stance before included (Newey and West 1987), is how many samples say as much as
-/// one. What is not known at first and a load pull as well: the first windows are not asked, what
-/// stands out is cut off, and forgotten once a load is seen.
+/// one. It pulls away from where the filter was lately, on the whole: where it is now it has
+/// followed the noise that the next window repeats, and the pulls would hide it. What is not known
+/// at first and a load pull as well: the first windows are not asked, what stands out is cut off,
+/// and forgotten once a load is seen.
 void Estimates::learn_correlation() {
   if (windows_ <= windows_in_recent_ || found_ || disagreeing_ > 0) return;
   const Eigen::MatrixXd& R = identifier_.window().R();
@@ -218,7 +226,13 @@ void Estimates::learn_correlation() {
   const Eigen::VectorXd v = R.topLeftCorner(n, n) * (tracker_.covariance() * total);
   const double white = noise_.last() * v.squaredNorm();
   if (!(white > 0.0)) return;
-  const double raw = v.dot(R.col(n).head(n) - R.topLeftCorner(n, n) * tracker_.mean());
+  const Eigen::VectorXd now = tracker_.mean();
+  if (lately_.windows == 0) lately_.mean = now;
+  const double raw = v.dot(R.col(n).head(n) - R.topLeftCorner(n, n) * lately_.mean);
+  lately_.windows = std::min(lately_.windows + 1, windows_in(lately, window_seconds_));
+  lately_.mean += (now - lately_.mean) / static_cast<double>(lately_.windows);
+  const std::size_t not_asked = windows_in_recent_ + windows_in(lately, window_seconds_);
+  if (windows_ <= not_asked) return;
   const double limit = outstanding * std::sqrt(correlation_);
   const double pull = std::clamp(raw / std::sqrt(white), -limit, limit);
   const std::size_t lags = windows_in(stance, window_seconds_);
@@ -230,7 +244,7 @@ void Estimates::learn_correlation() {
   pulls_.push_front(pull);
   if (pulls_.size() > lags) pulls_.pop_back();
 
-  const auto learned = static_cast<double>(windows_ - windows_in_recent_);
+  const auto learned = static_cast<double>(windows_ - not_asked);
   mean_square_ += (square - mean_square_) / std::min(learned, correlation_memory / window_seconds_);
   set_correlation();
 }
@@ -258,10 +272,12 @@ void Estimates::learn_explained() {
 
 bool Estimates::explains() const { return explained_ > least_explained; }
 
+bool Estimates::finds_no_mass() const { return !explains() && contradicts_rows(); }
+
 /// Masses that hold to m >= 0 are as far from what the filter believes as its rows say, in standard
 /// deviations. Noise alone takes them so far in each direction by one.
-bool Estimates::finds_no_mass() const {
-  if (windows_ <= windows_in_recent_ || explains()) return false;
+bool Estimates::contradicts_rows() const {
+  if (windows_ <= windows_in_recent_) return false;
   const Eigen::MatrixXd& R = tracker_.rows().R();
   const Eigen::Index n = tracked_.size();
   const double distance = (R.topLeftCorner(n, n) * tracked_ - R.col(n).head(n)).norm();
@@ -292,6 +308,8 @@ double total_mass(const Eigen::VectorXd& Phi) {
   for (Eigen::Index i = 0; i < Phi.size(); i += 10) mass += Phi[i];
   return mass;
 }
+
+double Estimates::mass_by_rows() const { return total_mass(tracker_.mean()); }
 
 double Estimates::total_variance() const {
   const Eigen::MatrixXd P = tracker_.covariance();
@@ -370,6 +388,7 @@ void Estimates::watch_load(double time) {
   recent_rows_.clear();
   // What the load did to the pulls is no noise.
   pulls_.clear();
+  lately_.windows = 0;
   mean_square_ = before.mean_square;
   set_correlation();
   static_cast<void>(tracker_.loosen());

@@ -55,9 +55,14 @@ class Estimates {
   [[nodiscard]] const Eigen::VectorXd& recent() const { return recent_; }
   /// By the Kalman filter, within the cone of the shapes; 10 a free link.
   [[nodiscard]] const Eigen::VectorXd& tracked() const { return tracked_; }
-  /// Of the tracked total mass, kg: by the noise of the rows it comes from, and by what the mass
-  /// may have wandered while nothing was said about it.
+  /// kg, the total mass by the Kalman filter's own mean, of which nothing asks that shapes can have
+  /// it.
+  [[nodiscard]] double mass_by_rows() const;
+  /// kg, its standard deviation: by the noise of the rows it comes from, and by what the mass may
+  /// have wandered while nothing was said about it.
   [[nodiscard]] double mass_error() const { return std::sqrt(mass_variance_); }
+  /// Whether the rows ask, for certain, for what no masses of the shapes can give.
+  [[nodiscard]] bool contradicts_rows() const;
   /// Whether the tracked answer is none (docs/tracking.md): for the last seconds it foretold next
   /// to nothing of each window's rows, and the rows ask, for certain, for masses that cannot be.
   [[nodiscard]] bool finds_no_mass() const;
@@ -86,6 +91,7 @@ class Estimates {
     archive("correlation", correlation_);
     archive("mean_square", mean_square_);
     archive("pulls", pulls_);
+    archive("lately", lately_);
     archive("rows", rows_);
     archive("recent_rows", recent_rows_);
     archive("past", past_);
@@ -118,6 +124,17 @@ class Estimates {
     void state(Archive& archive) {
       archive("all", all);
       archive("changing", changing);
+    }
+  };
+
+  /// The filter's mean, averaged over some stances.
+  struct Lately {
+    Eigen::VectorXd mean;
+    std::size_t windows = 0;  ///< since a break
+    template <class Archive>
+    void state(Archive& archive) {
+      archive("mean", mean);
+      archive("windows", windows);
     }
   };
 
@@ -161,10 +178,11 @@ class Estimates {
   fast::SlidingTriangle sliding_;
   fast::ParameterTracker tracker_;
   Eigen::VectorXd recent_, tracked_;
-  double mass_variance_;          ///< kg^2, mass_error()
-  std::size_t windows_ = 0;       ///< that were answered
-  double mean_square_ = 0.0;      ///< of the pulls of windows, running: learn_correlation()
-  std::deque<double> pulls_;      ///< of the windows of a stance, newest first
+  double mass_variance_;      ///< kg^2, mass_error()
+  std::size_t windows_ = 0;   ///< that were answered
+  double mean_square_ = 0.0;  ///< of the pulls of windows, running: learn_correlation()
+  std::deque<double> pulls_;  ///< of the windows of a stance, newest first
+  Lately lately_;
   Rows rows_;                     ///< since the window began
   std::deque<Past> past_;         ///< of as many windows as the longer one has
   std::size_t disagreeing_ = 0;   ///< windows in a row

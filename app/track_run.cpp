@@ -228,6 +228,7 @@ void TrackRun::print(Why why, double time) {
                {"gap", nullptr},
                {"scale", nullptr},
                {"load", nullptr},
+               {"contradicted", estimates_->contradicts_rows()},
                {"doubt", nullptr}};
   if (estimates_->finds_no_mass()) {
     line["doubt"] = "no-mass";
@@ -288,12 +289,16 @@ json TrackRun::links_json() const {
 
 json TrackRun::mass_json() const {
   const double tracked = total_mass(estimates_->tracked());
+  // No mass is below zero, whatever the rows say.
+  const double rows = std::max(0.0, estimates_->mass_by_rows());
   const double error = interval * estimates_->mass_error();
   return {{"window", total_mass(estimates_->identifier().Phi())},
           {"filtered", total_mass(estimates_->identifier().filtered())},
           {"recent", total_mass(estimates_->recent())},
           {"tracked", tracked},
-          {"interval", {std::max(0.0, tracked - error), tracked + error}}};
+          {"rows", rows},
+          {"interval",
+           {std::min(tracked, std::max(0.0, rows - error)), std::max(tracked, rows + error)}}};
 }
 
 json TrackRun::rows_json() const {

@@ -84,7 +84,7 @@ TEST(HostileCommand, CheckpointsThatAreDamaged) {
   expect_refused(good.substr(0, good.size() / 2), "is not JSON");
   expect_refused(repeated("[", 1000000), "nested deeper than 64");
   expect_refused("", "is not JSON");
-  expect_refused("{\"format\":\"shapeid-checkpoint-9\"}", "is no whole checkpoint");
+  expect_refused("{\"format\":\"shapeid-checkpoint-10\"}", "is no whole checkpoint");
 }
 
 }  // namespace
