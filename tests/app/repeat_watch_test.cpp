@@ -24,7 +24,8 @@ ChannelPlan joint_plan() {
 void push(RepeatWatch& watch, double time, std::initializer_list<double> values) {
   MeasuredRow row;
   row.time = time;
-  row.values = Eigen::Map<const Eigen::VectorXd>(values.begin(), 3);
+  row.values =
+      Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
   watch.push(row);
 }
 
@@ -33,9 +34,9 @@ TEST(RepeatWatch, TheRowsOnBothSidesMustRepeat) {
   push(watch, 0.0, {1.0, 0.0, 5.0});
   push(watch, 1.0, {1.0, 0.0, 5.0});
   push(watch, 2.0, {1.0, 0.0, 5.0});
-  push(watch, 3.0, {1.0, 0.0, 5.5});
-  push(watch, 4.0, {1.0, 0.0, 5.5});
-  push(watch, 5.0, {2.0, 0.0, 5.5});
+  push(watch, 3.0, {1.5, 0.0, 5.5});
+  push(watch, 4.0, {1.5, 0.0, 5.5});
+  push(watch, 5.0, {2.0, 0.0, 6.0});
   EXPECT_FALSE(watch.repeats(0.0));  // nothing was before it
   EXPECT_FALSE(watch.repeats(0.5));
   EXPECT_TRUE(watch.repeats(1.0));
@@ -45,6 +46,23 @@ TEST(RepeatWatch, TheRowsOnBothSidesMustRepeat) {
   EXPECT_FALSE(watch.repeats(3.0));
   EXPECT_FALSE(watch.repeats(4.0));  // one row twice
   EXPECT_FALSE(watch.repeats(5.0));
+}
+
+TEST(RepeatWatch, AllPositionsAreEnoughAndSoAreAllTorques) {
+  ChannelPlan two_joints;
+  two_joints.channels.resize(4);
+  two_joints.q = 0;
+  two_joints.tau = 2;
+  RepeatWatch watch(two_joints, 2);
+  push(watch, 0.0, {1.0, 2.0, 5.0, 6.0});
+  push(watch, 1.0, {1.0, 2.1, 5.0, 6.0});  // a position flickers
+  push(watch, 2.0, {1.0, 2.1, 5.0, 6.1});  // a torque
+  push(watch, 3.0, {1.0, 2.2, 5.0, 6.2});  // one of each
+  push(watch, 4.0, {1.0, 2.2, 5.0, 6.2});
+  EXPECT_TRUE(watch.repeats(1.0));
+  EXPECT_FALSE(watch.repeats(2.0));
+  EXPECT_FALSE(watch.repeats(3.0));
+  EXPECT_TRUE(watch.repeats(4.0));
 }
 
 TEST(RepeatWatch, WhatNoSampleIsMadeOfMayChange) {
