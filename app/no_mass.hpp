@@ -8,9 +8,11 @@
 namespace shapeid::app {
 
 /// Whether these links (10 numbers each in Phi, kg first) have together less than a thousandth of
-/// what is expected: what bounds that are active leave, or shapes a thousand times too large.
+/// what is expected: what bounds that are active leave, or shapes a thousand times too large. No
+/// links are asked for none.
 [[nodiscard]] inline bool is_no_mass(const Eigen::VectorXd& Phi, const std::vector<int>& links,
                                      double expected_mass) {
+  if (links.empty()) return false;
   constexpr double nothing = 1e-3;
   double found = 0.0;
   for (const int link : links) found += Phi[Eigen::Index{10} * link];

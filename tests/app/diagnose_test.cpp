@@ -110,6 +110,7 @@ TEST(Diagnose, DrawsJointsOfAnyName) {
   const auto result = nlohmann::json::parse(run.out);
   const auto& rows = result["heldout"]["rows"];
   EXPECT_NE(std::find(rows.begin(), rows.end(), name), rows.end()) << rows.dump();
+  EXPECT_EQ(result["notes"].dump().find("asks for no mass"), std::string::npos) << "none is sought";
   EXPECT_TRUE(std::filesystem::exists(scratch() + "/named/report.html"));
   EXPECT_FALSE(std::filesystem::exists(scratch() + "/drawn_by_name"));
 }

@@ -131,6 +131,11 @@ TEST(BatchThreads, ALogThatCannotAnswerIsRefusedByItsCode) {
   // Beside one that is bad input, that is what is said.
   expect_one_line(shapeid(batch("--divisions 0 --log brief.csv absent.csv")), 2,
                   "every log is refused: ");
+  // All of them are short for a filter of ten seconds.
+  expect_one_line(
+      shapeid(batch("--row-cutoff 0.1 --divisions 0 --log " + piece_names())), 1,
+      "piece0.csv: refused (no-data): no stretch between gaps is long enough for the filter "
+      "of the rows");
 }
 
 /// However they are written.
