@@ -364,25 +364,12 @@ class Loop {
       if (!worst) return;
       const bool asked_again =
           state_.robot.root == Root::fixed && !at_limit(result_.found[*worst].effect);
-      if (asked_again && is_worth(gain_as_it_is(*worst, state_.held_out_either_way()))) {
+      if (asked_again && is_worth(state_.gain_as_it_is(*worst, state_.held_out_either_way()))) {
         stay.push_back(result_.found[*worst].effect);
       } else {
         take_back(*worst, is_worth(gains[*worst]));
       }
     }
-  }
-
-  /// Of an applied transformation, all others in; `with` is the held-out error of them all. A value
-  /// that steps have led away, so that it does harm as it is, is worth as much.
-  [[nodiscard]] Gain gain_as_it_is(std::size_t i, const LoopState::HeldOut& with) {
-    const std::vector<Found> all = result_.found;
-    result_.found.erase(result_.found.begin() + static_cast<std::ptrdiff_t>(i));
-    state_.collect_effects();
-    const LoopState::HeldOut without = state_.held_out_either_way();
-    result_.found = all;
-    state_.collect_effects();
-    const Gain as_written = gain_of(without.as_written, with.as_written);
-    return as_written.share > 0.0 ? gain_of(without.moved_on, with.moved_on) : as_written;
   }
 
   [[nodiscard]] static bool is_worth(const Gain& gain) {
@@ -411,7 +398,7 @@ class Loop {
     for (std::size_t i = 0; i < result_.found.size(); ++i) {
       if (!result_.found[i].effect.effect->transform.any()) continue;
       if (!with) with = state_.held_out_either_way();
-      const Gain gain = gain_as_it_is(i, *with);
+      const Gain gain = state_.gain_as_it_is(i, *with);
       result_.found[i].gain = gain.share;
       result_.found[i].t = gain.t;
       if (is_worth(gain)) continue;

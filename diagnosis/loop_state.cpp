@@ -210,15 +210,31 @@ LoopState::HeldOut LoopState::held_out_either_way() {
 }
 
 std::vector<Gain> LoopState::gains() {
-  std::vector<Gain> gains = gains_by_derivative();
+  std::vector<Gain> gains(result.found.size());
   const BlockFits fits = tallied(result.model.effects);
   const FitsAround around(fits, terms_of_model(fits, gains.size()));
+  std::optional<HeldOut> with;
   std::size_t next = 1;  // after the masses
   for (std::size_t k = 0; k < gains.size(); ++k) {
-    if (result.model.effects[k].effect->transform.any()) continue;
-    gains[k] = gain_of(around.without(next++), around.error());
+    if (result.found[k].effect.effect->transform.any()) {
+      if (!with) with = held_out_either_way();
+      gains[k] = gain_as_it_is(k, *with);
+    } else {
+      gains[k] = gain_of(around.without(next++), around.error());
+    }
   }
   return gains;
+}
+
+Gain LoopState::gain_as_it_is(std::size_t i, const HeldOut& with) {
+  const std::vector<Found> all = result.found;
+  result.found.erase(result.found.begin() + static_cast<std::ptrdiff_t>(i));
+  collect_effects();
+  const HeldOut without = held_out_either_way();
+  result.found = all;
+  collect_effects();
+  const Gain as_written = gain_of(without.as_written, with.as_written);
+  return as_written.share > 0.0 ? gain_of(without.moved_on, with.moved_on) : as_written;
 }
 
 std::vector<Gain> LoopState::gains_by_derivative() {

@@ -73,8 +73,12 @@ struct LoopState {
     Eigen::VectorXd moved_on, as_written;
   };
   [[nodiscard]] HeldOut held_out_either_way();
-  /// Of each effect what it gains, all others in.
+  /// Of each that was found what it gains, all others in.
   [[nodiscard]] std::vector<Gain> gains();
+  /// The same of number `i`, an applied transformation, as it is and not by its derivative; `with`
+  /// is the held-out error of all. A value that steps have led away, so that it does harm as it is,
+  /// is worth as much.
+  [[nodiscard]] Gain gain_as_it_is(std::size_t i, const HeldOut& with);
   /// Of each effect that is an applied transformation what it gains, all others in, as far as its
   /// derivative tells: its numbers go back to zero as if the rows were linear in them.
   [[nodiscard]] std::vector<Gain> gains_by_derivative();
