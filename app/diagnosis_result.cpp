@@ -352,6 +352,9 @@ std::string doubt(const DiagnosisRun& run, const diagnosis::Found& f, const Robo
   }
   if (f.pulls) return "the ground would have to pull the foot";
   if (f.displaced) return "a law without a name explains it better: something else";
+  if (f.is_lost_when_slower) {
+    return "behind a slower filter it explains hardly any of what it does here";
+  }
   if (f.faded) return "once the links are bodies it does not differ from zero by more than chance";
   if (f.only_with_others) {
     return "it came with the same at other joints, and by itself is no more than chance";

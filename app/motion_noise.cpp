@@ -52,7 +52,11 @@ void NoiseOfMotion::question_laws(const diagnosis::Recording& log,
       run.settings.cutoff);
   had_noise_for_name_.assign(fast_shares_.size(), false);
   try {
-    if (!run.loop.found.empty()) take_back_names(log, reference, run);
+    if (std::ranges::any_of(fast_shares_, diagnosis::is_noise_of_motion)) {
+      if (!run.loop.found.empty()) take_back_names(log, reference, run);
+    } else if (std::ranges::any_of(run.loop.found, &diagnosis::Found::name_stands)) {
+      diagnosis::doubt_names(robot, {log, reference, run.settings}, smoother(run), run.loop);
+    }
     const auto& laws = run.loop.strangers;
     if (std::none_of(laws.begin(), laws.end(), [&](const diagnosis::Stranger& s) {
           return is_noisy(robot.joint(s.law.joint).name);
@@ -80,9 +84,9 @@ void NoiseOfMotion::take_back_names(const diagnosis::Recording& log,
        diagnosis::take_back_names(robot, {log, reference, run.settings}, smoother(run), run.loop)) {
     names_taken_back_.push_back(f.id);
     const std::vector<bool> reach = diagnosis::reach_of(robot, f.effect);
-    for (std::size_t j = 0; j < reach.size(); ++j) {
-      if (reach[j]) had_noise_for_name_[j] = true;
-    }
+    if (std::ranges::count(reach, true) != 1) continue;  // all the joints that move a link
+    had_noise_for_name_[static_cast<std::size_t>(std::ranges::find(reach, true) - reach.begin())] =
+        true;
   }
 }
 
@@ -143,10 +147,18 @@ void NoiseOfMotion::note(DiagnosisRun& run) const {
         slower, why_not_asked_));
   }
   if (!names_taken_back_.empty()) {
+    run.notes.push_back(fmt::format("gone behind a filter of {:.3g} Hz, and so no cause: {}",
+                                    slower, fmt::join(names_taken_back_, ", ")));
+  }
+  std::vector<std::string> lost;
+  for (const diagnosis::Found& f : run.loop.found) {
+    if (f.is_lost_when_slower) lost.push_back(f.id);
+  }
+  if (!lost.empty()) {
     run.notes.push_back(fmt::format(
-        "gone behind a filter of {:.3g} Hz, and so no cause, but what noise of differentiated "
-        "positions made (--cutoff {:.3g} leaves less of it): {}",
-        slower, slower, fmt::join(names_taken_back_, ", ")));
+        "lost behind a filter of {:.3g} Hz, and so no cause; noise of differentiated positions "
+        "makes such names, and --cutoff {:.3g} leaves less of it: {}",
+        slower, slower, fmt::join(lost, ", ")));
   }
   if (taken_back_.empty()) return;
   run.notes.push_back(fmt::format("gone behind a filter of {:.3g} Hz, and so not unexplained: {}",

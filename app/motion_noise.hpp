@@ -19,7 +19,8 @@ class NoiseOfMotion {
                 const std::vector<diagnosis::Found>& flags, const diagnosis::ContactReach& reach);
 
   /// What was found, and laws without a name, that noise of motion may be are taken back if these
-  /// logs do not have them. `reference` may be null.
+  /// logs do not have them; where it is nowhere most of what remains, names are doubted.
+  /// `reference` may be null.
   void question_laws(const diagnosis::Recording& log, const diagnosis::Recording* reference,
                      DiagnosisRun& run);
   /// Likewise curves; `remaining` is what the run's model leaves of `log`. Joints of which curves
@@ -31,7 +32,7 @@ class NoiseOfMotion {
   [[nodiscard]] Eigen::VectorXd moves(const DiagnosisRun& run);
   [[nodiscard]] const std::vector<std::string>& silent() const { return silent_; }
   /// Whether most of what remains of a joint is noise of motion, as far as was asked, or such noise
-  /// had a name that reaches it.
+  /// had a name there.
   [[nodiscard]] bool is_noisy(const std::string& joint) const;
   /// Adds notes: of which joints most of what remains is noise of motion, and what was taken back.
   void note(DiagnosisRun& run) const;
@@ -48,7 +49,7 @@ class NoiseOfMotion {
   std::optional<RecordedLog> log_, reference_;
   diagnosis::LoopSettings settings_;
   std::vector<double> fast_shares_;
-  std::vector<bool> had_noise_for_name_;  ///< joints that a name which was taken back reaches
+  std::vector<bool> had_noise_for_name_;  ///< the one joint of a name that was taken back
   std::vector<std::string> names_taken_back_, taken_back_, silent_;
   std::string why_not_asked_;  ///< behind the slower filter, with what is left of the log there
 };

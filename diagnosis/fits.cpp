@@ -38,6 +38,10 @@ Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
           std::max(sum_with_error(difference).t(), sum_with_error(relative).t())};
 }
 
+double worth(double share) {
+  return share < 1.0 ? share / (1.0 - share) : std::numeric_limits<double>::infinity();
+}
+
 Eigen::VectorXd wide_sizes(const Tally& tally) {
   constexpr double wide = 30.0;  // of a usual size
   std::vector<double> sizes;

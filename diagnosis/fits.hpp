@@ -76,6 +76,8 @@ struct Gain {
   double share = 0.0, t = 0.0;
 };
 [[nodiscard]] Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after);
+/// The squared error that comes back without what gains this share, in those of what is left.
+[[nodiscard]] double worth(double share);
 
 /// Fewer causes are taken for more unless these gain more than this many standard errors of the
 /// difference.

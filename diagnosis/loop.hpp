@@ -65,6 +65,8 @@ struct Found {
   bool only_with_others = false;
   /// It is the force of a ground that would have to pull.
   bool pulls = false;
+  /// Behind a slower filter it explains hardly any of what it did (doubt_names()).
+  bool is_lost_when_slower = false;
   /// Verdict::hangs_on_given
   bool hangs_on_given = false;
   /// Verdict::other_times
@@ -76,7 +78,7 @@ struct Found {
   /// Else it only describes: it predicts, and says nothing about the cause.
   [[nodiscard]] bool name_stands() const {
     return !varies && !drowned && !any_period && !beside_unknown && !displaced && !faded &&
-           !only_with_others && !pulls && !needed;
+           !only_with_others && !pulls && !is_lost_when_slower && !needed;
   }
 };
 

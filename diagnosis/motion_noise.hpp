@@ -40,6 +40,12 @@ struct FilteredLogs {
 std::vector<Found> take_back_names(const Robot& robot, const FilteredLogs& logs,
                                    const FilteredLogs& smoother, LoopResult& loop);
 
+/// Marks names that stand and are lost behind the slower filter: of the squared error that a cause
+/// explains, much is left there, whatever else is, and little of what noise of motion has made a
+/// name for. Ripples as above. Throws likewise.
+void doubt_names(const Robot& robot, const FilteredLogs& logs, const FilteredLogs& smoother,
+                 LoopResult& loop);
+
 /// Takes back laws without a name at joints of which `fast_shares` is noise of motion, if the
 /// smoother logs have none there; names are then questioned as these have it. Returns what was
 /// taken back. Throws likewise.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <numeric>
 
 #include "shapeid/diagnosis/candidates.hpp"
@@ -15,12 +14,6 @@ namespace {
 
 // Standard errors by which a ripple must predict better than the best over another joint.
 constexpr double better_t = 2.0;
-
-/// The squared error that comes back without it, in those of what is left: `share` is of the error
-/// without it.
-double worth(double share) {
-  return share < 1.0 ? share / (1.0 - share) : std::numeric_limits<double>::infinity();
-}
 
 class Names {
  public:

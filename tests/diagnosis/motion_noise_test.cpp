@@ -196,6 +196,26 @@ TEST(NoiseOfMotion, WhatTheSmootherLogLacksIsNoCause) {
   EXPECT_GT(loop.found[0].gain, 0.0);
 }
 
+/// The same two where nothing is most of what remains: both stay in the model, and one name falls.
+TEST(NoiseOfMotion, ANameThatTheSmootherLogLacksFalls) {
+  const AppliedEffect offset = test::effect("torque_offset", 1, {0.3});
+  const AppliedEffect friction = test::effect("viscous_friction", 2, {0.4});
+  const Recording log = record({{offset, friction}}), smoother = record({{friction}});
+  const LoopSettings settings = test::arm_settings();
+  const auto standing = [&](const Recording& behind) {
+    LoopResult loop = loop_of(log);
+    doubt_names(arm(), {log, nullptr, settings}, {behind, nullptr, settings}, loop);
+    EXPECT_EQ(loop.found.size(), 2U);
+    std::vector<std::string> names;
+    for (const Found& f : loop.found) {
+      if (f.name_stands()) names.push_back(f.id);
+    }
+    return names;
+  };
+  EXPECT_EQ(standing(log).size(), 2U);
+  EXPECT_EQ(standing(smoother), std::vector<std::string>{"viscous_friction@joint3"});
+}
+
 /// A ripple of so many periods a radian that the smoother log has lost it is no noise for that; one
 /// that a smoother log would still have is.
 TEST(NoiseOfMotion, ARippleThatTheSlowerFilterTakesAwayStands) {
