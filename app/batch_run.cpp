@@ -99,9 +99,7 @@ CompressedLog compressed(const std::string& path, const BatchOptions& options,
     result.log.rate = report.rate;
     result.log.contacts_derived = report.contacts_derived;
     refuse_without_samples(report);
-    if (rows.blocks.empty()) {
-      throw Refusal("no-data", "no stretch between gaps is long enough for the filter of the rows");
-    }
+    refuse_filtered_away(rows);
     result.rows = merged(rows.blocks);
     if (!rows.slower.empty()) result.slower = merged(rows.slower);
     if (!result.rows.allFinite()) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -171,7 +172,9 @@ reference::IdentifySettings settings_for(const LogSamples& log, const RobotInput
 
 double slower_cutoff(const MotionInputs& inputs) {
   const double of_signals = inputs.exact ? 0.0 : inputs.cutoff;
-  return diagnosis::slower_by * (inputs.row_cutoff > 0.0 ? inputs.row_cutoff : of_signals);
+  const double of_rows = inputs.row_cutoff > 0.0 ? inputs.row_cutoff : of_signals;
+  // Signals that end below the filter of the rows would pass half of that unchanged.
+  return diagnosis::slower_by * (of_signals > 0.0 ? std::min(of_rows, of_signals) : of_rows);
 }
 
 void check_test_log(const RobotInputs& robot, const MotionInputs& inputs,
@@ -200,6 +203,14 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
     settings.rows = [&](const Sample& moved) { return effects->rows(moved, model); };
   }
 
+  const auto next = [&] { return effects ? effects->next() : samples.next(); };
+  bool is_any_fitted = false;
+  const reference::SampleStream noticed = [&] {
+    std::optional<Sample> sample = next();
+    is_any_fitted = is_any_fitted || sample.has_value();
+    return sample;
+  };
+
   Result result;
   result.robot_file = inputs.robot;
   result.robot_yaml_file = robot.robot_yaml;
@@ -210,11 +221,9 @@ Result run_identification(const RobotInputs& robot, const BodyModel& model,
   };
   const auto find = [&] {
     try {
-      result.found = identify(
-          robot.robot, model, [&] { return effects ? effects->next() : samples.next(); }, settings,
-          watch);
+      result.found = identify(robot.robot, model, noticed, settings, watch);
     } catch (const Refusal& refusal) {
-      if (refusal.code() != "no-data") throw;
+      if (refusal.code() != "no-data" || is_any_fitted) throw;
       // A stretch of the log alone is fitted: that it holds nothing is no fault of the samples.
       refuse_without_samples(read());
       if (options.test_log.empty()) refuse_all_held_out(read().samples);

@@ -37,8 +37,8 @@ void check_solver(const reference::IdentifySettings& settings);
                                                        const MotionInputs& inputs,
                                                        reference::IdentifySettings settings);
 
-/// Hz: rows are asked once more behind a filter of half the cutoff, where noise of the motion is
-/// less; 0 where there is no filter.
+/// Hz: rows are asked once more behind a filter of half the cutoff, of signals or rows, whichever
+/// is lower, where noise of the motion is less; 0 where there is no filter.
 [[nodiscard]] double slower_cutoff(const MotionInputs& inputs);
 
 /// Where a result goes.

@@ -21,7 +21,8 @@ std::string number_source_text(const Result& result, Eigen::Index at, double kno
   const reference::Identification& found = result.found;
   std::string text = number_source(found, at);
   if (found.data.is_impossible(at)) {
-    text += fmt::format(": {:.5g}", known + found.data.value[at]);
+    text +=
+        fmt::format(": {:.5g}{}", found.data.value[at], known == 0.0 ? "" : " of what is sought");
   }
   if (hangs_on_filter(found, at)) {
     text += fmt::format("; behind {:.3g} Hz the data say {:.5g}", result.slower_cutoff,
@@ -38,7 +39,9 @@ void note_numbers_that_hang(Result& result) {
   if (count == 0) return;
   result.notes.push_back(fmt::format(
       "of {} {} the data say something else behind a filter of {:.3g} Hz than errors allow: noise "
-      "in the motion, or what is no rigid body, is in {}",
+      "in the motion, what is no rigid body, or a filter of the signals that bends a fast motion "
+      "(--cutoff 80 --row-cutoff 20 bends less) is in {}; by chance alone up to "
+      "one in twenty does so",
       count, count == 1 ? "number" : "numbers", result.slower_cutoff, count == 1 ? "it" : "them"));
 }
 

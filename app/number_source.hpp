@@ -15,7 +15,8 @@ namespace shapeid::app {
 /// Whether the data say something else behind the slower filter than the errors of either allow.
 [[nodiscard]] bool hangs_on_filter(const reference::Identification& found, Eigen::Index at);
 
-/// The same for people to read, with what the data say where that is not what was found. `known`:
+/// number_source() for people to read; where the data say what no body has, with their value of
+/// what is sought, and where they say something else behind the slower filter, with that. `known`:
 /// what of the parameter is not sought.
 [[nodiscard]] std::string number_source_text(const Result& result, Eigen::Index at, double known);
 

@@ -243,6 +243,7 @@ double error_of_size(const Eigen::MatrixXd& rows, const Jackknife& all, Eigen::I
 reference::Determination of_links(reference::Determination all, Eigen::Index links) {
   all.value.conservativeResize(links);
   all.standard_error.conservativeResize(links);
+  all.natural_size.conservativeResize(links);
   all.determined.resize(static_cast<std::size_t>(links));
   return all;
 }

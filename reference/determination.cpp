@@ -38,7 +38,8 @@ bool Determination::is_impossible(Eigen::Index parameter) const {
 bool differ(const Determination& a, const Determination& b, Eigen::Index parameter) {
   const double larger =
       std::max(a.wider * a.standard_error[parameter], b.wider * b.standard_error[parameter]);
-  return std::abs(a.value[parameter] - b.value[parameter]) > widened_at * larger;
+  return std::abs(a.value[parameter] - b.value[parameter]) >
+         std::max(widened_at * larger, std::max(a.rounding(parameter), b.rounding(parameter)));
 }
 
 bool is_held(double standard_error, double data_standard_error) {
@@ -57,6 +58,7 @@ Determination determine(const std::vector<RowBlock>& blocks, const Eigen::Vector
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Y, Eigen::ComputeThinU | Eigen::ComputeFullV);
 
   Determination result;
+  result.natural_size = natural_size;
   result.value = Eigen::VectorXd::Zero(n);
   result.standard_error = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
   result.determined.assign(static_cast<std::size_t>(n), false);
@@ -106,14 +108,13 @@ Determination determine(const std::vector<RowBlock>& blocks, const Eigen::Vector
   return result;
 }
 
-void take_back(Determination& data, const std::optional<Determination>& slower,
-               const Eigen::VectorXd& natural_size) {
-  for (Eigen::Index i = 0; i < natural_size.size(); ++i) {
+void take_back(Determination& data, const std::optional<Determination>& slower) {
+  for (Eigen::Index i = 0; i < data.value.size(); ++i) {
     bool stands = !data.is_impossible(i);
     if (slower && differ(data, *slower, i)) {
       const double move = slower->value[i] - data.value[i];
       const double error = data.wider * std::hypot(data.standard_error[i], move);
-      stands = stands && error < largest_share * natural_size[i];
+      stands = stands && error < largest_share * data.natural_size[i];
     }
     if (!stands) data.determined[static_cast<std::size_t>(i)] = false;
   }

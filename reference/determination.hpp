@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -30,10 +31,20 @@ struct Determination {
   int rank = 0;  ///< directions of parameter space that the rows reach
   /// Factor by which an interval of two standard errors is widened for few blocks (Student's t).
   double wider = 1.0;
+  Eigen::VectorXd natural_size;  ///< as determine() was given it
 
-  /// Whether a number of this parameter lies within three of its widened errors from `value`.
+  /// What rounding may make of the parameter, in its unit. Of data without noise the standard error
+  /// is smaller than that: blocks may round alike.
+  [[nodiscard]] double rounding(Eigen::Index parameter) const {
+    constexpr double of_size = 1e-12;  // thousands of roundings
+    return of_size * natural_size[parameter];
+  }
+
+  /// Whether a number of this parameter lies within three of its widened errors from `value`, or
+  /// within rounding.
   [[nodiscard]] bool agrees(Eigen::Index parameter, double number) const {
-    return std::abs(number - value[parameter]) <= 3.0 * wider * standard_error[parameter];
+    return std::abs(number - value[parameter]) <=
+           std::max(3.0 * wider * standard_error[parameter], rounding(parameter));
   }
 
   /// Whether `value` is no body's: a mass, or a moment of inertia, that is negative by more than
@@ -42,7 +53,8 @@ struct Determination {
 };
 
 /// Whether the values of a parameter by two filters of the same data differ by more than two
-/// widened errors of either. They share their noise of torque, so that chance makes less.
+/// widened errors of either, and by more than rounding. They share their noise of torque, so that
+/// chance makes less.
 [[nodiscard]] bool differ(const Determination& a, const Determination& b, Eigen::Index parameter);
 
 /// Whether shapes and bounds hold a number to which they leave `standard_error`, where the data by
@@ -65,7 +77,6 @@ inline constexpr double largest_share = 0.5;
 /// Takes back that parameters are determined: those with a value that no body has, and those of
 /// which rows behind a slower filter (`slower`) say so much else that the difference, as part of
 /// the error, is more than `largest_share` allows.
-void take_back(Determination& data, const std::optional<Determination>& slower,
-               const Eigen::VectorXd& natural_size);
+void take_back(Determination& data, const std::optional<Determination>& slower);
 
 }  // namespace shapeid::reference

@@ -190,6 +190,11 @@ CompressedRows compress(const Robot& robot, const BodyModel& model, const Sample
   return result;
 }
 
+void refuse_filtered_away(const CompressedRows& rows) {
+  if (rows.samples == 0 || !rows.blocks.empty()) return;
+  throw Refusal("no-data", "no stretch between gaps is long enough for the filter of the rows");
+}
+
 Eigen::MatrixXd merged(const std::vector<RowBlock>& blocks) {
   return rows_without(blocks, blocks.size());
 }
@@ -266,7 +271,7 @@ Identification identify(const BodyModel& model, const CompressedRows& rows,
   }
 
   if (!rows.slower.empty()) result.slower = determine(rows.slower, sizes);
-  take_back(result.data, result.slower, sizes);
+  take_back(result.data, result.slower);
 
   MassProblem problem;
   set_rows(problem, all_rows);
@@ -307,7 +312,8 @@ Identification identify(const Robot& robot, const BodyModel& model, const Sample
     return sample;
   };
   const CompressedRows rows = compress(robot, model, watched, settings);
-  if (rows.blocks.empty()) throw Refusal("no-data", "the log has no usable sample");
+  if (rows.samples == 0) throw Refusal("no-data", "the log has no usable sample");
+  refuse_filtered_away(rows);
   // Of several logs, as `batch` reads them, each may be a pose; of one that would be all.
   if (!extent.some_joint_moved(robot) && !extent.base_moved()) {
     throw Refusal("not-excited", "nothing moves; log a motion that turns and loads the links");

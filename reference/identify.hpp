@@ -76,6 +76,9 @@ struct CompressedRows {
 [[nodiscard]] CompressedRows compress(const Robot& robot, const BodyModel& model,
                                       const SampleStream& next, const IdentifySettings& settings);
 
+/// Throws Refusal "no-data" if there are samples of which the filter of the rows leaves nothing.
+void refuse_filtered_away(const CompressedRows& rows);
+
 /// All blocks as one triangle, merged in their order.
 [[nodiscard]] Eigen::MatrixXd merged(const std::vector<RowBlock>& blocks);
 
@@ -91,9 +94,9 @@ struct CompressedRows {
 
 /// Identifies the free links of `model`. Memory does not grow with the stream: blocks are
 /// triangles, and neighbours merge when there are most_blocks of them. Throws Refusal "no-data" for
-/// an empty stream, "not-excited" for one in which nothing moves, "too-short" for a single block
-/// (no spread to judge by); what the rows of a sample, the row filter and the function above throw
-/// is thrown here as well.
+/// an empty stream, or one of which the row filter leaves nothing, "not-excited" for one in which
+/// nothing moves, "too-short" for a single block (no spread to judge by); what the rows of a
+/// sample, the row filter and the function above throw is thrown here as well.
 [[nodiscard]] Identification identify(const Robot& robot, const BodyModel& model,
                                       const SampleStream& next, const IdentifySettings& settings,
                                       const std::function<void(const DivisionRun&)>& watch = {});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include <string>
 #include <tuple>
 
+#include "shapeid/app/number_source.hpp"
 #include "shapeid/models/urdf.hpp"
 #include "shapeid/reference/regressor.hpp"
 #include "shapeid/tests/app/command.hpp"
@@ -113,8 +115,56 @@ TEST(NumberSource, SaysWhatASlowerFilterMakesOfNoise) {
             std::string::npos)
       << a.text;
 
-  // Rows behind 8 Hz are asked behind 4.
+  // Rows behind 8 Hz are asked behind 4. Signals that end at 20 pass 30 as they are.
   EXPECT_EQ(swung_answer("little.csv", "--row-cutoff 8").document.at("slower_cutoff"), 4.0);
+  const SwungAnswer faster = swung_answer("little.csv", "--row-cutoff 60");
+  EXPECT_EQ(faster.document.at("slower_cutoff"), 10.0);
+  EXPECT_EQ(faster.inner.at("hangs_on_filter").at(Iyy), true);
+}
+
+// What is judged is the load alone; with its link it may be a body's.
+TEST(NumberSource, SaysThatItIsTheLoadThatNoBodyHas) {
+  app::Result result;
+  result.found.standard_error = Eigen::VectorXd::Zero(10);
+  reference::Determination& data = result.found.data;
+  data.value = Eigen::VectorXd::Constant(10, -0.5);
+  data.standard_error = Eigen::VectorXd::Constant(10, 0.1);
+  data.natural_size = Eigen::VectorXd::Ones(10);
+  data.determined.assign(10, false);
+  EXPECT_EQ(app::number_source_text(result, 0, 0.0), "shapes, the data impossible: -0.5");
+  EXPECT_EQ(app::number_source_text(result, 0, 3.0),
+            "shapes, the data impossible: -0.5 of what is sought");
+  EXPECT_EQ(app::number_source_text(result, 1, 3.0), "shapes and bounds");
+}
+
+TEST(NumberSource, CallsNoRoundingNoise) {
+  simulated_log("rounding.csv", "--exact");
+  const CommandRun run = shapeid(fmt::format(
+      "identify {} {} --exact --row-cutoff 20 --divisions 0 --log rounding.csv --out rounding",
+      quadruped_files, quadruped_shapes));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const json link = json::parse(text_of(scratch() + "/rounding/result.json")).at("links").at(0);
+  double largest = 0.0;  // of moves, in errors
+  for (std::size_t p = 0; p < 10; ++p) {
+    const double error = link.at("data_standard_error").at(p);
+    ASSERT_LT(error, 1e-13);
+    largest = std::max(largest,
+                       std::abs(link.at("move_behind_slower_filter").at(p).get<double>()) / error);
+  }
+  ASSERT_GT(largest, 3.0) << "rounding is within errors";
+  EXPECT_EQ(link.at("hangs_on_filter"), json(std::vector<bool>(10, false)));
+  EXPECT_EQ(run.out.find(" the data say"), std::string::npos) << run.out;
+}
+
+// A filter of 0.1 Hz settles in no stretch of this log: nothing is held out, no sample lost.
+TEST(NumberSource, SaysThatTheFilterOfTheRowsLeavesNothing) {
+  write_swung_log("short.csv", 0.7, 0.1);
+  const CommandRun run = shapeid(
+      "identify --robot swung_arm.urdf --free inner --log short.csv --row-cutoff 0.1 --out short");
+  EXPECT_NE(run.status, 0);
+  EXPECT_NE(run.err.find("no stretch between gaps is long enough for the filter of the rows"),
+            std::string::npos)
+      << run.err;
 }
 
 TEST(NumberSource, IsTheDataWhereTheMotionIsNoNoise) {

@@ -103,45 +103,45 @@ TEST(Determination, TellsWhatTheDataSay) {
   }
 }
 
-/// Ten parameters of these values and errors, all called determined.
-Determination ten_parameters(const VectorXd& value, double error) {
+/// Ten parameters of these values, errors and natural sizes, all called determined.
+Determination ten_parameters(const VectorXd& value, double error, double size) {
   Determination ten;
   ten.value = value;
   ten.standard_error = VectorXd::Constant(10, error);
   ten.determined.assign(10, true);
+  ten.natural_size = VectorXd::Constant(10, size);
   return ten;
 }
 
 // Three errors below zero, of a mass or a moment of inertia: no body is so. First moments and
 // products may be.
 TEST(Determination, TakesBackWhatNoBodyHas) {
-  VectorXd value = VectorXd::Constant(10, -3.01);
-  Determination data = ten_parameters(value, 1.0);
-  take_back(data, {}, VectorXd::Constant(10, 100.0));
+  Determination data = ten_parameters(VectorXd::Constant(10, -3.01), 1.0, 100.0);
+  take_back(data, {});
   EXPECT_EQ(data.determined,
             (std::vector<bool>{false, true, true, true, false, true, true, false, true, false}));
-  data = ten_parameters(-2.99 / 3.01 * VectorXd::Constant(10, 3.01), 1.0);
-  take_back(data, {}, VectorXd::Constant(10, 100.0));
+  data = ten_parameters(VectorXd::Constant(10, -2.99), 1.0, 100.0);
+  take_back(data, {});
   EXPECT_EQ(data.determined, std::vector<bool>(10, true)) << "within its errors of a body's";
 }
 
 // A filter that moves a number by more than errors allow adds to its error; which then may be too
 // large for it to be determined.
 TEST(Determination, TakesBackWhatHangsOnTheFilter) {
-  const VectorXd value = VectorXd::LinSpaced(10, 20.0, 30.0), size = VectorXd::Constant(10, 10.0);
-  Determination slower = ten_parameters(value, 1.5);
+  const VectorXd value = VectorXd::LinSpaced(10, 20.0, 30.0);
+  Determination slower = ten_parameters(value, 1.5, 10.0);
   slower.value[1] += 2.9;   // within two of its own errors
   slower.value[2] -= 3.1;   // not, but with it the error is sqrt(1 + 3.1^2), less than 5
   slower.value[3] += 4.95;  // sqrt(1 + 4.95^2) is more
   slower.value[5] -= 9.0;
   slower.standard_error[5] = 5.0;  // the slower filter says little of it
-  Determination data = ten_parameters(value, 1.0);
+  Determination data = ten_parameters(value, 1.0, 10.0);
   const std::vector<bool> differing = {false, false, true, true, false, false};
   for (std::size_t i = 0; i < differing.size(); ++i) {
     EXPECT_EQ(differ(data, slower, static_cast<Eigen::Index>(i)), differing[i]) << i;
     EXPECT_EQ(differ(slower, data, static_cast<Eigen::Index>(i)), differing[i]) << i;
   }
-  take_back(data, slower, size);
+  take_back(data, slower);
   std::vector<bool> left(10, true);
   left[3] = false;
   EXPECT_EQ(data.determined, left);
@@ -149,6 +149,24 @@ TEST(Determination, TakesBackWhatHangsOnTheFilter) {
   // Errors of few blocks are wider.
   slower.wider = 1.2;
   EXPECT_FALSE(differ(data, slower, 2));
+}
+
+// Data without noise have errors far below what rounding makes.
+TEST(Determination, RoundingIsNoNoise) {
+  constexpr double size = 2.0, error = 1e-17;
+  for (const double rounded : {0.9e-12 * size, 1.1e-12 * size}) {
+    const bool is_more = rounded > 1e-12 * size;
+    Determination data = ten_parameters(VectorXd::Constant(10, -rounded), error, size);
+    const Determination slower = ten_parameters(VectorXd::Zero(10), error, size);
+    EXPECT_EQ(data.is_impossible(0), is_more);
+    EXPECT_EQ(data.agrees(0, 0.0), !is_more);
+    EXPECT_EQ(differ(data, slower, 0), is_more);
+    take_back(data, slower);
+    EXPECT_EQ(data.determined[0], !is_more);
+  }
+  const Determination found =
+      determine(data(19, 3, 20, 2, 0.1).blocks(), Eigen::Vector2d(2.0, 3.0));
+  EXPECT_DOUBLE_EQ(found.rounding(1), 3e-12);
 }
 
 // An error of a third of the size is enough by many blocks, and not by the spread of two.
