@@ -192,18 +192,18 @@ void track(TrackArguments& options) {
                                          options.inputs.log, run.lines(), *run.why_no_answer()));
   }
   // With one, too: what was printed is none, and the state is kept.
-  if (run.never_found_mass()) {
-    throw Refusal("no-mass",
-                  fmt::format("{}: no answer foretold anything of the rows, which ask for masses "
-                              "below zero: {}",
-                              options.inputs.log, causes_of_no_mass));
-  }
   if (const std::optional<double> mass = run.mass_out_of_scale()) {
     throw Refusal(
         "torque-scale",
         fmt::format("{}: it asks for {:.2g} kg where {:.3g} are expected: its torque is "
                     "not in N m, or far more is to be expected",
                     options.inputs.log, *mass, settings.estimates.identifier.expected_mass));
+  }
+  if (run.never_found_mass()) {
+    throw Refusal("no-mass",
+                  fmt::format("{}: no answer foretold anything of the rows, which ask for masses "
+                              "below zero: {}",
+                              options.inputs.log, causes_of_no_mass));
   }
 }
 

@@ -28,7 +28,7 @@ constexpr double lately = 3.0 * stance;
 constexpr double noise_memory = 2.0;
 // s: over which it is learned how long errors last. Tens of strides.
 constexpr double correlation_memory = 10.0;
-// s: until then a stance is believed instead.
+// s, of windows that were asked: until then a stance is believed instead.
 constexpr double correlation_start = 1.0;
 // Standard deviations.
 constexpr double outstanding = 3.0;
@@ -126,7 +126,8 @@ Estimates::Estimates(const Robot& robot, const BodyModel& model, const EstimateS
       robot_(robot),
       settings_(settings),
       window_seconds_(static_cast<double>(settings.identifier.window) / rate),
-      correlation_(std::max(1.0, rate * stance)),
+      samples_in_stance_(rate * stance),
+      correlation_(std::max(1.0, samples_in_stance_)),
       windows_in_recent_(recent_windows(settings, window_seconds_)),
       noise_(windows_in(noise_memory, window_seconds_)),
       recent_block_(settings.natural_size.size()),
@@ -137,7 +138,7 @@ Estimates::Estimates(const Robot& robot, const BodyModel& model, const EstimateS
       tracked_(recent_),
       lately_{recent_} {
   append_shapes(model, solver_);
-  mass_variance_ = total_variance();
+  mass_variance_ = prior_variance_ = total_variance();
 }
 
 Identifier::Fed Estimates::feed(const Sample& sample, bool repeats) {
@@ -215,8 +216,8 @@ void Estimates::learn_noise() {
 /// windows of a stance before included (Newey and West 1987), is how many samples say as much as
 /// one. It pulls away from where the filter was lately, on the whole: where it is now it has
 /// followed the noise that the next window repeats, and the pulls would hide it. What is not known
-/// at first and a load pull as well: the first windows are not asked, what stands out is cut off,
-/// and forgotten once a load is seen.
+/// at first and a load pull as well: no window is asked before that mean is whole, what stands out
+/// is cut off, and forgotten once a load is seen.
 void Estimates::learn_correlation() {
   if (windows_ <= windows_in_recent_ || found_ || disagreeing_ > 0) return;
   const Eigen::MatrixXd& R = identifier_.window().R();
@@ -228,11 +229,12 @@ void Estimates::learn_correlation() {
   if (!(white > 0.0)) return;
   const Eigen::VectorXd now = tracker_.mean();
   if (lately_.windows == 0) lately_.mean = now;
-  const double raw = v.dot(R.col(n).head(n) - R.topLeftCorner(n, n) * lately_.mean);
-  lately_.windows = std::min(lately_.windows + 1, windows_in(lately, window_seconds_));
+  const std::size_t whole = windows_in(lately, window_seconds_);
+  const bool is_whole = lately_.windows == whole;
+  lately_.windows = std::min(lately_.windows + 1, whole);
   lately_.mean += (now - lately_.mean) / static_cast<double>(lately_.windows);
-  const std::size_t not_asked = windows_in_recent_ + windows_in(lately, window_seconds_);
-  if (windows_ <= not_asked) return;
+  if (!is_whole) return;
+  const double raw = v.dot(R.col(n).head(n) - R.topLeftCorner(n, n) * lately_.mean);
   const double limit = outstanding * std::sqrt(correlation_);
   const double pull = std::clamp(raw / std::sqrt(white), -limit, limit);
   const std::size_t lags = windows_in(stance, window_seconds_);
@@ -244,14 +246,15 @@ void Estimates::learn_correlation() {
   pulls_.push_front(pull);
   if (pulls_.size() > lags) pulls_.pop_back();
 
-  const auto learned = static_cast<double>(windows_ - not_asked);
+  const auto learned = static_cast<double>(++asked_);
   mean_square_ += (square - mean_square_) / std::min(learned, correlation_memory / window_seconds_);
   set_correlation();
 }
 
+/// By few windows, of which one may be half under a load, it would jump, and hide the load.
 void Estimates::set_correlation() {
-  if (static_cast<double>(windows_) * window_seconds_ < correlation_start) return;
-  correlation_ = std::max(1.0, mean_square_);
+  const bool is_learned = static_cast<double>(asked_) * window_seconds_ >= correlation_start;
+  correlation_ = std::max(1.0, is_learned ? mean_square_ : samples_in_stance_);
 }
 
 /// By the answer from before the window, which has not seen its rows. Those that are left whatever
@@ -331,6 +334,11 @@ void Estimates::measure() {
   mass_variance_ = kept * kept * mass_variance_ + (1.0 - kept) * after;
 }
 
+bool Estimates::rows_tell_mass() const {
+  constexpr double half = 0.5;
+  return mass_error() < half * std::sqrt(prior_variance_);
+}
+
 void Estimates::pass(double seconds) {
   const double before = total_variance();
   static_cast<void>(tracker_.drift(seconds));
@@ -370,7 +378,7 @@ void Estimates::watch_load(double time) {
     found_.reset();
     return;
   }
-  past_.push_back({total_mass(tracked_), total_variance(), mean_square_});
+  past_.push_back({total_mass(tracked_), total_variance(), mean_square_, asked_});
   if (past_.size() <= windows_in_recent_) return;
   const Past before = past_.front();
   past_.pop_front();
@@ -390,6 +398,7 @@ void Estimates::watch_load(double time) {
   pulls_.clear();
   lately_.windows = 0;
   mean_square_ = before.mean_square;
+  asked_ = before.asked;
   set_correlation();
   static_cast<void>(tracker_.loosen());
   mass_variance_ = total_variance();

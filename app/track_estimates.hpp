@@ -61,6 +61,9 @@ class Estimates {
   /// kg, its standard deviation: by the noise of the rows it comes from, and by what the mass may
   /// have wandered while nothing was said about it.
   [[nodiscard]] double mass_error() const { return std::sqrt(mass_variance_); }
+  /// Whether it is the rows that the error comes from: less than half of what was believed before
+  /// the first.
+  [[nodiscard]] bool rows_tell_mass() const;
   /// Whether the rows ask, for certain, for what no masses of the shapes can give.
   [[nodiscard]] bool contradicts_rows() const;
   /// Whether the tracked answer is none (docs/tracking.md): for the last seconds it foretold next
@@ -90,6 +93,7 @@ class Estimates {
     archive("windows", windows_);
     archive("correlation", correlation_);
     archive("mean_square", mean_square_);
+    archive("asked", asked_);
     archive("pulls", pulls_);
     archive("lately", lately_);
     archive("rows", rows_);
@@ -143,11 +147,13 @@ class Estimates {
     double mass = 0.0;         ///< kg, tracked
     double variance = 0.0;     ///< kg^2, by the filter's own covariance
     double mean_square = 0.0;  ///< of pulls
+    std::size_t asked = 0;     ///< windows that it is of
     template <class Archive>
     void state(Archive& archive) {
       archive("mass", mass);
       archive("variance", variance);
       archive("mean_square", mean_square);
+      archive("asked", asked);
     }
   };
 
@@ -171,6 +177,7 @@ class Estimates {
   const Robot& robot_;
   EstimateSettings settings_;
   double window_seconds_;
+  double samples_in_stance_;
   double correlation_;  ///< samples that say as much as one
   std::size_t windows_in_recent_;
   TrackNoise noise_;
@@ -179,8 +186,10 @@ class Estimates {
   fast::ParameterTracker tracker_;
   Eigen::VectorXd recent_, tracked_;
   double mass_variance_;      ///< kg^2, mass_error()
+  double prior_variance_;     ///< kg^2, of the total mass, before the first row
   std::size_t windows_ = 0;   ///< that were answered
   double mean_square_ = 0.0;  ///< of the pulls of windows, running: learn_correlation()
+  std::size_t asked_ = 0;     ///< windows whose pulls were learned
   std::deque<double> pulls_;  ///< of the windows of a stance, newest first
   Lately lately_;
   Rows rows_;                     ///< since the window began

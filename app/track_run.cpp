@@ -230,10 +230,11 @@ void TrackRun::print(Why why, double time) {
                {"load", nullptr},
                {"contradicted", estimates_->contradicts_rows()},
                {"doubt", nullptr}};
-  if (estimates_->finds_no_mass()) {
-    line["doubt"] = "no-mass";
-  } else if (estimates_->asks_too_much()) {
+  // A scale that is wrong may hide from a filter that is slow to follow: it foretells nothing then.
+  if (estimates_->asks_too_much()) {
     line["doubt"] = "torque-scale";
+  } else if (estimates_->finds_no_mass()) {
+    line["doubt"] = "no-mass";
   } else if (why == Why::answered && estimates_->fills_recent()) {
     was_in_scale_ = true;
   }
@@ -292,13 +293,16 @@ json TrackRun::mass_json() const {
   // No mass is below zero, whatever the rows say.
   const double rows = std::max(0.0, estimates_->mass_by_rows());
   const double error = interval * estimates_->mass_error();
+  // What no row tells, shapes may, which know no error.
+  const double beyond = estimates_->rows_tell_mass() ? 0.0 : error;
   return {{"window", total_mass(estimates_->identifier().Phi())},
           {"filtered", total_mass(estimates_->identifier().filtered())},
           {"recent", total_mass(estimates_->recent())},
           {"tracked", tracked},
           {"rows", rows},
           {"interval",
-           {std::min(tracked, std::max(0.0, rows - error)), std::max(tracked, rows + error)}}};
+           {std::max(0.0, std::min(tracked - beyond, rows - error)),
+            std::max(tracked + beyond, rows + error)}}};
 }
 
 json TrackRun::rows_json() const {
