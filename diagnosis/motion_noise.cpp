@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "shapeid/diagnosis/candidates.hpp"
+#include "shapeid/diagnosis/effects.hpp"
 #include "shapeid/diagnosis/loop_state.hpp"
 #include "shapeid/diagnosis/names.hpp"
 #include "shapeid/diagnosis/refit.hpp"
@@ -70,6 +71,13 @@ double squares_a_sample(LoopState& state) {
   return fits.held_out(state.terms_of_model(fits, state.result.found.size())).sum() / samples;
 }
 
+/// Its column is a rate of change: of what is as strong at all frequencies, the squares behind half
+/// the cutoff are an eighth.
+bool is_of_rates(const Effect& effect) {
+  return effect.filters_load || &effect == find_effect("torque_delay") ||
+         &effect == find_effect("imu_delay");
+}
+
 }  // namespace
 
 std::vector<double> fast_shares(const Robot& robot, const Recording& recording,
@@ -105,8 +113,8 @@ std::vector<Found> take_back_names(const Robot& robot, const FilteredLogs& logs,
   std::vector<Found> gone, stay;
   for (std::size_t k = 0; k < loop.found.size(); ++k) {
     const Found& f = loop.found[k];
-    const bool is_lost = is_fast_ripple(logs.log, f.effect, smoother.settings.cutoff);
-    (!is_lost && now[k].share < kept_share * f.gain ? gone : stay).push_back(f);
+    const bool is_too_fast = is_fast_ripple(logs.log, f.effect, smoother.settings.cutoff);
+    (!is_too_fast && now[k].share < kept_share * f.gain ? gone : stay).push_back(f);
   }
   if (gone.empty()) return gone;
   LoopState state(robot, logs.log, logs.reference, logs.settings);
@@ -138,7 +146,10 @@ void doubt_names(const Robot& robot, const FilteredLogs& logs, const FilteredLog
   const double before = squares_a_sample(state), left = squares_a_sample(smooth);
   for (std::size_t k = 0; k < loop.found.size(); ++k) {
     Found& f = loop.found[k];
-    if (is_fast_ripple(logs.log, f.effect, smoother.settings.cutoff)) continue;
+    if (is_of_rates(*f.effect.effect) ||
+        is_fast_ripple(logs.log, f.effect, smoother.settings.cutoff)) {
+      continue;
+    }
     f.is_lost_when_slower =
         f.name_stands() && worth(now[k].share) * left < kept_worth * worth(f.gain) * before;
   }

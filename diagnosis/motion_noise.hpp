@@ -35,14 +35,14 @@ struct FilteredLogs {
 /// it predicts, and is no cause. What is slow loses nothing to a slower filter, and noise does, so
 /// a cause gains a larger share of the error there; what gains less than half the share is taken
 /// back, and the others' numbers are fitted anew; not a ripple that is lost there itself
-/// (is_fast_ripple()). Returns it. Throws Refusal "too-short" as
-/// close_loop() does: a slower filter leaves less of a log.
+/// (is_fast_ripple()). Returns it. Throws Refusal "too-short" as close_loop() does: a slower filter
+/// leaves less of a log.
 std::vector<Found> take_back_names(const Robot& robot, const FilteredLogs& logs,
                                    const FilteredLogs& smoother, LoopResult& loop);
 
 /// Marks names that stand and are lost behind the slower filter: of the squared error that a cause
 /// explains, much is left there, whatever else is, and little of what noise of motion has made a
-/// name for. Ripples as above. Throws likewise.
+/// name for. Ripples as above, and neither delays nor lags. Throws likewise.
 void doubt_names(const Robot& robot, const FilteredLogs& logs, const FilteredLogs& smoother,
                  LoopResult& loop);
 

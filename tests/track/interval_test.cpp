@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <sstream>
 #include <string>
 
@@ -108,6 +109,56 @@ TEST(TrackInterval, HoldsTheTruthThatNoShapesHave) {
   EXPECT_GE(trots.held, fewest_of_long * trots.count);
   EXPECT_LE(trots.held, most * trots.count);
   EXPECT_GT(10 * trots.contradicted, 9 * trots.count);
+}
+
+constexpr double swung_mass = 2.0, lever = 0.3, about_hinge = 0.21;  // kg, m, kg m^2
+
+/// Swings about a level hinge: the rows say what m c and Iyy are, and nothing of m.
+std::string swung_log() {
+  std::mt19937 generator(3);
+  std::normal_distribution<double> noise(0.0, 0.02);  // N m
+  std::string text = "time,q.hinge,tau.hinge\n";
+  for (int row = 0; row < 2500; ++row) {
+    const double t = 0.004 * row;
+    const double q = 0.9 * std::sin(2.3 * t) + 0.4 * std::sin(5.1 * t);
+    const double ddq = -0.9 * 2.3 * 2.3 * std::sin(2.3 * t) - 0.4 * 5.1 * 5.1 * std::sin(5.1 * t);
+    const double tau = about_hinge * ddq - 9.81 * swung_mass * lever * std::cos(q);
+    text += fmt::format("{:.3f},{:.9g},{:.9g}\n", t, q, tau + noise(generator));
+  }
+  return text;
+}
+
+/// The Kalman filter's own mean stays at zero there, with what was expected for its error. An
+/// interval about it that ends at the answer has no error of the answer in it.
+TEST(TrackInterval, GoesBeyondAnAnswerThatNoRowHasMade) {
+  scratch_file("swung.urdf", R"(<robot name="swung">
+  <link name="mount"/>
+  <link name="rod">
+    <inertial><origin xyz="0.3 0 0"/><mass value="2"/>
+      <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.03"/></inertial>
+    <collision><origin xyz="0.3 0 0"/><geometry><box size="0.4 0.06 0.1"/></geometry></collision>
+  </link>
+  <joint name="hinge" type="continuous"><parent link="mount"/><child link="rod"/>
+    <axis xyz="0 1 0"/></joint>
+</robot>
+)");
+  scratch_file("swung.csv", swung_log());
+  const CommandRun run =
+      shapeid("track --robot swung.urdf --whole-body --expected-mass 1 swung.csv");
+  ASSERT_EQ(run.status, 0) << run.err;
+  std::istringstream text(run.out);
+  int count = 0;
+  for (std::string part; std::getline(text, part);) {
+    const json line = json::parse(part);
+    if (line.at("time").get<double>() < settling) continue;
+    ++count;
+    const json& mass = line.at("mass");
+    const double upper = mass.at("interval")[1].get<double>();
+    EXPECT_LE(mass.at("interval")[0].get<double>(), swung_mass) << line;
+    EXPECT_GE(upper, swung_mass) << line;
+    EXPECT_GT(upper, mass.at("tracked").get<double>() + 1.0) << line;
+  }
+  EXPECT_GT(count, 200);
 }
 
 }  // namespace
